@@ -1,0 +1,253 @@
+"""Named binary features of phrases and of groundings, and the columns they have.
+
+A feature f of the paper is a pair (language feature, grounding feature). The feature groups of eqs. 4 to 9 say
+which names may fire:
+
+    F_DCG            the words of a phrase, the type of a known object, how a grounding relates to its children
+    F_U              is the noun known, is the object's type known
+    F_H              is the object hypothetical
+    F_C              the stated colour (f_word) and the object's colour (f_color)
+
+and `PAIRS` which of them meet: a noun with types, a stated colour with colours, a verb with the relation to its
+child. Without that restriction a word learned from one blue object would come to mean "blue" as well.
+
+What is known is a fact about the columns: a noun or colour without a column of its own fires the "unknown"
+feature instead. Columns are only ever appended, so old indices stay valid.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.loglinear import Bag
+from dcg_torch.symbols import (
+    Child,
+    Correspondence,
+    Example,
+    Grounding,
+    GroundingKind,
+    Object,
+    Phrase,
+    PhraseKind,
+    Symbol,
+    WorldModel,
+)
+
+
+class Group(enum.StrEnum):
+    DCG = "dcg"
+    UNKNOWN = "unknown"
+    HYPOTHETICAL = "hypothetical"
+    COLOR = "color"
+
+
+# The family of a feature is what stands before the colon of its name. A language family meets these grounding
+# families; all other pairs are no features and keep a weight of zero.
+PAIRS: dict[str, frozenset[str]] = {
+    "kind": frozenset({"kind", "known", "hypothetical", "has color", "child"}),
+    "verb": frozenset({"kind", "child"}),
+    "preposition": frozenset({"kind", "child"}),
+    "word": frozenset(),
+    "noun": frozenset({"type"}),
+    "noun known": frozenset({"known", "hypothetical"}),
+    "color": frozenset({"color"}),
+    "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
+}
+
+GROUNDING_OF = {
+    PhraseKind.VERB: GroundingKind.ACTION,
+    PhraseKind.PREPOSITION: GroundingKind.REGION,
+    PhraseKind.NOUN: GroundingKind.OBJECT,
+}
+
+Feature = tuple[Group, str]
+
+
+def child_feature(kind: GroundingKind, correspondence: Correspondence, same: bool) -> Feature:
+    """The relation of a grounding to one child grounding: of which kind, how it corresponds, same object?"""
+    return Group.DCG, f"child: {kind}, {'same' if same else 'other'}, {correspondence.name.lower()}"
+
+
+def _fixed_groundings() -> Iterator[Feature]:
+    """The grounding features that exist whatever has been learned."""
+    for kind in GroundingKind:
+        yield Group.DCG, f"kind: {kind}"
+        for correspondence in (Correspondence.ACTIVE, Correspondence.INVERTED):
+            for same in (True, False):
+                yield child_feature(kind, correspondence, same)
+    yield Group.UNKNOWN, "known: yes"
+    yield Group.UNKNOWN, "known: no"
+    yield Group.COLOR, "color: unknown"
+    yield Group.HYPOTHETICAL, "hypothetical: yes"
+
+
+def _fixed_languages() -> Iterator[Feature]:
+    """The language features that exist whatever has been learned."""
+    for kind in PhraseKind:
+        yield Group.DCG, f"kind: {kind}"
+    yield Group.UNKNOWN, "noun known: yes"
+    yield Group.UNKNOWN, "noun known: no"
+    yield Group.COLOR, "color: unknown"
+    yield Group.COLOR, "color stated: yes"
+
+
+@dataclass(frozen=True)
+class FeatureSet:
+    """The columns of the log-linear model, and how phrases and groundings fire them.
+
+    Attributes:
+        groups: the feature groups that are switched on.
+        language: name of each language column -> its index.
+        grounding: name of each grounding column -> its index.
+    """
+
+    groups: frozenset[Group]
+    language: dict[str, int] = field(default_factory=dict)
+    grounding: dict[str, int] = field(default_factory=dict)
+
+    @classmethod
+    def initial(
+        cls,
+        groups: Iterable[Group],
+        symbols: Iterable[Symbol],
+        colors: Iterable[str],
+        examples: Sequence[Example],
+    ) -> FeatureSet:
+        """The columns of a first training (Alg. 1, lines 3 and 4).
+
+        Nouns, types and colours get columns from `symbols` and `colors` only, so that the invented ones of the
+        examples that teach "unknown" stay unknown; verbs, prepositions and adjectives come from the examples.
+        """
+        start = cls(frozenset(groups))
+        start = start._with(_fixed_languages(), _fixed_groundings())
+        for symbol in symbols:
+            start = start.grow(symbol)
+        for color in colors:
+            start = start._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
+        words: list[Feature] = []
+        for example in examples:
+            words += (f for f in _word_features(example.phrase))
+        return start._with(words, [])
+
+    def grow(self, symbol: Symbol) -> FeatureSet:
+        """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
+        languages: list[Feature] = [(Group.DCG, f"noun: {symbol.word}")]
+        groundings: list[Feature] = [(Group.DCG, f"type: {symbol.type}")]
+        for word in (symbol.color_word, symbol.color):
+            if word is not None:
+                languages.append((Group.COLOR, f"color: {word}"))
+        if symbol.color is not None:
+            groundings.append((Group.COLOR, f"color: {symbol.color}"))
+        return self._with(languages, groundings)
+
+    def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
+        language, grounding = dict(self.language), dict(self.grounding)
+        for table, features in ((language, languages), (grounding, groundings)):
+            for group, name in features:
+                if group in self.groups:
+                    table.setdefault(name, len(table))
+        return FeatureSet(self.groups, language, grounding)
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(L, G)."""
+        return len(self.language), len(self.grounding)
+
+    @property
+    def pairs(self) -> NDArray[np.bool_]:
+        """(L, G): which pairs of columns are features."""
+        families = [name.partition(":")[0] for name in self.grounding]
+        rows = [[f in PAIRS[name.partition(":")[0]] for f in families] for name in self.language]
+        return np.array(rows, dtype=np.bool_).reshape(self.shape)
+
+    def knows_noun(self, noun: str) -> bool:
+        """Has this noun ever been grounded to a known type (Section III-A)?"""
+        return f"noun: {noun}" in self.language
+
+    def language_names(self, phrase: Phrase) -> list[str]:
+        """Names of the language features that fire for a phrase."""
+        names = [f"kind: {phrase.kind}", *(name for _, name in _word_features(phrase))]
+        if phrase.noun is not None:
+            names += [f"noun: {phrase.noun}", f"noun known: {'yes' if self.knows_noun(phrase.noun) else 'no'}"]
+        if phrase.color is not None:
+            stated = f"color: {phrase.color}"
+            names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
+        return [name for name in names if name in self.language]
+
+    def object_names(self, obj: Object) -> list[str]:
+        """Names of the grounding features that fire for an object by itself."""
+        names = [f"type: {obj.type}", "known: yes"] if obj.known else ["known: no"]
+        if obj.hypothetical:
+            names.append("hypothetical: yes")
+        if obj.color is not None:
+            own = f"color: {obj.color}"
+            names.append(own if own in self.grounding else "color: unknown")
+        return [name for name in names if name in self.grounding]
+
+    def encode_phrases(self, phrases: Sequence[Phrase]) -> Bag:
+        """(len(phrases), k) bag of language columns."""
+        return _pad([[self.language[name] for name in self.language_names(phrase)] for phrase in phrases])
+
+    def encode_groundings(
+        self, kind: GroundingKind, world: WorldModel, children: Sequence[Sequence[Child]]
+    ) -> NDArray[np.int64]:
+        """Grounding columns of every grounding of `kind` in `world`, under every tuple of child groundings.
+
+        Args:
+            children: c hypotheses, each a tuple of equally many child groundings; one empty tuple for a leaf.
+
+        Returns:
+            (c, len(world.objects), k) bag.
+        """
+        objects = world.objects
+        own = _pad(
+            [
+                [
+                    self.grounding[name]
+                    for name in (f"kind: {kind}", *(self.object_names(o) if kind is GroundingKind.OBJECT else ()))
+                    if name in self.grounding
+                ]
+                for o in objects
+            ]
+        )
+        slots = len(children[0])
+        bag = np.full((len(children), len(objects), own.shape[1] + slots), -1, dtype=np.int64)
+        bag[:, :, : own.shape[1]] = own
+        index = {o.id: j for j, o in enumerate(objects)}
+        for slot in range(slots):
+            column = own.shape[1] + slot
+            for c, hypothesis in enumerate(children):
+                child = hypothesis[slot]
+                other, same = (
+                    self.grounding.get(child_feature(child.grounding.kind, child.correspondence, which)[1], -1)
+                    for which in (False, True)
+                )
+                bag[c, :, column] = other
+                bag[c, index[child.grounding.object.id], column] = same
+        return bag
+
+    def grounding_names(self, grounding: Grounding, children: Sequence[Child]) -> list[str]:
+        """Names of the grounding features that fire, for explanations."""
+        world = WorldModel(tuple({o.id: o for o in (grounding.object, *(c.grounding.object for c in children))}.values()))
+        names = list(self.grounding)
+        row = self.encode_groundings(grounding.kind, world, [children])[0, 0]
+        return [names[column] for column in row if column >= 0]
+
+
+def _word_features(phrase: Phrase) -> Iterator[Feature]:
+    """The language features of a phrase's plain words; a noun's and a colour's depend on what is known."""
+    for word in phrase.words:
+        yield Group.DCG, f"{phrase.kind}: {word}"
+
+
+def _pad(rows: list[list[int]]) -> Bag:
+    """Rows of columns as one array, padded with -1."""
+    bag = np.full((len(rows), max(map(len, rows), default=0)), -1, dtype=np.int64)
+    for row, columns in zip(bag, rows, strict=True):
+        row[: len(columns)] = columns
+    return bag

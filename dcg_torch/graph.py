@@ -1,0 +1,207 @@
+"""The factor graph of a command in a world, and the search for phi*.
+
+Eqs. 2, 5 and 7: phi* maximises the product over phrases i and groundings j of Psi(phi_ij | gamma_ij,
+lambda_i, Gamma_c_ij, Upsilon). A command means one thing, so phi* is sought among the configurations in which
+each phrase corresponds (ACTIVE or INVERTED) to exactly one grounding and is INACTIVE for the others; the
+chosen grounding of a child is Gamma_c of its parent. The score of such a configuration is
+
+    sum_i [ sum_j log Psi(phi_ij = 0)  +  log Psi(phi_ij*) - log Psi(phi_ij* = 0) ]
+
+and is found leaf to root: every phrase keeps a beam of its best hypotheses for its parent. With a beam as
+wide as there are hypotheses the search is exact.
+"""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import networkx as nx
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.features import GROUNDING_OF, FeatureSet
+from dcg_torch.loglinear import LogLinearModel
+from dcg_torch.symbols import Child, Correspondence, Grounding, Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One grounding of a phrase, with the hypotheses of its children that it rests on.
+
+    `log_score` is the log-probability of the whole configuration at and below this phrase.
+    """
+
+    tree: ParseTree
+    child: Child
+    children: tuple[Hypothesis, ...]
+    log_score: float
+
+    def walk(self) -> list[Hypothesis]:
+        """This hypothesis and those below, parents first."""
+        return [self, *(h for child in self.children for h in child.walk())]
+
+
+@dataclass(frozen=True)
+class Solution:
+    """phi* and gamma* of a command, with the alternatives that were weighed.
+
+    Attributes:
+        best: the most probable configuration, None where the world offers nothing to ground to.
+        world: Upsilon, as it was.
+        probabilities: object id -> probability that the command is about it; sums to 1.
+    """
+
+    tree: ParseTree
+    world: WorldModel
+    best: Hypothesis | None
+    probabilities: Mapping[str, float]
+
+    @property
+    def object(self) -> Object | None:
+        """gamma*: the object the command is about."""
+        return None if self.best is None else self.best.child.grounding.object
+
+    @property
+    def noun(self) -> Phrase | None:
+        """The noun phrase of the object meant."""
+        walk = [] if self.best is None else self.best.walk()
+        return next((h.tree.phrase for h in walk if h.tree.phrase.kind is PhraseKind.NOUN), None)
+
+    @property
+    def inverted(self) -> bool:
+        """Does the command ask to keep away from the object?  Two inversions cancel ("do not avoid ...")."""
+        if self.best is None:
+            return False
+        signs = [h.child.correspondence for h in self.best.walk() if h.tree.phrase.kind is not PhraseKind.NOUN]
+        return math.prod(signs) < 0
+
+    @property
+    def probability(self) -> float | None:
+        """Of the grounding, None where there is none."""
+        return None if self.object is None else self.probabilities[self.object.id]
+
+
+class FactorGraph:
+    """The correspondence variables and factors of one command in one world.
+
+    Args:
+        tree: the command's parse tree; its root is grounded last.
+        world: Upsilon.
+    """
+
+    def __init__(self, tree: ParseTree, world: WorldModel) -> None:
+        self.tree = tree
+        self.world = world
+
+    @cached_property
+    def phrases(self) -> nx.DiGraph:
+        """The parse tree as a graph: node k has its subtree in "tree", edges lead from child to parent."""
+        graph = nx.DiGraph()
+
+        def add(tree: ParseTree) -> int:
+            node = int(graph.number_of_nodes())
+            graph.add_node(node, tree=tree)
+            for child in tree.children:
+                graph.add_edge(add(child), node)
+            return node
+
+        add(self.tree)
+        return graph
+
+    def unrolled(self) -> nx.Graph:
+        """The bipartite graph of Fig. 4: a variable per (phrase, object), a factor joined to its children's."""
+        graph = nx.Graph()
+        for node, data in self.phrases.nodes(data=True):
+            for obj in self.world.objects:
+                graph.add_node(("factor", node, obj.id), bipartite=1)
+                graph.add_node(("phi", node, obj.id), bipartite=0, phrase=data["tree"].phrase)
+                graph.add_edge(("factor", node, obj.id), ("phi", node, obj.id))
+                for below, other in itertools.product(self.phrases.predecessors(node), self.world.objects):
+                    graph.add_edge(("factor", node, obj.id), ("phi", below, other.id))
+        return graph
+
+    def solve(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Solution:
+        """Leaf-to-root inference (Alg. 1, line 11), one tensor evaluation per level of the tree.
+
+        Args:
+            beam: hypotheses of a phrase that its parent considers.
+        """
+        if not self.world.objects:
+            return Solution(self.tree, self.world, None, {})
+        beams: dict[int, list[Hypothesis]] = {}
+        for level in _levels(self.phrases):
+            scored = self._score_level(level, beams, features, model, beam)
+            beams.update({node: self._best(of_node, beam) for node, of_node in scored.items()})
+        root = scored[0]
+        totals = np.logaddexp.reduce(root.scores, axis=(0, 2))
+        probabilities = np.exp(totals - np.logaddexp.reduce(totals))
+        return Solution(
+            self.tree,
+            self.world,
+            beams[0][0],
+            {o.id: float(p) for o, p in zip(self.world.objects, probabilities, strict=True)},
+        )
+
+    def _score_level(
+        self,
+        level: Sequence[int],
+        beams: Mapping[int, Sequence[Hypothesis]],
+        features: FeatureSet,
+        model: LogLinearModel,
+        beam: int,
+    ) -> dict[int, _Scored]:
+        """Scores of every configuration of the phrases of one level, from one evaluation of all their factors."""
+        trees: list[ParseTree] = [self.phrases.nodes[node]["tree"] for node in level]
+        combos = [list(itertools.product(*(beams[c][:beam] for c in self.phrases.predecessors(n)))) for n in level]
+        bags = [
+            features.encode_groundings(
+                GROUNDING_OF[tree.phrase.kind], self.world, [[h.child for h in combo] for combo in of_node]
+            )
+            for tree, of_node in zip(trees, combos, strict=True)
+        ]
+        width = max(bag.shape[2] for bag in bags)
+        rows = [np.pad(b, ((0, 0), (0, 0), (0, width - b.shape[2])), constant_values=-1) for b in bags]
+        flat = np.concatenate([r.reshape(-1, width) for r in rows])
+        phrase = np.repeat(np.arange(len(level)), [r.shape[0] * r.shape[1] for r in rows])
+        language = features.encode_phrases([tree.phrase for tree in trees])
+        log_psi = model.log_psi(language, flat, phrase).numpy()
+        out: dict[int, _Scored] = {}
+        for which, node in enumerate(level):
+            table = log_psi[phrase == which].reshape(*rows[which].shape[:2], -1)
+            meant = [c for c in model.correspondences if c is not Correspondence.INACTIVE]
+            if trees[which].phrase.kind is PhraseKind.NOUN:
+                meant = [Correspondence.ACTIVE]  # the opposite of an object is no object
+            inactive = table[:, :, model.correspondences.index(Correspondence.INACTIVE)]
+            base = inactive.sum(axis=1) + [sum(h.log_score for h in combo) for combo in combos[which]]
+            scores = [base[:, None] + table[:, :, model.correspondences.index(phi)] - inactive for phi in meant]
+            out[node] = _Scored(trees[which], combos[which], meant, np.stack(scores, axis=2))
+        return out
+
+    def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
+        """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
+        kind = GROUNDING_OF[scored.tree.phrase.kind]
+        found = []
+        for flat in np.argsort(-scored.scores, axis=None, kind="stable")[:beam]:
+            c, j, p = np.unravel_index(flat, scored.scores.shape)
+            child = Child(Grounding(kind, self.world.objects[j]), scored.meant[p])
+            found.append(Hypothesis(scored.tree, child, scored.combos[c], float(scored.scores[c, j, p])))
+        return found
+
+
+@dataclass(frozen=True)
+class _Scored:
+    """log-scores (combos of child hypotheses, objects, correspondences that are not INACTIVE) of a phrase."""
+
+    tree: ParseTree
+    combos: Sequence[tuple[Hypothesis, ...]]
+    meant: Sequence[Correspondence]
+    scores: NDArray[np.float64]
+
+
+def _levels(phrases: nx.DiGraph) -> list[list[int]]:
+    """Nodes by height, leaves first: a node's children are all in earlier levels."""
+    return [list(level) for level in nx.topological_generations(phrases)]

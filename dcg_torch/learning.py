@@ -1,0 +1,77 @@
+"""Learning from an outcome: Algorithm 1, lines 16 to 24, as pure functions of examples and symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+from dataclasses import replace
+
+from dcg_torch.features import FeatureSet
+from dcg_torch.graph import Solution
+from dcg_torch.symbols import Child, Correspondence, Example, Object, Phrase, PhraseKind, Symbol, WorldModel
+
+
+def unsupervised_training(solution: Solution) -> list[Example]:
+    """T_u: the command's phrases labelled with the grounding that was acted on (line 16).
+
+    For every phrase the chosen grounding is a positive example and the others are negative ones, save those
+    that the phrase describes just as well: they are no evidence against the words.
+    """
+    if solution.best is None:
+        return []
+    return [labelled(h.tree.phrase, h.child, tuple(c.child for c in h.children), solution.world) for h in solution.best.walk()]
+
+
+def labelled(phrase: Phrase, meant: Child, children: tuple[Child, ...], world: WorldModel) -> Example:
+    """One positive example, with the negatives that it implies: all that the phrase does not describe as well."""
+    chosen = meant.grounding.object
+
+    def label(o: Object) -> Correspondence | None:
+        if o.id == chosen.id:
+            return meant.correspondence
+        if phrase.kind is PhraseKind.NOUN and described_alike(phrase, o, chosen):
+            return None
+        return Correspondence.INACTIVE
+
+    return Example(phrase, world, tuple(label(o) for o in world.objects), children)
+
+
+def described_alike(phrase: Phrase, one: Object, other: Object) -> bool:
+    """Would a noun phrase that means `other` describe `one` as well?
+
+    Both of one type, in or out of view alike, and of one colour if the phrase states any.
+    """
+    same_kind = one.type == other.type and one.known == other.known and one.hypothetical == other.hypothetical
+    return same_kind and (phrase.color is None or one.color == other.color)
+
+
+def new_symbol(solution: Solution, features: FeatureSet) -> Symbol | None:
+    """gamma': the symbol to learn, if an unknown noun met a perceived object of unknown type (lines 17 and 18)."""
+    obj, noun = solution.object, solution.noun
+    if obj is None or obj.hypothetical or obj.known or obj.type is None:
+        return None
+    if noun is None or noun.noun is None or features.knows_noun(noun.noun):
+        return None
+    return Symbol(noun.noun, obj.type, obj.color, noun.color)
+
+
+def replace_unknown(examples: Iterable[Example], known_types: Collection[str]) -> list[Example]:
+    """The examples with every object's `known` as it is under `known_types` (line 23).
+
+    An example recorded while a type was unknown changes its meaning when the type is learned: positives and
+    negatives alike. Examples that mention no such object are returned as they are.
+    """
+    return [_relabel(e, known_types) for e in examples]
+
+
+def _relabel(example: Example, known_types: Collection[str]) -> Example:
+    def renew(o: Object) -> Object:
+        known = o.type in known_types
+        return o if o.known == known else replace(o, known=known)
+
+    objects = tuple(renew(o) for o in example.world.objects)
+    if all(new is old for new, old in zip(objects, example.world.objects, strict=True)):
+        return example
+    children = tuple(
+        replace(c, grounding=replace(c.grounding, object=renew(c.grounding.object))) for c in example.children
+    )
+    return replace(example, world=replace(example.world, objects=objects), children=children)

@@ -1,0 +1,249 @@
+"""The log-linear factor Psi and its maximum-likelihood fit: torch only, no language, no robots.
+
+Mathematics (eqs. 4, 8 and 9 of the paper, for factor n and correspondence phi)
+
+    score[n, phi] = sum_{l, g} language[n, l] * weight[phi, l, g] * grounding[n, g]
+    log Psi[n, phi] = score[n, phi] - log sum_{phi'} exp score[n, phi']
+
+    objective(weight) = - sum_n count[n] * log Psi[n, phi_n]  +  l2 / 2 * |weight|^2
+
+`language` and `grounding` are binary, so a row is stored as the list of its ones. With A the distinct
+language rows and B the distinct grounding rows, all scores are A weight[phi] B', and with R the residual
+(probability minus label, weighted by count) the gradient is A' R[phi] B + l2 weight[phi].
+
+Conventions
+    P   correspondences: (INVERTED, INACTIVE, ACTIVE) of eq. 4, or (INACTIVE, ACTIVE) of eqs. 6, 8 and 9
+    L   language columns; G  grounding columns
+    pairs is an (L, G) mask: the (l, g) that are features; all other weights are zero and stay so
+    a bag is an integer array of shape (n, k): the columns that are one in each row, padded with -1
+"""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from dcg_torch.symbols import Correspondence
+
+Bag = NDArray[np.int64]
+
+TERNARY = (Correspondence.INVERTED, Correspondence.INACTIVE, Correspondence.ACTIVE)
+BINARY = (Correspondence.INACTIVE, Correspondence.ACTIVE)
+
+
+class LogLinearModel:
+    """Psi with its weights, float64.
+
+    Attributes:
+        correspondences: what the P axis of `weight` stands for.
+        weight: (P, L, G).
+        pairs: (L, G) boolean.
+    """
+
+    def __init__(self, pairs: NDArray[np.bool_], correspondences: tuple[Correspondence, ...] = TERNARY) -> None:
+        self.correspondences = correspondences
+        self.pairs = torch.from_numpy(pairs)
+        self.weight = torch.zeros(len(correspondences), *pairs.shape, dtype=torch.float64)
+
+    def grow(self, pairs: NDArray[np.bool_]) -> None:
+        """Add columns of zero weight; every old probability stays bit-identical.
+
+        Args:
+            pairs: (L', G') the mask with the new columns appended, L' >= L and G' >= G.
+
+        Raises:
+            ValueError: the new mask is smaller, or differs from the old one where both have columns.
+        """
+        old, (languages, groundings) = self.weight, self.weight.shape[1:]
+        mask = torch.from_numpy(pairs)
+        if not torch.equal(mask[:languages, :groundings], self.pairs):
+            raise ValueError(f"a mask of {pairs.shape} columns does not extend the old one of {(languages, groundings)}")
+        self.pairs = mask
+        self.weight = torch.zeros(old.shape[0], *pairs.shape, dtype=torch.float64)
+        self.weight[:, :languages, :groundings] = old
+
+    def log_psi(self, language: Bag, grounding: Bag, phrase: NDArray[np.int64]) -> torch.Tensor:
+        """log Psi of n factors.
+
+        Args:
+            language: (m, k) bag, a row per phrase.
+            grounding: (n, k') bag, a row per factor.
+            phrase: (n,) which row of `language` belongs to each factor.
+
+        Returns:
+            (n, P) log-probabilities.
+        """
+        # Bags are summed column by column, elementwise: the order of additions, and so every bit of the
+        # result, depends on what fires and not on how many columns there are.
+        padded = torch.nn.functional.pad(self.weight, (0, 1, 0, 1))
+        of_phrase = _bag_sum(padded, torch.from_numpy(language), dim=1)  # (P, m, G + 1)
+        flat = of_phrase.reshape(of_phrase.shape[0], -1)
+        columns = torch.from_numpy(np.where(grounding < 0, self.weight.shape[2], grounding))
+        offset = torch.from_numpy(phrase * (self.weight.shape[2] + 1))[:, None]
+        scores = _bag_sum(flat, columns + offset, dim=1)  # (P, n)
+        return torch.log_softmax(scores, dim=0).T
+
+
+def _bag_sum(table: torch.Tensor, bag: torch.Tensor, dim: int) -> torch.Tensor:
+    """Sum of `table`'s entries along `dim` named by each row of `bag` (-1: the last, a zero)."""
+    if bag.shape[1] == 0:
+        bag = torch.full((bag.shape[0], 1), -1, dtype=torch.int64)
+    bag = bag % table.shape[dim]
+    total = table.index_select(dim, bag[:, 0])
+    for k in range(1, bag.shape[1]):
+        total = total + table.index_select(dim, bag[:, k])
+    return total
+
+
+@dataclass(frozen=True)
+class Table:
+    """Labelled factors with identical rows merged: the sufficient statistics of a fit.
+
+    Attributes:
+        language: (A, L) the distinct language rows, dense.
+        grounding: (B, G) the distinct grounding rows, dense.
+        cell: (N,) position of each distinct factor in the A x B grid, flattened.
+        count: (N, P) summed weights of the examples with each label.
+    """
+
+    language: torch.Tensor
+    grounding: torch.Tensor
+    cell: torch.Tensor
+    count: torch.Tensor
+
+
+@dataclass(frozen=True)
+class FitResult:
+    """How a fit went: objective value, gradient max-norm, iterations, evaluations, distinct rows, seconds."""
+
+    value: float
+    gradient: float
+    steps: int
+    evaluations: int
+    rows: int
+    status: Literal["converged", "step limit", "stalled"]
+    seconds: float
+
+
+def tabulate(
+    language: Bag,
+    grounding: Bag,
+    phrase: NDArray[np.int64],
+    label: NDArray[np.int64],
+    weight: NDArray[np.float64],
+    shape: tuple[int, int, int],
+) -> Table:
+    """Merge labelled factors.
+
+    Args:
+        language: (m, k) bag of the phrases.
+        grounding: (n, k') bag of the factors.
+        phrase: (n,) the phrase of each factor.
+        label: (n,) index into the P correspondences.
+        weight: (n,) of each factor in the likelihood.
+        shape: (P, L, G).
+    """
+    correspondences, languages, groundings = shape
+    a_rows, a_of = np.unique(np.sort(language, axis=1), axis=0, return_inverse=True)
+    b_rows, b_of = np.unique(np.sort(grounding, axis=1), axis=0, return_inverse=True)
+    position = a_of.reshape(-1)[phrase] * len(b_rows) + b_of.reshape(-1)
+    cell, which = np.unique(position, return_inverse=True)
+    count = np.zeros((len(cell), correspondences))
+    np.add.at(count, (which.reshape(-1), label), weight)
+    return Table(
+        language=_dense(a_rows, languages),
+        grounding=_dense(b_rows, groundings),
+        cell=torch.from_numpy(cell),
+        count=torch.from_numpy(count),
+    )
+
+
+def _dense(bag: Bag, columns: int) -> torch.Tensor:
+    """The (n, columns) binary matrix of a bag."""
+    out = np.zeros((len(bag), columns + 1))
+    np.put_along_axis(out, bag % (columns + 1), 1.0, axis=1)
+    return torch.from_numpy(out[:, :columns].copy())
+
+
+def objective(
+    weight: torch.Tensor, table: Table, pairs: torch.Tensor, l2: float
+) -> tuple[torch.Tensor, torch.Tensor]:
+    """The penalised negative log-likelihood and its gradient with respect to `weight` (P, L, G)."""
+    left = table.language @ weight  # (P, A, G)
+    scores = (left @ table.grounding.T).flatten(1)  # (P, A * B)
+    log_psi = torch.log_softmax(scores[:, table.cell], dim=0)  # (P, N)
+    count = table.count.T
+    value = -(count * log_psi).sum() + 0.5 * l2 * weight.square().sum()
+    residual = torch.zeros_like(scores)
+    residual[:, table.cell] = log_psi.exp() * count.sum(0) - count
+    grid = residual.view(len(weight), len(table.language), len(table.grounding))
+    gradient = (table.language.T @ (grid @ table.grounding)) * pairs + l2 * weight
+    return value, gradient
+
+
+def fit(
+    model: LogLinearModel,
+    table: Table,
+    *,
+    l2: float,
+    tolerance: float = 1e-4,
+    max_steps: int = 500,
+    history: int = 20,
+) -> FitResult:
+    """Maximise the penalised likelihood by L-BFGS from the model's present weights, in place.
+
+    The objective is strictly convex for l2 > 0, so the optimum does not depend on the start.
+
+    Args:
+        model: its `weight` is the start and receives the optimum.
+        table: the labelled factors.
+        l2: strength of the penalty, > 0.
+        tolerance: stop when the gradient's max-norm falls below it.
+        max_steps: L-BFGS iterations at the most.
+        history: curvature pairs kept.
+
+    Raises:
+        ValueError: l2 is not positive.
+    """
+    if l2 <= 0:
+        raise ValueError(f"l2 must be positive, not {l2}: without it the optimum is not unique")
+    began = time.perf_counter()
+    weight = model.weight.clone().requires_grad_()
+    # A fresh optimiser a fit: torch's keeps curvature in the old shape.
+    optimizer = torch.optim.LBFGS(
+        [weight],
+        max_iter=max_steps,
+        max_eval=2 * max_steps,
+        history_size=history,
+        tolerance_grad=tolerance,
+        tolerance_change=1e-14,
+        line_search_fn="strong_wolfe",
+    )
+
+    def closure() -> float:
+        with torch.no_grad():
+            value, weight.grad = objective(weight, table, model.pairs, l2)
+        return float(value)
+
+    optimizer.step(closure)
+    state = optimizer.state[weight]
+    with torch.no_grad():
+        value, gradient = objective(weight, table, model.pairs, l2)
+    model.weight = weight.detach()
+    norm = float(gradient.abs().max()) if gradient.numel() else 0.0
+    steps = int(state["n_iter"])
+    limit = steps >= max_steps or state["func_evals"] >= 2 * max_steps
+    return FitResult(
+        value=float(value),
+        gradient=norm,
+        steps=steps,
+        evaluations=int(state["func_evals"]),
+        rows=len(table.cell),
+        status="converged" if norm <= tolerance else "step limit" if limit else "stalled",
+        seconds=time.perf_counter() - began,
+    )

@@ -1,0 +1,183 @@
+"""The model that users import: train on examples, ground a sentence in a world, learn from the outcome.
+
+It joins the rooms: features and weights, the symbols known, and the training set T.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from dcg_torch.features import GROUNDING_OF, FeatureSet, Group
+from dcg_torch.graph import FactorGraph, Solution
+from dcg_torch.learning import new_symbol, replace_unknown, unsupervised_training
+from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit, tabulate
+from dcg_torch.symbols import Correspondence, Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
+from dcg_torch.world.upsilon import world_model
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What a model variant is: its feature groups, and the objects that enter its world model.
+
+    Attributes:
+        groups: feature groups that are on.
+        unknown: perceived objects of unknown type enter Upsilon (DCG-UPUP).
+        hypothetical: hypothetical objects enter Upsilon (DCG-UPUP-Away).
+        learns: the robot adds its own examples and symbols (Alg. 1, lines 16 to 25).
+        ternary: correspondences of eq. 4 (with INVERTED) rather than of eqs. 6, 8 and 9.
+        l2: strength of the penalty on the weights.
+        beam: hypotheses of a child phrase that its parent considers.
+    """
+
+    groups: frozenset[Group] = frozenset(Group)
+    unknown: bool = True
+    hypothetical: bool = True
+    learns: bool = True
+    ternary: bool = True
+    l2: float = 0.05
+    beam: int = 8
+
+
+@dataclass(frozen=True)
+class TrainingSet:
+    """The labelled examples of Alg. 1, line 5, with the symbols and colours that they make known."""
+
+    symbols: tuple[Symbol, ...]
+    colors: tuple[str, ...]
+    examples: tuple[Example, ...]
+
+
+class GroundingModel:
+    """DCG, DCG-UPUP, DCG-UPUP-Away, with or without colour: which, is said by the `Variant`.
+
+    Attributes:
+        features: the columns, which say what is known.
+        loglinear: the weights.
+        symbols: every known word and its type, in the order of learning.
+        examples: T, the training set so far.
+        fitted: how the last training went; None for a model that was restored.
+    """
+
+    def __init__(
+        self,
+        variant: Variant,
+        symbols: Iterable[Symbol],
+        examples: Iterable[Example],
+        features: FeatureSet,
+        loglinear: LogLinearModel,
+    ) -> None:
+        self.variant = variant
+        self.symbols = {s.word: s for s in symbols}
+        self.examples = list(examples)
+        self.features = features
+        self.loglinear = loglinear
+        self.fitted: FitResult | None = None
+
+    @classmethod
+    def trained(cls, training: TrainingSet, variant: Variant | None = None) -> GroundingModel:
+        """Lines 1 to 6 of Algorithm 1: a model with its initial groundings and features, trained."""
+        variant = variant or Variant()
+        examples = _restrict(training.examples, variant)
+        features = FeatureSet.initial(variant.groups, training.symbols, training.colors, examples)
+        loglinear = LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY)
+        model = cls(variant, training.symbols, examples, features, loglinear)
+        model.train()
+        return model
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types of M.Gamma, in the order of learning."""
+        return tuple(dict.fromkeys(s.type for s in self.symbols.values()))
+
+    def world_model(
+        self, percepts: Iterable[Percept], robot: Pose | None = None, speaker: Pose | None = None
+    ) -> WorldModel:
+        """Upsilon as this variant represents it (lines 8 and 9)."""
+        return world_model(
+            percepts,
+            self.known_types,
+            unknown=self.variant.unknown,
+            hypothetical=self.variant.hypothetical,
+            robot=robot,
+            speaker=speaker,
+        )
+
+    def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+        """[phi*, gamma*] of a command in a world (line 11)."""
+        return FactorGraph(_readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
+
+    def learn(self, solution: Solution) -> Symbol | None:
+        """Add the outcome of a grounding that was acted on to the training set, and retrain (lines 16 to 25).
+
+        Returns:
+            The symbol that was learned, if any.
+        """
+        if not self.variant.learns:
+            return None
+        examples = unsupervised_training(solution)
+        symbol = new_symbol(solution, self.features) if Group.UNKNOWN in self.variant.groups else None
+        if symbol is not None:
+            self.symbols[symbol.word] = symbol
+            self.features = self.features.grow(symbol)
+            self.loglinear.grow(self.features.pairs)
+            self.examples = replace_unknown(self.examples, self.known_types)
+            examples = replace_unknown(examples, self.known_types)
+        self.examples += examples
+        self.train()
+        return symbol
+
+    def train(self) -> FitResult:
+        """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
+        self.fitted = fit(self.loglinear, encode(self.examples, self.features, self.loglinear), l2=self.variant.l2)
+        return self.fitted
+
+
+def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> Table:
+    """The labelled factors of `examples` under the given columns."""
+    bags, phrases, labels, weights = [], [], [], []
+    for k, example in enumerate(examples):
+        kind = GROUNDING_OF[example.phrase.kind]
+        labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
+        bags.append(features.encode_groundings(kind, example.world, [example.children])[0][labelled])
+        phrases += [k] * len(labelled)
+        labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
+        weights += [example.weight] * len(labelled)
+    width = max((b.shape[1] for b in bags), default=0)
+    return tabulate(
+        features.encode_phrases([e.phrase for e in examples]),
+        np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in bags]),
+        np.array(phrases, dtype=np.int64),
+        np.array(labels, dtype=np.int64),
+        np.array(weights),
+        (len(model.correspondences), *features.shape),
+    )
+
+
+def _restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
+    """The examples as a variant sees them: without the objects that it does not represent.
+
+    An example about such an object is left out, and with binary correspondences so is one of INVERTED.
+    """
+    kept = []
+    for e in examples:
+        seen = [(o.known or variant.unknown) and (variant.hypothetical or not o.hypothetical) for o in e.world.objects]
+        objects = tuple(o for o, keep in zip(e.world.objects, seen, strict=True) if keep)
+        labels = tuple(c for c, keep in zip(e.correspondences, seen, strict=True) if keep)
+        signs = {*labels, *(c.correspondence for c in e.children)}
+        if signs <= {None, Correspondence.INACTIVE} or (not variant.ternary and Correspondence.INVERTED in signs):
+            continue
+        if all(c.grounding.object in objects for c in e.children):
+            kept.append(replace(e, world=replace(e.world, objects=objects), correspondences=labels))
+    return kept
+
+
+def _readable(tree: ParseTree) -> ParseTree:
+    """The path from the root to the object meant: the phrases that this model's features read.
+
+    A tree's first child leads to the object meant. What modifies a noun phrase, and where a thing is to be put,
+    is beyond the paper's features.
+    """
+    return replace(tree, children=() if tree.phrase.kind is PhraseKind.NOUN else tuple(map(_readable, tree.children[:1])))

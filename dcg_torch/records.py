@@ -1,0 +1,88 @@
+"""What one command leaves behind: the line of `iterations.jsonl`, and the wall-clock times beside it.
+
+The names of `Iteration`'s fields are relied on by tools outside this project; fields are added, never renamed.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict
+
+Kind = Literal["known", "unknown", "learned"]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+
+class PoseRecord(_Record):
+    x: float
+    y: float
+    yaw: float
+
+
+class ObjectRecord(_Record):
+    """One object of the world; `position` is (x, y) in metres."""
+
+    id: str
+    type: str
+    color: str
+    position: tuple[float, float]
+
+
+class ParsedRecord(_Record):
+    """The noun and colour of the object meant, as the parser read them."""
+
+    noun: str | None
+    color: str | None
+
+
+class Iteration(_Record):
+    """One command of a trial, free of wall-clock times, so that the same seed gives the same bytes."""
+
+    trial: int
+    iteration: int
+    world: str
+    command: str
+    noun: str  # as said, in the singular
+    color: str | None  # as said
+    robot: PoseRecord  # at the start
+    objects: tuple[ObjectRecord, ...]
+    in_view: tuple[str, ...]  # ids seen from the start pose
+    known_types: tuple[str, ...]  # before the trial began
+    target: str
+    grounded: str | None  # the object the robot went to
+    correct: bool
+    kind: Kind  # what the target's word was to the robot when it heard it
+    probability: float | None  # of the grounding; None without one
+    asked: int
+    symbols: dict[str, str]  # the words learned so far: word -> type
+    path_length: float  # metres
+    turned: float  # radians
+    parsed: ParsedRecord | None  # None: no object phrase found
+    seen: tuple[str, ...]  # ids perceived by the end
+    chosen: str | None  # the object grounded to, whether or not the robot reached it
+    arrived: bool | None  # None: there was nowhere to drive
+    collisions: int  # contacts with anything but the floor
+    expected_symbols: float  # known types if every new type met so far had been learned (the paper's red curve)
+
+
+class Timing(_Record):
+    """Wall-clock seconds of one command, and the size of what was trained."""
+
+    trial: int
+    iteration: int
+    load_world: float
+    parse: float
+    perceive: float
+    ground: float
+    groundings: int  # how often the command was grounded (once a look)
+    explore: float
+    drive: float
+    train: float
+    train_steps: int
+    train_loss: float
+    train_rows: int
+    language_columns: int
+    grounding_columns: int

@@ -1,0 +1,147 @@
+"""One physics server, owned by one object: connect, empty, step, close."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import ctypes.util
+import os
+import sys
+import time
+from collections.abc import Iterator
+from types import TracebackType
+
+import pybullet
+
+from dcg_torch.symbols import Pose
+
+STEP = 1.0 / 120.0
+"""Seconds of simulated time in one physics step."""
+
+_FLOOR_HALF = 25.0  # metres
+_FLOOR_COLOR = (0.80, 0.79, 0.76)
+
+
+class SimulatorError(RuntimeError):
+    """The simulator can't do what was asked; the message is one line."""
+
+
+class Client:
+    """A physics server of its own, so that several may live in one process without knowing each other.
+
+    Args:
+        gui: open PyBullet's window (needs a screen); otherwise nothing is shown.
+        pace: with a window, how many times faster than real time it may run.
+
+    Raises:
+        SimulatorError: `gui` was asked for and there is no display.
+    """
+
+    def __init__(self, *, gui: bool = False, pace: float = 3.0) -> None:
+        if gui:
+            _require_display()
+        self.gui = gui
+        self._pace = pace
+        self.id: int = pybullet.connect(pybullet.GUI if gui else pybullet.DIRECT)
+        if self.id < 0:
+            raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
+        if gui:
+            pybullet.configureDebugVisualizer(pybullet.COV_ENABLE_GUI, 0, physicsClientId=self.id)
+        self.floor = -1
+        self.empty()
+
+    def __enter__(self) -> Client:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Disconnect; a second call does nothing."""
+        if self.id >= 0 and pybullet.isConnected(physicsClientId=self.id):
+            pybullet.disconnect(physicsClientId=self.id)
+        self.id = -1
+
+    def empty(self) -> None:
+        """Throw everything away and lay a new floor at z = 0.
+
+        The whole simulation is made anew, not just its bodies removed: contact caches and body numbers would
+        outlive their bodies, and a world's poses would depend on the worlds visited before it.
+        """
+        pybullet.resetSimulation(physicsClientId=self.id)
+        pybullet.setPhysicsEngineParameter(
+            fixedTimeStep=STEP,
+            numSubSteps=1,
+            numSolverIterations=20,
+            deterministicOverlappingPairs=1,
+            physicsClientId=self.id,
+        )
+        pybullet.setGravity(0.0, 0.0, -9.81, physicsClientId=self.id)
+        thickness = 0.01
+        self.floor = pybullet.createMultiBody(
+            baseMass=0.0,
+            baseCollisionShapeIndex=pybullet.createCollisionShape(pybullet.GEOM_PLANE, physicsClientId=self.id),
+            baseVisualShapeIndex=pybullet.createVisualShape(
+                pybullet.GEOM_BOX,
+                halfExtents=[_FLOOR_HALF, _FLOOR_HALF, thickness],
+                visualFramePosition=[0.0, 0.0, -thickness],
+                rgbaColor=[*_FLOOR_COLOR, 1.0],
+                physicsClientId=self.id,
+            ),
+            physicsClientId=self.id,
+        )
+        pybullet.changeDynamics(self.floor, -1, lateralFriction=1.0, physicsClientId=self.id)
+
+    @contextlib.contextmanager
+    def hidden_floor(self) -> Iterator[None]:
+        """Draw no floor, which takes half of a small picture's time; the physics doesn't notice."""
+        if self.gui:  # it would flicker
+            yield
+            return
+        self._paint_floor(0.0)
+        try:
+            yield
+        finally:
+            self._paint_floor(1.0)
+
+    def _paint_floor(self, alpha: float) -> None:
+        pybullet.changeVisualShape(self.floor, -1, rgbaColor=[*_FLOOR_COLOR, alpha], physicsClientId=self.id)
+
+    def step(self, count: int = 1) -> None:
+        """Advance the physics by `count` steps of `STEP` seconds."""
+        for _ in range(count):
+            pybullet.stepSimulation(physicsClientId=self.id)
+        if self.gui:
+            time.sleep(count * STEP / self._pace)
+
+    def pose(self, body: int) -> Pose:
+        """Where `body` stands on the floor, and its heading in (-pi, pi]."""
+        position, orientation = pybullet.getBasePositionAndOrientation(body, physicsClientId=self.id)
+        return Pose(position[0], position[1], pybullet.getEulerFromQuaternion(orientation)[2])
+
+    def touching(self, body: int) -> set[int]:
+        """The bodies in contact with `body`, the floor left out."""
+        contacts = pybullet.getContactPoints(bodyA=body, physicsClientId=self.id)
+        return {contact[2] for contact in contacts} - {self.floor, body}
+
+
+def _require_display() -> None:
+    """PyBullet ends the whole process where it can't open its window, so look before it tries."""
+    if not sys.platform.startswith("linux"):
+        return
+    advice = "run with simulator.gui=false, or on a machine with a screen (or under xvfb-run)"
+    if not os.environ.get("DISPLAY"):
+        raise SimulatorError(f"simulator.gui=true needs a screen, and DISPLAY is not set: {advice}")
+    library = ctypes.util.find_library("X11")
+    if library is None:
+        raise SimulatorError(f"simulator.gui=true needs the X11 library, which is not installed: {advice}")
+    x11 = ctypes.CDLL(library)
+    x11.XOpenDisplay.restype = ctypes.c_void_p
+    x11.XOpenDisplay.argtypes = [ctypes.c_char_p]
+    x11.XCloseDisplay.argtypes = [ctypes.c_void_p]
+    display = x11.XOpenDisplay(None)
+    if not display:
+        raise SimulatorError(f"simulator.gui=true can't open the display {os.environ['DISPLAY']!r}: {advice}")
+    x11.XCloseDisplay(display)

@@ -1,0 +1,79 @@
+"""A trained model on disk: its weights as safetensors, its symbols, columns and examples as JSON. No pickle."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from pydantic import TypeAdapter, ValidationError
+from pydantic.dataclasses import dataclass
+from safetensors import SafetensorError
+from safetensors.torch import load_file, save_file
+
+from dcg_torch.features import FeatureSet
+from dcg_torch.loglinear import LogLinearModel
+from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.symbols import Correspondence, Example, Symbol
+
+WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
+
+
+class StoreError(ValueError):
+    """A saved model that is missing or not valid; the message is one line."""
+
+
+@dataclass(frozen=True)
+class _Description:
+    variant: Variant
+    correspondences: tuple[Correspondence, ...]
+    language: tuple[str, ...]
+    grounding: tuple[str, ...]
+    symbols: tuple[Symbol, ...]
+    examples: tuple[Example, ...]
+
+
+_ADAPTER = TypeAdapter(_Description)
+
+
+def save(model: GroundingModel, directory: Path) -> None:
+    """Write a model into `directory`, which is made if need be; each file appears whole or not at all."""
+    directory.mkdir(parents=True, exist_ok=True)
+    description = _Description(
+        model.variant,
+        model.loglinear.correspondences,
+        tuple(model.features.language),
+        tuple(model.features.grounding),
+        tuple(model.symbols.values()),
+        tuple(model.examples),
+    )
+    weights, text = directory / WEIGHTS, directory / DESCRIPTION
+    save_file({"weight": model.loglinear.weight.contiguous()}, f"{weights}.part")
+    Path(f"{text}.part").write_bytes(_ADAPTER.dump_json(description))
+    os.replace(f"{weights}.part", weights)
+    os.replace(f"{text}.part", text)
+
+
+def load(directory: Path) -> GroundingModel:
+    """The model that `save` wrote: the same probabilities to the last bit, and ready to learn on.
+
+    Raises:
+        StoreError: a file is missing, broken, or does not fit the other.
+    """
+    try:
+        described = _ADAPTER.validate_json((directory / DESCRIPTION).read_bytes())
+        weight = load_file(directory / WEIGHTS)["weight"]
+    except FileNotFoundError as error:
+        raise StoreError(f"{error.filename or directory}: no saved model here; save one with dcg_torch.save") from None
+    except (ValidationError, SafetensorError, KeyError) as error:
+        raise StoreError(f"{directory}: not a saved model: {' '.join(str(error).split())[:200]}") from None
+    features = FeatureSet(
+        described.variant.groups,
+        {name: k for k, name in enumerate(described.language)},
+        {name: k for k, name in enumerate(described.grounding)},
+    )
+    expected = (len(described.correspondences), *features.shape)
+    if tuple(weight.shape) != expected:
+        raise StoreError(f"{directory}: weights of shape {tuple(weight.shape)} for columns of {expected}")
+    loglinear = LogLinearModel(features.pairs, described.correspondences)
+    loglinear.weight = weight
+    return GroundingModel(described.variant, described.symbols, described.examples, features, loglinear)

@@ -1,0 +1,156 @@
+"""The values that the rooms hand to one another: frozen, hashable, free of behaviour.
+
+Units are metres and radians. The world frame has z up; a robot at yaw 0 looks along +x and has +y on its
+left. Notation of the paper: lambda_i is a `Phrase`, gamma_ij a `Grounding`, phi_ij a `Correspondence`,
+Upsilon a `WorldModel` and Upsilon_KP, UP, KH, UH are told apart by `Object.known` x `Object.hypothetical`.
+"""
+
+from __future__ import annotations
+
+import enum
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+
+class Correspondence(enum.IntEnum):
+    """phi_ij: does the phrase mean this grounding, its opposite, or neither (Section II)?"""
+
+    INVERTED = -1
+    INACTIVE = 0
+    ACTIVE = 1
+
+
+class PhraseKind(enum.StrEnum):
+    VERB = "verb"
+    PREPOSITION = "preposition"
+    NOUN = "noun"
+
+
+class GroundingKind(enum.StrEnum):
+    """What a phrase may ground to; every grounding is about one object."""
+
+    ACTION = "action"  # a verb's constraint on the motion: end near the object, or far from it
+    REGION = "region"  # a preposition's: the surroundings of the object
+    OBJECT = "object"  # a noun phrase's: the object itself
+
+
+@dataclass(frozen=True, slots=True)
+class Phrase:
+    """lambda_i, one node of the parse tree.
+
+    `words` are the lower-case lemmas that describe a verb or preposition ("go", "not"; "away from" is one
+    word of a preposition). A noun phrase has its head in `noun` (singular, "fire hydrant" is one noun, None
+    for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
+    `words` ("big", "second", "leftmost").
+    """
+
+    kind: PhraseKind
+    text: str
+    words: tuple[str, ...] = ()
+    noun: str | None = None
+    color: str | None = None
+    plural: bool = False
+    count: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ParseTree:
+    """A phrase and the phrases below it; the children are grounded first (Section II, Fig. 2)."""
+
+    phrase: Phrase
+    children: tuple[ParseTree, ...] = ()
+
+    def walk(self) -> Iterator[ParseTree]:
+        """Every node, parents before children."""
+        yield self
+        for child in self.children:
+            yield from child.walk()
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    x: float
+    y: float
+    yaw: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Percept:
+    """One recognised object: what the camera and the recogniser say of it.
+
+    `position` is the foot of the object, `size` its extents, both (x, y, z) in metres in the world frame.
+    `attributes` are further binary facts ("held").
+    """
+
+    id: str
+    type: str
+    color: str | None
+    position: tuple[float, float, float]
+    size: tuple[float, float, float] | None = None
+    attributes: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class Object:
+    """An element of Upsilon. A hypothetical object has no position, and no type if it is unknown too."""
+
+    id: str
+    type: str | None
+    known: bool
+    hypothetical: bool = False
+    color: str | None = None
+    position: tuple[float, float, float] | None = None
+    size: tuple[float, float, float] | None = None
+    attributes: frozenset[str] = frozenset()
+
+
+@dataclass(frozen=True, slots=True)
+class WorldModel:
+    """Upsilon, with the poses that "in front of" or "closest to me" are relative to."""
+
+    objects: tuple[Object, ...]
+    robot: Pose | None = None
+    speaker: Pose | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Grounding:
+    """gamma_ij: an object, the region around it, or the constraint to move with respect to it."""
+
+    kind: GroundingKind
+    object: Object
+
+
+@dataclass(frozen=True, slots=True)
+class Child:
+    """One element of Gamma_c_ij: a child phrase's grounding and how it corresponds."""
+
+    grounding: Grounding
+    correspondence: Correspondence = Correspondence.ACTIVE
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """gamma': the word, the type it names, the colour of the object it was learned from, the colour stated."""
+
+    word: str
+    type: str
+    color: str | None = None
+    color_word: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Example:
+    """The labelled factors of one phrase in one world: phi_ij for every grounding gamma_ij of lambda_i.
+
+    `correspondences[j]` labels the grounding about `world.objects[j]`; None leaves it unlabelled. `children`
+    are the child groundings, about objects of the same world. Symbols are stored, never features:
+    `features.FeatureSet` encodes an example anew under whatever is known by then. `weight` scales its
+    log-likelihood.
+    """
+
+    phrase: Phrase
+    world: WorldModel
+    correspondences: tuple[Correspondence | None, ...]
+    children: tuple[Child, ...] = ()
+    weight: float = 1.0

@@ -1,0 +1,139 @@
+"""What Algorithm 1 asks of a robot, and a robot without physics that can run it in milliseconds."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from dcg_torch.symbols import Percept, Pose
+from dcg_torch.world.files import World
+
+FIELD_OF_VIEW = math.radians(57.0)  # Kinect, the paper's camera
+REACH = 0.5
+"""Metres from an object's middle within which the robot has arrived."""
+
+
+class Robot(Protocol):
+    """A robot in a world; `simulator.SimulatedRobot` is one."""
+
+    def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
+        """Stand at the start pose of a world, all counters at zero."""
+        ...
+
+    @property
+    def pose(self) -> Pose: ...
+
+    @property
+    def path_length(self) -> float:
+        """Metres driven since `load`."""
+        ...
+
+    @property
+    def turned(self) -> float:
+        """Radians turned since `load`, both directions counted positive."""
+        ...
+
+    @property
+    def collisions(self) -> int:
+        """How often it came to touch an object since `load`."""
+        ...
+
+    def perceive(self) -> list[Percept]:
+        """What is in view, in the order of the bearing from the middle of the view outwards (line 8)."""
+        ...
+
+    def spin(self, angle: float) -> None:
+        """Turn in place by `angle` radians, left positive (line 13)."""
+        ...
+
+    def drive_to(self, target: str, percepts: list[Percept], *, avoid: frozenset[str] = frozenset()) -> bool:
+        """Drive to an object round all others; True when it ended within 0.5 m of it (line 15)."""
+        ...
+
+    def drive_away(self, target: str, percepts: list[Percept]) -> bool:
+        """Leave the surroundings of an object; True when it ended outside them."""
+        ...
+
+
+@dataclass
+class _State:
+    world: World
+    pose: Pose
+    path_length: float = 0.0
+    turned: float = 0.0
+
+
+class FakeRobot:
+    """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once."""
+
+    def __init__(self) -> None:
+        self._now: _State | None = None
+        self.collisions = 0
+
+    def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
+        """Stand at the start pose of `world`."""
+        self._now = _State(world, world.start)
+
+    @property
+    def _state(self) -> _State:
+        if self._now is None:
+            raise RuntimeError("the robot is in no world yet; load one first")
+        return self._now
+
+    @property
+    def pose(self) -> Pose:
+        """Where it is."""
+        return self._state.pose
+
+    @property
+    def path_length(self) -> float:
+        """Metres since `load`."""
+        return self._state.path_length
+
+    @property
+    def turned(self) -> float:
+        """Radians since `load`."""
+        return self._state.turned
+
+    def perceive(self) -> list[Percept]:
+        """Every object within half the field of view of the heading."""
+        seen = []
+        for o in self._state.world.objects:
+            bearing = abs(self._bearing(o.position))
+            if bearing < FIELD_OF_VIEW / 2:
+                seen.append((bearing, o.id, Percept(o.id, o.type, o.color, (*o.position, 0.0))))
+        return [percept for _, _, percept in sorted(seen, key=lambda item: item[:2])]
+
+    def spin(self, angle: float) -> None:
+        """Turn."""
+        state = self._state
+        yaw = math.remainder(state.pose.yaw + angle, math.tau)
+        state.pose, state.turned = Pose(state.pose.x, state.pose.y, yaw), state.turned + abs(angle)
+
+    def drive_to(self, target: str, percepts: list[Percept], *, avoid: frozenset[str] = frozenset()) -> bool:
+        """Face the target and go straight until it is within reach."""
+        x, y = next(p.position[:2] for p in percepts if p.id == target)
+        self._go((x, y), math.dist((x, y), (self.pose.x, self.pose.y)) - REACH)
+        return True
+
+    def drive_away(self, target: str, percepts: list[Percept]) -> bool:
+        """Face the other way and go straight for two metres."""
+        x, y = next(p.position[:2] for p in percepts if p.id == target)
+        self._go((2 * self.pose.x - x, 2 * self.pose.y - y), 2.0)
+        return True
+
+    def _bearing(self, point: tuple[float, float]) -> float:
+        pose = self.pose
+        return math.remainder(math.atan2(point[1] - pose.y, point[0] - pose.x) - pose.yaw, math.tau)
+
+    def _go(self, towards: tuple[float, float], distance: float) -> None:
+        self.spin(self._bearing(towards))
+        state, distance = self._state, max(0.0, distance)
+        pose = state.pose
+        state.path_length += distance
+        state.pose = Pose(
+            pose.x + distance * math.cos(pose.yaw), pose.y + distance * math.sin(pose.yaw), pose.yaw
+        )

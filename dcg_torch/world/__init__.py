@@ -1,0 +1,1 @@
+"""Worlds: their files, the random generator, and Upsilon (what the robot believes is there)."""

@@ -1,0 +1,393 @@
+"""The robot in physics: what it sees is what a camera would, what it does is what its wheels do."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from dcg_torch.simulator import Camera, Client, Recogniser, SimulatedRobot, SimulatorError
+from dcg_torch.simulator.bodies import extent, footprint
+from dcg_torch.simulator.camera import bearing
+from dcg_torch.symbols import Percept, Pose
+from dcg_torch.trial.robot import Robot
+from dcg_torch.world.files import RobotStart, World, WorldObject
+from dcg_torch.world.generator import TYPES, generate_world
+
+HALF_VIEW = math.radians(57.0) / 2
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[SimulatedRobot]:
+    """One robot for all tests that load their own world: a world must not depend on those before."""
+    with SimulatedRobot() as robot:
+        yield robot
+
+
+def world(*objects: tuple[str, str, float, float], start: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> World:
+    """Objects as (id, type, x, y)."""
+    return World(
+        name="test",
+        robot=RobotStart(x=start[0], y=start[1], yaw=start[2]),
+        objects=tuple(WorldObject(id=id_, type=type_, color="red", position=(x, y)) for id_, type_, x, y in objects),
+    )
+
+
+def everything(of: World) -> list[Percept]:
+    """What a robot that has seen all of the world knows."""
+    return [Percept(o.id, o.type, o.color, (*o.position, 0.0), extent(o.type)) for o in of.objects]
+
+
+def seen(robot: SimulatedRobot, of: World) -> list[str]:
+    robot.load(of)
+    return [percept.id for percept in robot.perceive()]
+
+
+def distance(robot: SimulatedRobot, of: World, id_: str) -> float:
+    (position,) = [o.position for o in of.objects if o.id == id_]
+    return math.dist((robot.pose.x, robot.pose.y), position)
+
+
+# perceiving
+
+
+def test_it_is_the_robot_that_algorithm_1_asks_for(shared: SimulatedRobot) -> None:
+    robot: Robot = shared  # the type checker's half of the test
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    assert robot.perceive() == [Percept("a", "cube", "red", (2.0, 0.0, 0.0), extent("cube"))]
+
+
+@pytest.mark.parametrize("yaw", [0.0, 0.7, -2.5])
+def test_behind_the_robot_nothing_is_perceived(shared: SimulatedRobot, yaw: float) -> None:
+    ahead, behind = (
+        ("ahead", "cube", 2.0 * math.cos(yaw), 2.0 * math.sin(yaw)),
+        ("behind", "cube", -2.0 * math.cos(yaw), -2.0 * math.sin(yaw)),
+    )
+    assert seen(shared, world(ahead, behind, start=(0.0, 0.0, yaw))) == ["ahead"]
+
+
+def test_behind_a_bigger_object_nothing_is_perceived(shared: SimulatedRobot) -> None:
+    small, big = ("small", "drill", 4.0, 0.0), ("big", "sphere", 1.0, 0.0)
+    assert seen(shared, world(small, big)) == ["big"]
+    assert seen(shared, world(small)) == ["small"]
+
+
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("metres", [1.5, 4.0])
+def test_the_view_ends_at_half_of_57_degrees(shared: SimulatedRobot, side: float, metres: float) -> None:
+    # an object of radius r is cut by the edge of the view between these two bearings
+    half_width = math.asin(footprint("sphere") / metres)
+    for off, expected in ((-half_width, ["s"]), (half_width + math.radians(1.0), [])):
+        angle = side * (HALF_VIEW + off)
+        where = ("s", "sphere", metres * math.cos(angle), metres * math.sin(angle))
+        assert seen(shared, world(where)) == expected
+
+
+def test_a_small_object_is_seen_eight_metres_away(shared: SimulatedRobot) -> None:
+    assert max(extent("cube")) == pytest.approx(0.3, abs=0.02)
+    assert seen(shared, world(("c", "cube", 8.0, 0.0))) == ["c"]
+    shared.recogniser = Recogniser(min_pixels=2000)
+    try:
+        assert seen(shared, world(("c", "cube", 8.0, 0.0))) == []
+    finally:
+        shared.recogniser = Recogniser()
+
+
+def test_every_type_is_seen_near_and_far(shared: SimulatedRobot) -> None:
+    for type_ in TYPES:
+        for metres in (0.5, 1.2, 6.0):
+            assert seen(shared, world(("o", type_, metres, 0.0))) == ["o"], (type_, metres)
+
+
+def test_percepts_come_from_the_middle_of_the_view_outwards(shared: SimulatedRobot) -> None:
+    there = world(("left", "cube", 3.0, 1.2), ("middle", "cube", 5.0, 0.1), ("right", "cube", 3.0, -0.8))
+    assert seen(shared, there) == ["middle", "right", "left"]
+
+
+def test_the_robot_is_not_in_its_own_picture(shared: SimulatedRobot) -> None:
+    shared.load(world(("far", "cube", -3.0, 0.0)))
+    for camera in (shared.camera, Camera(width=320, rows=180)):
+        assert camera.pixels(shared.client, shared.pose) == {}
+
+
+def test_pictures_show_the_object_on_its_side(shared: SimulatedRobot) -> None:
+    shared.load(world(("left", "cube", 2.0, 0.5)))
+    picture = shared.picture(width=200, height=100).astype(int)
+    red = picture[:, :, 0] - picture[:, :, 1] > 60
+    assert picture.shape == (100, 200, 3)
+    assert red[:, :100].any()
+    assert not red[:, 100:].any()
+    above = shared.picture_from((0.0, 0.0, 8.0), (0.0, 0.0, 0.0), up=(1.0, 0.0, 0.0), width=60, height=60).astype(int)
+    rows, columns = np.nonzero(above[:, :, 0] - above[:, :, 1] > 60)
+    assert rows.mean() < 30  # ahead is up
+    assert columns.mean() < 30  # left is left
+
+
+def test_bearing_is_left_positive() -> None:
+    percept = Percept("a", "cube", None, (0.0, 1.0, 0.0))
+    assert bearing(Pose(0.0, 0.0, 0.0), percept) == pytest.approx(math.pi / 2)
+    assert bearing(Pose(0.0, 2.0, math.pi), percept) == pytest.approx(math.pi / 2)
+
+
+# mistakes of the recogniser
+
+
+def test_mistakes_last_as_long_as_the_world() -> None:
+    there = world(*((f"o{k}", "cube", 3.0 + k % 3, (k - 4) * 0.4) for k in range(9)))
+    noisy = Recogniser(wrong_class=0.5, missed=0.2, types=("cube", "sphere", "drill"))
+    with SimulatedRobot(recogniser=noisy, rng=np.random.default_rng(4)) as robot:
+        robot.load(there)
+        first = robot.perceive()
+        robot.spin(0.2)
+        robot.spin(-0.2)
+        again = {percept.id: percept.type for percept in robot.perceive()}
+        for percept in first:
+            assert again.get(percept.id, percept.type) == percept.type
+        assert {percept.type for percept in first} > {"cube"}
+        assert len(first) < 9
+        visits = {tuple(again.items())}
+        for _ in range(5):
+            robot.load(there)
+            visits.add(tuple((percept.id, percept.type) for percept in robot.perceive()))
+        assert len(visits) > 1
+
+
+def test_mistakes_are_as_frequent_as_asked_and_even_over_the_other_types() -> None:
+    types = ("cube", "sphere", "drill", "mailbox")
+    labels = Recogniser(wrong_class=0.3, missed=0.1, types=types).labels(["cube"] * 4000, np.random.default_rng(0))
+    share = {label: labels.count(label) / 4000 for label in (None, *types)}
+    # within four standard errors (0.03 at most)
+    assert share[None] == pytest.approx(0.1, abs=0.03)
+    assert share["cube"] == pytest.approx(0.9 * 0.7, abs=0.03)
+    for other in types[1:]:
+        assert share[other] == pytest.approx(0.9 * 0.3 / 3, abs=0.03)
+
+
+def test_the_perfect_recogniser_makes_no_mistakes() -> None:
+    assert Recogniser().labels(["cube", "drill"], np.random.default_rng(0)) == ["cube", "drill"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"wrong_class": 1.5, "types": ("a", "b")}, "wrong_class is 1.5"),
+        ({"missed": -0.1}, "missed is -0.1"),
+        ({"wrong_class": 0.1}, "no wrong type"),
+        ({"min_pixels": 0}, "min_pixels is 0"),
+    ],
+)
+def test_impossible_recognisers_are_refused(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(ValueError, match=message):
+        Recogniser(**arguments)  # type: ignore[arg-type]
+
+
+def test_mistakes_need_a_generator() -> None:
+    with pytest.raises(ValueError, match="rng"):
+        SimulatedRobot(recogniser=Recogniser(missed=0.1))
+
+
+# turning
+
+
+@pytest.mark.parametrize("angle", [0.3, -1.0, math.pi, -math.tau, 0.01, 7.5])
+def test_spin_turns_by_the_angle_and_stays_in_place(shared: SimulatedRobot, angle: float) -> None:
+    shared.load(world(("a", "cube", 2.0, 0.0), start=(0.5, -0.3, 2.9)))
+    shared.spin(angle)
+    assert abs(math.remainder(shared.pose.yaw - 2.9 - angle, math.tau)) < 0.02
+    assert math.dist((shared.pose.x, shared.pose.y), (0.5, -0.3)) < 0.02
+    assert shared.turned == pytest.approx(abs(angle), abs=0.03)
+    assert shared.path_length < 0.05
+    # and it stands: nothing moves in the next simulated second
+    before = shared.client.pose(shared._base.body)
+    shared.client.step(120)
+    after = shared.client.pose(shared._base.body)
+    assert math.dist((before.x, before.y), (after.x, after.y)) < 1e-3
+    assert abs(before.yaw - after.yaw) < 1e-3
+
+
+def test_many_spins_do_not_drift(shared: SimulatedRobot) -> None:
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    for _ in range(16):
+        shared.spin(math.tau / 8)
+    assert math.hypot(shared.pose.x, shared.pose.y) < 0.1
+
+
+@pytest.mark.parametrize("angle", [math.nan, math.inf])
+def test_no_turn_by_what_is_no_angle(shared: SimulatedRobot, angle: float) -> None:
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    with pytest.raises(ValueError, match="can't turn"):
+        shared.spin(angle)
+
+
+# driving
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_in_random_worlds_it_arrives_and_leaves_touching_nothing(shared: SimulatedRobot, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    there = generate_world(rng, "w", probability=0.35)
+    target = str(rng.choice([o.id for o in there.objects]))
+    shared.load(there)
+    # it knows its goal and what it sees, and has to notice the rest on the way
+    known = [percept for percept in everything(there) if percept.id == target]
+    straight = distance(shared, there, target)
+    assert shared.drive_to(target, [*shared.perceive(), *known])
+    assert distance(shared, there, target) <= 0.5
+    assert shared.path_length >= straight - 0.5 - 0.01
+    assert shared.drive_away(target, known)
+    assert distance(shared, there, target) >= 1.5
+    assert shared.collisions == 0
+
+
+def test_an_obstacle_on_the_straight_way_is_gone_round(shared: SimulatedRobot) -> None:
+    there = world(("goal", "cube", 4.0, 0.0), ("wall", "sphere", 2.0, 0.0))
+    shared.load(there)
+    assert shared.drive_to("goal", everything(there))
+    assert shared.collisions == 0
+    assert 3.5 < shared.path_length < 4.0
+
+
+def test_an_obstacle_that_was_hidden_is_noticed_on_the_way(shared: SimulatedRobot) -> None:
+    # the cone hides behind the sphere; round the sphere it stands in the planned way
+    there = world(("goal", "cube", 4.6, 0.0), ("near", "sphere", 1.2, 0.0), ("hidden", "drill", 3.2, 0.1))
+    assert "hidden" not in seen(shared, there)
+    known = [percept for percept in everything(there) if percept.id != "hidden"]
+    assert shared.drive_to("goal", known)
+    assert shared.collisions == 0
+
+
+def test_touching_is_counted(shared: SimulatedRobot) -> None:
+    shared.load(world(("a", "cube", 0.6, 0.0)))
+    for _ in range(60):
+        shared._base.tick(0.4, 0.0)
+    assert shared.collisions == 1
+    assert shared.pose.x < 0.6 - 0.15 - 0.1
+
+
+def test_no_way_is_said_at_once(shared: SimulatedRobot) -> None:
+    fence = [(f"f{k}", "sphere", 1.0 * math.cos(k * 0.6283), 1.0 * math.sin(k * 0.6283)) for k in range(10)]
+    there = world(("goal", "cube", 4.0, 0.0), *fence)
+    shared.load(there)
+    assert not shared.drive_to("goal", everything(there))
+    assert shared.path_length == 0.0
+    assert shared.collisions == 0
+
+
+def test_what_is_to_be_avoided_gets_a_wide_berth(shared: SimulatedRobot) -> None:
+    there = world(("goal", "cube", 4.0, 0.0), ("other", "cylinder", 2.0, 0.55))
+    nearest = {}
+    for avoid in (frozenset[str](), frozenset({"other"})):
+        poses: list[Pose] = []
+        shared.load(there)
+        shared.on_tick = poses.append
+        try:
+            assert shared.drive_to("goal", everything(there), avoid=avoid)
+        finally:
+            shared.on_tick = None
+        nearest[avoid] = min(math.dist((pose.x, pose.y), (2.0, 0.55)) for pose in poses)
+    assert nearest[frozenset()] < 0.7
+    assert nearest[frozenset({"other"})] >= 1.0
+
+
+@pytest.mark.parametrize("start", [(1.2, 0.0), (3.0, 1.0)])
+def test_leaving_ends_farther_away(shared: SimulatedRobot, start: tuple[float, float]) -> None:
+    there = world(("a", "cube", 0.0, 0.0), start=(*start, math.pi))
+    shared.load(there)
+    assert shared.drive_away("a", everything(there))
+    assert distance(shared, there, "a") > max(1.5, math.hypot(*start))
+
+
+def test_it_drives_on_to_the_next_object_from_beside_the_last(shared: SimulatedRobot) -> None:
+    there = world(("a", "cube", 1.5, 0.0), ("b", "cube", -1.5, 0.2), ("c", "cube", 3.0, 0.0))
+    shared.load(there)
+    for target in ("a", "c", "b"):
+        assert shared.drive_to(target, everything(there))
+    assert shared.collisions == 0
+
+
+def test_there_is_no_driving_to_what_was_not_perceived(shared: SimulatedRobot) -> None:
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    with pytest.raises(ValueError, match="no percept of 'b'"):
+        shared.drive_to("b", shared.perceive())
+
+
+def test_the_observer_is_called_ten_times_a_second(shared: SimulatedRobot) -> None:
+    poses: list[Pose] = []
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    shared.on_tick = poses.append
+    try:
+        shared.spin(math.pi)
+    finally:
+        shared.on_tick = None
+    assert len(poses) == pytest.approx(10 * shared.seconds, abs=1)
+
+
+# worlds and clients
+
+
+def journey(robot: SimulatedRobot, there: World) -> Iterator[tuple[object, ...]]:
+    """A visit in three stages, each giving all that can be seen of it."""
+    robot.load(there)
+    yield robot.pose, tuple(robot.perceive())
+    robot.spin(2.0)
+    yield robot.pose, tuple(robot.perceive())
+    robot.drive_to(there.objects[-1].id, everything(there))
+    yield robot.pose, robot.path_length, robot.turned, robot.seconds, tuple(robot.perceive())
+
+
+def test_a_visit_does_not_depend_on_earlier_visits_or_other_clients_or_pictures() -> None:
+    first, second = (generate_world(np.random.default_rng(seed), "w", probability=0.3) for seed in (1, 2))
+    with SimulatedRobot() as robot:
+        alone = list(journey(robot, first))
+    with SimulatedRobot() as one, SimulatedRobot() as two:
+        interleaved = [stage for stage, _ in zip(journey(one, first), journey(two, second), strict=True)]
+        between = list(journey(two, first))  # after another world, beside another client
+        with_pictures = []
+        for stage in journey(one, first):
+            one.picture(width=32, height=18)
+            one.picture_from((3.0, 3.0, 3.0), (0.0, 0.0, 0.0), width=32, height=18)
+            with_pictures.append(stage)
+    # exactly: floats compared bit by bit through equality
+    assert interleaved == alone
+    assert between == alone
+    assert with_pictures == alone
+
+
+def test_loading_sets_the_counters_to_zero(shared: SimulatedRobot) -> None:
+    shared.load(world(("a", "cube", 2.0, 0.0)))
+    shared.spin(1.0)
+    shared.load(world(("a", "cube", 2.0, 0.0), start=(0.25, -0.5, 1.0)))
+    assert (shared.turned, shared.path_length, shared.collisions, shared.seconds) == (0.0, 0.0, 0, 0.0)
+    pose = shared.pose
+    assert (pose.x, pose.y, pose.yaw) == pytest.approx((0.25, -0.5, 1.0), abs=1e-9)
+
+
+def test_an_object_on_the_robot_is_refused(shared: SimulatedRobot) -> None:
+    with pytest.raises(SimulatorError, match="a stands where the robot starts"):
+        shared.load(world(("a", "cube", 0.2, 0.0)))
+
+
+def test_nothing_works_before_a_world_is_loaded() -> None:
+    with SimulatedRobot() as robot, pytest.raises(SimulatorError, match="load one first"):
+        robot.spin(1.0)
+
+
+def test_an_unknown_type_is_refused_by_name(shared: SimulatedRobot) -> None:
+    with pytest.raises(ValueError, match="unicorn"):
+        shared.load(world(("a", "unicorn", 2.0, 0.0)))
+
+
+def test_a_window_without_a_screen_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.platform", "linux")
+    monkeypatch.delenv("DISPLAY", raising=False)
+    with pytest.raises(SimulatorError, match=r"DISPLAY is not set: run with simulator\.gui=false") as error:
+        Client(gui=True)
+    assert "\n" not in str(error.value)
+
+
+def test_a_client_can_be_closed_twice() -> None:
+    with Client() as client:
+        client.close()
+    client.close()
