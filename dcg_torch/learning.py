@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 from dcg_torch.features import FeatureSet
@@ -14,21 +14,33 @@ def unsupervised_training(solution: Solution) -> list[Example]:
     """T_u: the command's phrases labelled with the grounding that was acted on (line 16).
 
     For every phrase the chosen grounding is a positive example and the others are negative ones, save those
-    that the phrase describes just as well: they are no evidence against the words.
+    that the phrase describes just as well: they are no evidence against the words. Nor is the unseen one of the
+    type that was found: the preference for what is in view has been taught, and would grow with every command.
     """
     if solution.best is None:
         return []
-    return [labelled(h.tree.phrase, h.child, tuple(c.child for c in h.children), solution.world) for h in solution.best.walk()]
+    return [
+        labelled(h.tree.phrase, h.child, tuple(c.child for c in h.children), solution.world, unseen_alike=True)
+        for h in solution.best.walk()
+    ]
 
 
-def labelled(phrase: Phrase, meant: Child, children: tuple[Child, ...], world: WorldModel) -> Example:
-    """One positive example, with the negatives that it implies: all that the phrase does not describe as well."""
+def labelled(
+    phrase: Phrase, meant: Child, children: tuple[Child, ...], world: WorldModel, *, unseen_alike: bool = False
+) -> Example:
+    """One positive example, with the negatives that it implies: all that the phrase does not describe as well.
+
+    Args:
+        unseen_alike: leave the hypothetical object of the meant one's type unlabelled too.
+    """
     chosen = meant.grounding.object
 
     def label(o: Object) -> Correspondence | None:
         if o.id == chosen.id:
             return meant.correspondence
-        if phrase.kind is PhraseKind.NOUN and described_alike(phrase, o, chosen):
+        if phrase.kind is PhraseKind.NOUN and (
+            described_alike(phrase, o, chosen) or (unseen_alike and o.hypothetical and o.type == chosen.type)
+        ):
             return None
         return Correspondence.INACTIVE
 
@@ -75,3 +87,27 @@ def _relabel(example: Example, known_types: Collection[str]) -> Example:
         replace(c, grounding=replace(c.grounding, object=renew(c.grounding.object))) for c in example.children
     )
     return replace(example, world=replace(example.world, objects=objects), children=children)
+
+
+def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
+    """A noun phrase's example over all of M.Gamma: with a factor for every known type that was not meant.
+
+    Upsilon is the product of the symbolic objects and their attributes (Section II), so training sees, beside the
+    object that was meant, one of every other known type with the same attributes, INACTIVE. Without these, what is
+    known of a word learned in one lesson could not outweigh a matching colour.
+    """
+    meant = [o for o, c in zip(example.world.objects, example.correspondences, strict=True) if c is not None and c != 0]
+    if example.phrase.kind is not PhraseKind.NOUN or len(meant) != 1:
+        return example
+    named = symbols.get(example.phrase.noun or "")
+    spared = {meant[0].type, None if named is None else named.type}
+    others = [
+        replace(meant[0], id=f"{meant[0].id} as {t}", type=t, known=True)
+        for t in dict.fromkeys(s.type for s in symbols.values())
+        if t not in spared
+    ]
+    return replace(
+        example,
+        world=replace(example.world, objects=(*example.world.objects, *others)),
+        correspondences=(*example.correspondences, *(Correspondence.INACTIVE for _ in others)),
+    )

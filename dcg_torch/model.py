@@ -12,7 +12,7 @@ import numpy as np
 
 from dcg_torch.features import GROUNDING_OF, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
-from dcg_torch.learning import new_symbol, replace_unknown, unsupervised_training
+from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit, tabulate
 from dcg_torch.symbols import Correspondence, Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
 from dcg_torch.world.upsilon import world_model
@@ -131,7 +131,8 @@ class GroundingModel:
 
     def train(self) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
-        self.fitted = fit(self.loglinear, encode(self.examples, self.features, self.loglinear), l2=self.variant.l2)
+        examples = [contrast(e, self.symbols) for e in self.examples]
+        self.fitted = fit(self.loglinear, encode(examples, self.features, self.loglinear), l2=self.variant.l2)
         return self.fitted
 
 

@@ -1,7 +1,8 @@
 """Sentences written for these tests by the project, with what they mean: noun, colour, relations of the object meant.
 
-`DEVELOPMENT` was looked at while the language room was written; `HELD_OUT` was written before its first run and is
-there to estimate how well the room generalises. A relation is (preposition, noun of the landmark).
+`DEVELOPMENT` was looked at while the language room was written (its second half was held out at first: 63 of 70 right
+in noun and colour on the first run, before the mistakes were mended). `HELD_OUT` was written before its first run (60
+of 64) and nothing was changed for it since. A relation is (preposition, noun of the landmark).
 """
 
 from typing import NamedTuple
@@ -21,7 +22,8 @@ DEVELOPMENT = (
     S("approach the box on your left", "box", None, (("on", "left"),)),
     S("stay away from the red cube", "cube", "red"),
     S("please find the traffic cone behind you", "traffic cone", None, (("behind", "you"),)),
-    S("Could you please drive over to the orange cone next to the mailbox?", "cone", "orange", (("next to", "mailbox"),)),
+    S("Could you please drive over to the orange cone next to the mailbox?", "cone", "orange",
+      (("next to", "mailbox"),)),
     S("would you mind going to the fire hydrant", "fire hydrant"),
     S("I want you to go to the red fire hydrant", "fire hydrant", "red"),
     S("go to drill", "drill"),
@@ -65,7 +67,8 @@ DEVELOPMENT = (
     S("your target is the yellow sphere", "sphere", "yellow"),
     S("The cone is behind the blue cube", "cone", None, (("behind", "cube"),)),
     S("go to the red block on the blue block near the corner", "block", "red", (("on", "block"),)),
-    S("pick up the cube behind the cone and next to the drill", "cube", None, (("behind", "cone"), ("next to", "drill"))),
+    S("pick up the cube behind the cone and next to the drill", "cube", None,
+      (("behind", "cone"), ("next to", "drill"))),
     S("push the dark grey cube next to the sphere to the wall", "cube", "dark gray", (("next to", "sphere"),)),
     S("go to the red", None, "red"),
     S("drive to the sky blue mailbox, please", "mailbox", "sky blue"),
@@ -80,9 +83,10 @@ DEVELOPMENT = (
     S("go to the position of the cone", "cone"),
     S("move in the direction of the purple sphere", "sphere", "purple"),
     S("drive to the wooden box in the middle", "box", None, (("in", "middle"),)),
-)  # fmt: skip
 
-HELD_OUT = (
+    S("go to the cone to my right", "cone", None, (("on", "right"),)),
+    S("go to the robot's cube", "cube"),
+    # Held out at first.
     S("Make your way to the blue fire hydrant", "fire hydrant", "blue"),
     S("can you head to the mail box in the back", "mail box", None, (("in", "back"),)),
     S("Go straight ahead to the traffic cone", "traffic cone"),
@@ -153,4 +157,72 @@ HELD_OUT = (
     S("advance to the red brick wall", "brick wall", "red"),
     S("go to the far cone, not the near one", "cone"),
     S("explore behind you to find the green traffic cone", "traffic cone", "green"),
+)  # fmt: skip
+
+HELD_OUT = (
+    S("Please drive yourself over to the purple mailbox", "mailbox", "purple"),
+    S("you need to go to the red ball now", "ball", "red"),
+    S("head towards the cylinder on the right of the blue cube", "cylinder", None, (("right of", "cube"),)),
+    S("go to hydrant left of red cube", "hydrant", None, (("left of", "cube"),)),
+    S("approach green door handle", "door handle", "green"),
+    S("Walk to the nearest orange cone", "cone", "orange"),
+    S("robot please go to blue mailbox", "mailbox", "blue"),
+    S("Drive toward yellow sphere slowly", "sphere", "yellow"),
+    S("Find and approach the red drill", "drill", "red"),
+    S("the fire hydrant that is red", "fire hydrant", "red"),
+    S("Move forward until you get to the green cube", "cube", "green"),
+    S("Turn 90 degrees to the right and go to the cylinder", "cylinder"),
+    S("there's a cone behind the mailbox, approach it", "cone", None, (("behind", "mailbox"),)),
+    S("go see the blue ball", "ball", "blue"),
+    S("Would you please navigate to the green fire plug?", "fire plug", "green"),
+    S("Go to the construction cone near the yellow hydrant.", "construction cone", None, (("near", "hydrant"),)),
+    S("your destination is the green box", "box", "green"),
+    S("move over to where the blue drill is", "drill", "blue"),
+    S("scoot over to the red cylinder", "cylinder", "red"),
+    S("go hang out by the mailbox", "mailbox"),
+    S("It's the red cube that you should approach", "cube", "red"),
+    S("try to reach the green handle", "handle", "green"),
+    S("Locate the yellow letterbox and move to it", "letterbox", "yellow"),
+    S("never go near the blue cone", "cone", "blue"),
+    S("Do not approach the sphere on the left", "sphere", None, (("on", "left"),)),
+    S("steer clear of the green cylinder", "cylinder", "green"),
+    S("avoid the red door knob", "door knob", "red"),
+    S("go to the cube in front of you", "cube", None, (("in front of", "you"),)),
+    S("approach the ball that's farthest from the robot", "ball", None, (("farthest from", "robot"),)),
+    S("drive to the cylinder in the far corner of the room", "cylinder", None, (("in", "corner"),)),
+    S("go to the tallest of the three cylinders", "cylinder"),
+    S("visit both red cubes", "cube", "red"),
+    S("go to any sphere", "sphere"),
+    S("move next to the group of blue cones", "cone", "blue"),
+    S("Go to the middle cube in the row", "cube", None, (("in", "row"),)),
+    S("the leftmost blue one", None, "blue"),
+    S("go to the cone beside the box that is under the window", "cone", None, (("next to", "box"),)),
+    S("drive to the drill lying between the sphere and the cube", "drill", None,
+      (("between", "sphere"), ("between", "cube"))),
+    S("Pick the green ball up and place it in the blue box", "ball", "green"),
+    S("put the mug in the cupboard", "mug"),
+    S("could you fetch the screwdriver next to the lamp", "screwdriver", None, (("next to", "lamp"),)),
+    S("Take the book from the shelf and bring it to me", "book", None, (("from", "shelf"),)),
+    S("place the bright pink block behind the gray pyramid", "block", "bright pink"),
+    S("slide the left cube to the edge of the table", "cube"),
+    S("Move the red cube that is on the blue cube to the right of the green cube", "cube", "red", (("on", "cube"),)),
+    S("Move the yellow block one step to the left", "block", "yellow"),
+    S("grab the second box from the right", "box"),
+    S("push the button on the wall", "button", None, (("on", "wall"),)),
+    S("lift the thing on top of the dark red cube", "thing", None, (("on top of", "cube"),)),
+    S("drop the green pyramid you are holding onto the red block", "pyramid", "green"),
+    S("hand me the silver wrench", "wrench", "silver"),
+    S("Open the door to the left of the window", "door", None, (("left of", "window"),)),
+    S("go 3 m ahead and then to the white cube", "cube", "white"),
+    S("After passing the cone, go to the red mailbox", "mailbox", "red"),
+    S("If you see a blue sphere, go to it", "sphere", "blue"),
+    S("follow the wall to the green drill", "drill", "green"),
+    S("I think you should go to the maroon cylinder", "cylinder", "maroon"),
+    S("go to the traffic cone, please, the yellow one", "traffic cone", "yellow"),
+    S("ok now drive to the grey handle", "handle", "gray"),
+    S("just get to the blue hydrant", "hydrant", "blue"),
+    S("directly behind you is a red cone, go there", "cone", "red"),
+    S("pls go 2 the red cube", "cube", "red"),
+    S("go too the green ball", "ball", "green"),
+    S("Drive to teh yellow mailbox", "mailbox", "yellow"),
 )  # fmt: skip

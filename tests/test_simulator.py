@@ -249,13 +249,18 @@ def test_an_obstacle_on_the_straight_way_is_gone_round(shared: SimulatedRobot) -
     assert 3.5 < shared.path_length < 4.0
 
 
-def test_an_obstacle_that_was_hidden_is_noticed_on_the_way(shared: SimulatedRobot) -> None:
-    # the cone hides behind the sphere; round the sphere it stands in the planned way
-    there = world(("goal", "cube", 4.6, 0.0), ("near", "sphere", 1.2, 0.0), ("hidden", "drill", 3.2, 0.1))
+@pytest.mark.parametrize("looking", [True, False])
+def test_an_obstacle_that_was_hidden_is_noticed_on_the_way(
+    shared: SimulatedRobot, monkeypatch: pytest.MonkeyPatch, looking: bool
+) -> None:
+    # the cylinder hides behind the sphere, and stands in the way that is planned round it
+    there = world(("goal", "cube", 4.6, 0.0), ("near", "sphere", 1.2, 0.0), ("hidden", "cylinder", 3.2, 0.0))
     assert "hidden" not in seen(shared, there)
+    if not looking:
+        monkeypatch.setattr(shared, "_look", list)
     known = [percept for percept in everything(there) if percept.id != "hidden"]
-    assert shared.drive_to("goal", known)
-    assert shared.collisions == 0
+    assert shared.drive_to("goal", known) == looking
+    assert (shared.collisions == 0) == looking
 
 
 def test_touching_is_counted(shared: SimulatedRobot) -> None:
@@ -304,6 +309,15 @@ def test_it_drives_on_to_the_next_object_from_beside_the_last(shared: SimulatedR
     shared.load(there)
     for target in ("a", "c", "b"):
         assert shared.drive_to(target, everything(there))
+    assert shared.collisions == 0
+
+
+def test_it_goes_to_a_free_place_and_not_into_an_object(shared: SimulatedRobot) -> None:
+    there = world(("a", "sphere", 1.5, 0.0))
+    shared.load(there)
+    assert shared.go_to(3.0, 0.0, everything(there))
+    assert math.dist((shared.pose.x, shared.pose.y), (3.0, 0.0)) <= 0.1
+    assert not shared.go_to(1.5, 0.1, everything(there))
     assert shared.collisions == 0
 
 

@@ -45,8 +45,9 @@ def test_the_worlds_are_what_their_head_says(committed: list[World]) -> None:
 def test_the_worlds_are_a_fair_sample(committed: list[World]) -> None:
     occurring = Counter(o.type for world in committed for o in world.objects)
     assert set(occurring) == set(TYPES)
-    assert min(occurring.values()) >= 2
+    assert 3 <= min(occurring.values()) <= max(occurring.values()) <= 7
     assert 34 <= occurring.total() <= 42
+    assert share_out_of_view(committed) == pytest.approx(0.87, abs=0.01)
     assert share_out_of_view(committed, radius=OBJECT_RADIUS) == pytest.approx(0.87, abs=0.01)
     for world in committed:
         places = np.array([o.position for o in world.objects])

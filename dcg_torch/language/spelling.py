@@ -6,7 +6,10 @@ exists is never changed: "brick" is no misspelt "block".
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Sequence
+
+SHORTEST, LONGEST = 4, 20  # letters of a word that may be mended: three could be anything, twenty are a cat on the keys
 
 
 def edits(a: str, b: str, limit: int) -> int:
@@ -24,33 +27,48 @@ def edits(a: str, b: str, limit: int) -> int:
             row.append(cost)
         if min(row) > limit:
             return limit + 1
-    return row[-1]
+    return min(row[-1], limit + 1)
 
 
-def correct(word: str, candidates: Iterable[Collection[str]], english: Collection[str]) -> str:
-    """The candidate that `word` misspells, or `word` itself.
+class Speller:
+    """Mends words towards groups of known words, the likelier group first; words in `english` stay.
 
-    `candidates` are groups of known words, the more likely group first. One edit is allowed, two where both words
-    have seven letters or more; words of three letters and words in `english` stay. Among equally near candidates
-    the earlier group wins, then the one with the same first letter; a tie leaves the word alone.
+    >>> Speller([{"pyramid", "cube"}], english={"cub"}).correct("pyramind")
+    'pyramid'
     """
-    if len(word) <= 3 or not word.isalpha() or word in english or word.removesuffix("s") in english:
-        return word
-    groups: Sequence[Collection[str]] = list(candidates)
-    if any(word in group for group in groups):
-        return word
-    best: list[tuple[tuple[int, int, bool], str]] = []
-    for rank, group in enumerate(groups):
-        for candidate in group:
-            if len(candidate) <= 3 and not (len(word) == 4 and rank < 2):
-                continue
-            limit = 2 if len(word) >= 7 and len(candidate) >= 7 else 1
-            distance = edits(word, candidate, limit)
-            if distance <= limit:
-                best.append(((distance, rank, candidate[0] != word[0]), candidate))
-    if not best:
-        return word
-    best.sort()
-    if len(best) > 1 and best[0][0] == best[1][0] and best[0][1] != best[1][1]:
-        return word
-    return best[0][1]
+
+    def __init__(self, groups: Sequence[Collection[str]], english: Collection[str]) -> None:
+        self._english = english
+        self._known = frozenset().union(*groups)
+        self._by_length: dict[int, list[tuple[str, int, frozenset[str]]]] = defaultdict(list)
+        for rank, group in enumerate(groups):
+            for word in sorted(group):
+                # The words of commands are many: the short ones are too near one another to choose from.
+                if len(word) >= SHORTEST + (rank > 0):
+                    self._by_length[len(word)].append((word, rank, frozenset(word)))
+
+    def correct(self, word: str) -> str:
+        """The known word that `word` misspells, or `word` itself.
+
+        One edit is allowed, two where both words have seven letters or more. Among equally near words the earlier
+        group wins, then the one with the same first letter; a tie leaves the word alone.
+        """
+        if not SHORTEST <= len(word) <= LONGEST or not word.isalpha() or word in self._known:
+            return word
+        if word in self._english or word.removesuffix("s") in self._english:
+            return word
+        letters = frozenset(word)
+        best: list[tuple[int, int, bool, str]] = []
+        for length in range(len(word) - 2, len(word) + 3):
+            limit = 2 if min(length, len(word)) >= 7 else 1
+            for candidate, rank, others in self._by_length.get(length, ()):
+                # An edit adds at most one letter and takes at most one away: cheaper to see than the table of edits.
+                if len(letters - others) > limit or len(others - letters) > limit:
+                    continue
+                distance = edits(word, candidate, limit)
+                if distance <= limit:
+                    best.append((distance, rank, candidate[0] != word[0], candidate))
+        best.sort()
+        if not best or (len(best) > 1 and best[0][:3] == best[1][:3]):
+            return word
+        return best[0][3]

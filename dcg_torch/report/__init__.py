@@ -6,7 +6,7 @@ It reads `records.Iteration` and `records.Timing` and knows nothing of robots or
     causes      why a command went wrong
     measures    rows -> Measures
     seconds     timings -> where the time goes
-    figures     Measures -> PNG files
+    figures     Measures -> PNG files (canvas: what they have in common)
     board       rows and timings -> TensorBoard event file
     summary     summary.json, written whole or not at all, and read back
     tables      Measures beside the paper's figures; comparisons; sweeps

@@ -193,7 +193,7 @@ def measure(rows: Sequence[Iteration], types: Collection[str] | None = None) -> 
         by_iteration=tuple(_iteration(i, at[i], len(every)) for i in sorted(at)),
         by_kind=_kinds(rows),
         initial_symbols=_mean(len(trial[0].known_types) for trial in trials),
-        correct_symbols=mean_over_trials([step.right for step in last]),
+        correct_symbols=_clip(mean_over_trials([step.right for step in last]), len(every)),
         expected_symbols=_mean(step.row.expected_symbols for step in last),
         all_symbols=wilson(finished, len(last)),
         wrong_symbols=_mean(step.wrong for step in last),
@@ -288,7 +288,7 @@ def _iteration(index: int, steps: Sequence[_Step], every: int) -> IterationMeasu
         accuracy=wilson(correct, len(rows)),
         kinds=kinds,
         shares={kind: m.correct / correct for kind, m in kinds.items()} if correct else {},
-        correct_symbols=mean_over_trials([step.right for step in steps]),
+        correct_symbols=_clip(mean_over_trials([step.right for step in steps]), every),
         expected_symbols=_mean(r.expected_symbols for r in rows),
         wrong_symbols=_mean(step.wrong for step in steps),
         all_symbols=_mean(float(step.right == every) for step in steps),
@@ -307,7 +307,14 @@ def _accuracy(trials: Sequence[Sequence[Iteration]], correct: int, n: int) -> Es
     estimate = mean_over_trials([_mean(float(r.correct) for r in trial) for trial in trials])
     if estimate.low is None or estimate.high is None or estimate.low == estimate.high:
         return replace(wilson(correct, n), value=estimate.value)
-    return Estimate(estimate.value, max(0.0, estimate.low), min(1.0, estimate.high))
+    return _clip(estimate, 1)
+
+
+def _clip(estimate: Estimate, most: float) -> Estimate:
+    """Student's interval knows no bounds; ours lie in [0, most]."""
+    if estimate.low is None or estimate.high is None:
+        return estimate
+    return Estimate(estimate.value, max(0.0, estimate.low), min(float(most), estimate.high))
 
 
 def _kinds(rows: Sequence[Iteration]) -> dict[str, KindMeasures]:

@@ -110,9 +110,9 @@ def print_errors(measures: Measures, console: Console) -> None:
 def print_comparison(runs: Mapping[str, Measures], console: Console) -> None:
     """Runs beside one another; where two heard the same commands, the difference to the one above, trial by trial."""
     table = Table(title="Runs compared", box=box.SIMPLE_HEAD)
-    table.add_column("run", overflow="fold")
-    for heading in ("accuracy", "more than above", "first", "last", "symbols", "all right", "wrong", "asked", "calib."):
-        table.add_column(heading, justify="right")
+    table.add_column("run", overflow="fold", min_width=12)
+    for heading in ("accuracy", "gain", "first", "last", "symbols", "all right", "wrong", "asked", "calib."):
+        table.add_column(heading, justify="right", min_width=len(heading) if " " not in heading else None)
     above: Measures | None = None
     for name, m in runs.items():
         difference = paired_difference(above, m) if above is not None else None
@@ -120,7 +120,7 @@ def print_comparison(runs: Mapping[str, Measures], console: Console) -> None:
         table.add_row(
             name,
             _percent(m.accuracy),
-            _points(difference) if difference else "-",
+            _points(difference, "") if difference else "-",
             _share(m.by_iteration[0].accuracy.value, 0),
             _share(m.by_iteration[-1].accuracy.value, 0),
             f"{m.correct_symbols.value:.2f}",
@@ -132,7 +132,7 @@ def print_comparison(runs: Mapping[str, Measures], console: Console) -> None:
         above = m
     console.print(table)
     console.print(
-        "more than above: points of accuracy, paired by trial, where both heard the same commands. first, last: "
+        "gain: points of accuracy over the run above, by trial, where both heard the same commands. first, last: "
         "accuracy at the first and last iteration. symbols, all right, wrong: at the end of a trial. asked: questions "
         "a command. calib.: expected calibration error."
     )
@@ -176,7 +176,8 @@ def _size(measures: Measures) -> str:
 
 
 def _interval_note(measures: Measures) -> str:
-    unit = "over trials (Student)" if measures.trials > 1 else "over commands (Wilson), there being one trial"
+    alike = len(set(measures.trial_accuracy)) == 1
+    unit = "over commands (Wilson), the trials being one or all alike" if alike else "over trials (Student)"
     return f"Accuracy over all commands: interval {unit}; shares of trials: Wilson."
 
 
@@ -187,8 +188,8 @@ def _percent(estimate: Estimate, digits: int = 1) -> str:
     return f"{text} \\[{100 * estimate.low:.{digits}f}, {100 * estimate.high:.{digits}f}]"
 
 
-def _points(estimate: Estimate) -> str:
-    text = f"{100 * estimate.value:+.1f} points"
+def _points(estimate: Estimate, unit: str = " points") -> str:
+    text = f"{100 * estimate.value:+.1f}{unit}"
     if estimate.low is None or estimate.high is None:
         return text
     return f"{text} \\[{100 * estimate.low:+.1f}, {100 * estimate.high:+.1f}]"

@@ -200,10 +200,8 @@ class SimulatedRobot:
         avoid = avoid - {target}
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            others = {id_: circle for id_, circle in obstacles.items() if id_ != target}
-            return navigation.approach(
-                (self.pose.x, self.pose.y), obstacles[target], list(others.values()), reach=_REACH
-            )
+            others = [circle for id_, circle in obstacles.items() if id_ != target]
+            return navigation.approach((self.pose.x, self.pose.y), obstacles[target], others, reach=_REACH)
 
         self._follow(plan, percepts, avoid)
         return self._distance(goal) <= ARRIVED
@@ -223,6 +221,17 @@ class SimulatedRobot:
 
         self._follow(plan, percepts, frozenset())
         return self._distance(goal) >= max(LEFT, before)
+
+    def go_to(self, x: float, y: float, percepts: list[Percept]) -> bool:
+        """Drive to a place, round all objects, to see what can be seen from there; True when within 0.1 m of it."""
+
+        def plan(obstacles: dict[str, Circle]) -> Points | None:
+            return navigation.shortest_path(
+                (self.pose.x, self.pose.y), np.array([[x, y]], dtype=np.float64), list(obstacles.values())
+            )
+
+        self._follow(plan, percepts, frozenset())
+        return math.dist((self.pose.x, self.pose.y), (x, y)) <= 0.1
 
     @property
     def _base(self) -> Base:
@@ -282,7 +291,9 @@ class SimulatedRobot:
     ) -> None:
         """Plan and drive, looking on the way, planning anew when something is in the way; ends standing still."""
         base = self._base
-        known = self._noticed | {percept.id: percept for percept in percepts}
+        self._noticed |= {percept.id: percept for percept in percepts}
+        known = dict(self._noticed)
+        news = not known.keys() >= self.bodies.keys()  # else looking can change nothing, and only takes time
         track = self._plan(plan, known, avoid)
         looked_at, looked_towards = -math.inf, math.inf
         deadline = math.inf
@@ -296,13 +307,16 @@ class SimulatedRobot:
             ahead = track.point(progress + _LOOKAHEAD)
             course = math.atan2(ahead[1] - base.pose.y, ahead[0] - base.pose.x)
             error = math.remainder(course - base.heading, math.tau)
-            if abs(error) < _FACING and (
-                base.seconds - looked_at >= _LOOK_SECONDS or abs(base.heading - looked_towards) > _LOOK_ANGLE
+            if (
+                news
+                and abs(error) < _FACING
+                and (base.seconds - looked_at >= _LOOK_SECONDS or abs(base.heading - looked_towards) > _LOOK_ANGLE)
             ):
                 looked_at, looked_towards = base.seconds, base.heading
                 self._look()
                 new = {id_: percept for id_, percept in self._noticed.items() if id_ not in known}
                 known |= new
+                news = not known.keys() >= self.bodies.keys()
                 in_the_way = list(self._obstacles(new.values(), avoid, _BERTHS[0], _MARGINS[0]).values())
                 if not navigation.is_clear(track.rest(progress), in_the_way):
                     track = self._plan(plan, known, avoid)

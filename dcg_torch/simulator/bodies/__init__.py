@@ -1,5 +1,8 @@
 """Bodies for the physics: `add_object` puts a coloured object of a registered type into a client.
 
+    from dcg_torch.simulator.bodies import Model, Part, register
+    from dcg_torch.simulator.bodies.meshes import box
+
     @register("crate")
     def crate() -> Model:
         return Model((Part(box(0.3, 0.3, 0.35)),))

@@ -7,11 +7,13 @@ from typing import Final
 
 RGB = tuple[float, float, float]
 
-# The paper's colours, toned so that shading stays visible on them.
+# The paper's colours and the two extremes, toned so that shading stays visible on them.
 _OWN: Final[dict[str, RGB]] = {
     "red": (0.86, 0.10, 0.10),
     "green": (0.10, 0.62, 0.18),
     "blue": (0.12, 0.28, 0.86),
+    "black": (0.13, 0.13, 0.14),
+    "white": (0.95, 0.95, 0.95),
 }
 
 

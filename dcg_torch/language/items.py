@@ -1,0 +1,40 @@
+"""The phrases of a command before they have a place in the tree."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass, field
+
+
+class Kind(enum.Enum):
+    """What an item of a command is."""
+
+    VERB = "verb"
+    PREPOSITION = "preposition"
+    NOUN = "noun"
+    RELATIVE = "relative"  # which, that, who
+    NEGATION = "negation"
+    AND = "and"
+    COMMA = "comma"
+    STOP = "stop"
+    ADVERB = "adverb"
+
+
+@dataclass(slots=True, eq=False)
+class Item:
+    """A phrase before it has a place in the tree. `start` and `stop` are word indices, `head` the head word's."""
+
+    kind: Kind
+    start: int
+    stop: int
+    head: int
+    text: str
+    words: tuple[str, ...] = ()
+    noun: str | None = None
+    color: str | None = None
+    plural: bool = False
+    count: int | None = None
+    pronoun: bool = False  # it, one, that: stands for something else
+    participle: bool = False  # a verb's -ed or -ing form
+    determined: bool = False  # has an article
+    children: list[Item] = field(default_factory=list)
