@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -48,7 +49,7 @@ def run_trial(
             parse,
             robot,
             spin_step=spin_step,
-            watch=None if watch is None else lambda look, c=command: watch(c, look),
+            watch=None if watch is None else functools.partial(watch, command),
             stopwatch=clock,
         )
         with clock("train"):
