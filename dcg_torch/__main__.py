@@ -13,6 +13,7 @@ from pathlib import Path
 import hydra
 from hydra._internal.utils import get_args_parser
 from hydra.core.hydra_config import HydraConfig
+from hydra.types import RunMode
 from omegaconf import DictConfig
 from rich.console import Console
 from rich.markup import escape
@@ -43,7 +44,14 @@ def _application(config: DictConfig) -> None:
         _report(settings, directory, console)
     except CONFIG_ERRORS as error:
         sys.exit(refuse(explain(error), directory))
-    except user_errors() as error:
+    except KeyboardInterrupt:
+        sweep = HydraConfig.get().mode == RunMode.MULTIRUN
+        where = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
+        print(f"dcg_torch: interrupted; the same command with {where} goes on from here", file=sys.stderr)
+        sys.exit(130)
+    except Exception as error:
+        if not isinstance(error, user_errors()):
+            raise
         sys.exit(refuse(str(error), directory))
 
 
@@ -105,11 +113,7 @@ def run_application(application: Callable[[], None]) -> int:
     except CONFIG_ERRORS as error:
         return refuse(explain(error))
     except KeyboardInterrupt:
-        print(
-            "dcg_torch: interrupted; to go on, give the same command with hydra.run.dir (of a sweep: hydra.sweep.dir) "
-            "set to this folder",
-            file=sys.stderr,
-        )
+        print("dcg_torch: interrupted", file=sys.stderr)
         return 130
     return 0
 

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch import space
 from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group
@@ -204,19 +205,26 @@ class _Encoder:
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of an example's factors."""
         kind, world = GROUNDING_OF[example.phrase.kind], example.world
-        if kind not in (GroundingKind.OBJECT, GroundingKind.PLACED):
-            bag: Bag = self.features.encode_groundings(kind, world, [example.children])[0]
-            return bag
-        where = self._layouts.get(id(world))
-        if where is None:
-            where = self._layouts[id(world)] = space.layout(world)
+        if kind is GroundingKind.OBJECT:
+            return self._of_things(world, ranked=bool(example.phrase.words))
+        hypotheses: NDArray[np.int64]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
-            bag = self.features.encode_placed(where, [[index[c.grounding.object.id] for c in example.children]])[0]
-            return bag
-        key = id(world), bool(example.phrase.words)
+            landmarks = [index[c.grounding.object.id] for c in example.children]
+            hypotheses = self.features.encode_placed(self._layout(world), [landmarks])
+        else:
+            hypotheses = self.features.encode_groundings(kind, world, [example.children])
+        return hypotheses.reshape(hypotheses.shape[1:])
+
+    def _layout(self, world: WorldModel) -> space.Layout:
+        if id(world) not in self._layouts:
+            self._layouts[id(world)] = space.layout(world)
+        return self._layouts[id(world)]
+
+    def _of_things(self, world: WorldModel, *, ranked: bool) -> Bag:
+        key = id(world), ranked
         if key not in self._things:
-            self._things[key] = self.features.encode_things(world, where, ranked=key[1])
+            self._things[key] = self.features.encode_things(world, self._layout(world), ranked=ranked)
         return self._things[key]
 
 

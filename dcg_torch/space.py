@@ -125,17 +125,17 @@ def states(things: Sequence[Object], where: Layout) -> list[list[str]]:
         apart = np.hypot(*(position[:, None, :2] - position[None, :, :2]).transpose(2, 0, 1))
         other = ~where.place[None, :] & ~np.eye(len(things), dtype=np.bool_)
         column = other & (apart < SAME_SPOT)
-        lonely = ~np.any(other & (apart < NEXT), axis=1, keepdims=True)
-    covered, raised = where.over.any(axis=0, keepdims=True)[0], where.over.any(axis=1, keepdims=True)[:, 0]
-    stacked = np.any(column, axis=1, keepdims=True)
+        beside = other & (apart < NEXT)
+    above, below = where.over.sum(axis=0), where.over.sum(axis=1)
+    neighbours, stack = beside.sum(axis=1), column.sum(axis=1)
     out = []
     for j, thing in enumerate(things):
         names = [f"state: {a}" for a in sorted(thing.attributes)]
         if thing.position is not None and not where.place[j]:
             names += [
-                "state: covered" if covered[j] else "state: clear",
-                "state: on something" if raised[j] else "state: on the floor",
-                "state: alone" if lonely[j, 0] else "state: in a stack" if stacked[j, 0] else "state: beside something",
+                "state: covered" if above[j] else "state: clear",
+                "state: on something" if below[j] else "state: on the floor",
+                "state: alone" if not neighbours[j] else "state: in a stack" if stack[j] else "state: beside something",
             ]
             colors = {thing.color for thing, over in zip(things, column[j], strict=True) if over} - {None}
             names += [f"stack color: {color}" for color in sorted(map(str, colors))]

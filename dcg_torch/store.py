@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
@@ -51,7 +52,8 @@ def save(model: GroundingModel, directory: Path) -> None:
     )
     weights, text = directory / WEIGHTS, directory / DESCRIPTION
     save_file({"weight": model.loglinear.weight.contiguous()}, f"{weights}.part")
-    Path(f"{text}.part").write_bytes(_ADAPTER.dump_json(description))
+    # Sets in their order of names, so that the same model gives the same bytes.
+    Path(f"{text}.part").write_text(json.dumps(_ADAPTER.dump_python(description), default=sorted), encoding="utf-8")
     os.replace(f"{weights}.part", weights)
     os.replace(f"{text}.part", text)
 
