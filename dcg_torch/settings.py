@@ -121,15 +121,19 @@ class EvaluateSettings:
         learn: learn after each test command, in file order, without seeing its target.
         explain: id of a test episode whose grounding is to be explained.
         rounds: of expectation-maximisation over the landmarks.
+        folds: instead of `test`, cross-validate `train` in so many parts; episodes of one `group` stay together.
+        baseline: also fit scikit-learn's logistic regression, on words x object features, to the same episodes.
     """
 
     train: str = "???"  # Hydra's mark of what must be given
-    test: str = "???"
+    test: str | None = None
     model: ModelSettings = field(default_factory=ModelSettings)
     known_types: list[str] | None = None
     learn: bool = False
     explain: str | None = None
     rounds: int = 4
+    folds: int = 0
+    baseline: bool = False
 
 
 def check(settings: Settings) -> None:

@@ -8,6 +8,7 @@ import math
 import os
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
@@ -21,13 +22,15 @@ from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
 from dcg_torch.simulator.bodies import TYPES
-from dcg_torch.speaker import SpeakerError
+from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.store import save
 from dcg_torch.training import TrainingFileError, initial_training
+from dcg_torch.trial.command import Look
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands, trial_generators
 from dcg_torch.trial.robot import FakeRobot, Robot
 from dcg_torch.watch.recording import Recorder
+from dcg_torch.watch.wording import meant
 from dcg_torch.world.files import WorldFileError
 
 TRIAL_ERRORS = (SettingsError, WorldFileError, SpeakerError, TrainingFileError, SimulatorError)
@@ -88,7 +91,7 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
         robot,
         trial_generators(settings.seed, trial)[2],
         spin_step=math.radians(settings.simulator.spin_step),
-        watch=recorder.look if recorder else None,
+        watch=_watcher(robot, recorder),
     )
     part = part_of(directory, trial)
     with part.open("w", encoding="utf-8") as file:
@@ -104,6 +107,20 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     if trial == settings.trials - 1:
         save(model, directory / MODEL)
     return model
+
+
+def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look], None] | None:
+    """Who is told of every look: the recorder, and the window."""
+    if recorder is None and not (isinstance(robot, SimulatedRobot) and robot.client.gui):
+        return None
+
+    def watch(command: Command, look: Look) -> None:
+        if recorder:
+            recorder.look(command, look)
+        if isinstance(robot, SimulatedRobot):
+            robot.say(f"{command.text}: {meant(look.solution)}")
+
+    return watch
 
 
 @functools.cache
