@@ -15,6 +15,7 @@ class Speaker(enum.StrEnum):
 
     canonical = "canonical"
     written = "written"
+    relational = "relational"
     human = "human"
 
 

@@ -11,7 +11,7 @@ import pybullet
 
 from dcg_torch.simulator.bodies import footprint
 from dcg_torch.simulator.camera import Camera
-from dcg_torch.simulator.view import direction
+from dcg_torch.simulator.view import View, direction
 from dcg_torch.world.files import World
 
 OPTIONS = (
@@ -59,7 +59,7 @@ class Window:
         places = np.array([(world.robot.x, world.robot.y), *(o.position for o in world.objects)])
         middle = (places.min(axis=0) + places.max(axis=0)) / 2
         radius = np.linalg.norm(places - middle, axis=1).max() + max(footprint(o.type) for o in world.objects)
-        distance = max(3.0, 1.9 * float(radius))
+        distance = max(3.0, 1.6 * float(radius))
         pybullet.resetDebugVisualizerCamera(
             distance,
             math.degrees(world.robot.yaw) - 90.0,  # at 0 it looks along +y
@@ -67,9 +67,9 @@ class Window:
             [*middle.tolist(), 0.0],
             physicsClientId=self._client,
         )
-        up = np.cross(np.cross(ahead := direction(world.robot.yaw, _DOWN), [0.0, 0.0, 1.0]), ahead)
-        left = np.cross([0.0, 0.0, 1.0], ahead)
-        self._place = tuple((np.array([*middle, 0.0]) + distance * (0.42 * up + 0.62 * left)).tolist())
+        view = View(np.zeros(3), direction(world.robot.yaw, _DOWN), 1.0, (1, 1))
+        right, up = view.axes
+        self._place = tuple((np.array([*middle, 0.0]) + distance * (0.44 * up - 0.72 * right)).tolist())
         # the window gives a link one colour, whatever the robot's description says
         pybullet.changeVisualShape(robot, -1, rgbaColor=[*_INK, 1.0], physicsClientId=self._client)
         half = camera.field_of_view / 2
