@@ -24,7 +24,7 @@ from dcg_torch.config import explain as explain_error
 from dcg_torch.console import make_console
 from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
 from dcg_torch.evaluation import CAUSES, Answer, Evaluation, summarise
-from dcg_torch.explain import explain
+from dcg_torch.explanation import explain
 from dcg_torch.language import default_parser
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
