@@ -65,6 +65,19 @@ class TrainingSet:
     examples: tuple[Example, ...]
 
 
+_BATCH = 256
+"""Examples that are encoded together once there are as many, and then not again until the columns change."""
+
+
+@dataclass(frozen=True)
+class _Encoded:
+    """Tables that hold for as long as the columns do: the corpus's, and those of whole batches of T."""
+
+    features: FeatureSet
+    corpus: list[Table]
+    batches: list[list[Table]]
+
+
 class GroundingModel:
     """DCG, DCG-UPUP, DCG-UPUP-Away, with or without colour: which, is said by the `Variant`.
 
@@ -92,7 +105,7 @@ class GroundingModel:
         self.features = features
         self.loglinear = loglinear
         self.fitted: FitResult | None = None
-        self._corpus_tables: tuple[FeatureSet, list[Table]] | None = None
+        self._encoded: _Encoded | None = None
 
     @classmethod
     def trained(cls, training: TrainingSet, variant: Variant | None = None) -> GroundingModel:
@@ -116,7 +129,7 @@ class GroundingModel:
 
     @corpus.setter
     def corpus(self, examples: Iterable[Example]) -> None:
-        self._corpus, self._corpus_tables = list(examples), None
+        self._corpus, self._encoded = list(examples), None
 
     @property
     def known_types(self) -> tuple[str, ...]:
@@ -171,11 +184,18 @@ class GroundingModel:
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
-        tables = encode([contrast(e, self.symbols) for e in self.examples], self.features, self.loglinear)
-        if self._corpus_tables is None or self._corpus_tables[0] is not self.features:
-            self._corpus_tables = self.features, encode(self.corpus, self.features, self.loglinear)
-        self.fitted = fit(self.loglinear, [*tables, *self._corpus_tables[1]], l2=self.variant.l2, max_steps=max_steps)
+        if self._encoded is None or self._encoded.features is not self.features:
+            self._encoded = _Encoded(self.features, encode(self.corpus, self.features, self.loglinear), [])
+        batches = self._encoded.batches
+        while (len(batches) + 1) * _BATCH <= len(self.examples):
+            batches.append(self._tables(self.examples[len(batches) * _BATCH : (len(batches) + 1) * _BATCH]))
+        rest = self._tables(self.examples[len(batches) * _BATCH :])
+        tables = [*rest, *(table for batch in batches for table in batch), *self._encoded.corpus]
+        self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, max_steps=max_steps)
         return self.fitted
+
+    def _tables(self, examples: Sequence[Example]) -> list[Table]:
+        return encode([contrast(e, self.symbols) for e in examples], self.features, self.loglinear)
 
 
 def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> list[Table]:
