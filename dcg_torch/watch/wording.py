@@ -98,7 +98,10 @@ def ending(episode: Episode) -> str:
 def lesson(episode: Episode, before: Mapping[str, str]) -> str:
     """What it learned from this command, or nothing."""
     new = [(word, type_) for word, type_ in episode.row.symbols.items() if before.get(word) != type_]
-    return "  ".join(f"It now knows the word “{word}”: {_article(type_)} {type_}." for word, type_ in new)
+    return "  ".join(
+        f"It now knows the word “{word}”." if word == type_ else f"It now knows that “{word}” means {type_}."
+        for word, type_ in new
+    )
 
 
 def words(symbols: Mapping[str, str]) -> list[str]:
