@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dcg_torch.features import GROUNDING_OF, FeatureSet, Group
+from dcg_torch.features import GROUNDING_OF, PAPER_GROUPS, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit, tabulate
@@ -32,7 +32,7 @@ class Variant:
         beam: hypotheses of a child phrase that its parent considers.
     """
 
-    groups: frozenset[Group] = frozenset(Group)
+    groups: frozenset[Group] = PAPER_GROUPS
     unknown: bool = True
     hypothetical: bool = True
     learns: bool = True
@@ -48,6 +48,23 @@ class TrainingSet:
     symbols: tuple[Symbol, ...]
     colors: tuple[str, ...]
     examples: tuple[Example, ...]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """What the robot saw and was told while it carried a command out.
+
+    Attributes:
+        percepts: all that it perceived.
+        looked: did it look all round?
+        meant: ids of objects, one of which was said to be meant, in answer to a question; None: nothing was said.
+        source: which command it was, for the lexicon.
+    """
+
+    percepts: tuple[Percept, ...] = ()
+    looked: bool = False
+    meant: frozenset[str] | None = None
+    source: str = ""
 
 
 class GroundingModel:
@@ -93,9 +110,18 @@ class GroundingModel:
         return tuple(dict.fromkeys(s.type for s in self.symbols.values()))
 
     def world_model(
-        self, percepts: Iterable[Percept], robot: Pose | None = None, speaker: Pose | None = None
+        self,
+        percepts: Iterable[Percept],
+        robot: Pose | None = None,
+        speaker: Pose | None = None,
+        *,
+        looked: bool = False,
     ) -> WorldModel:
-        """Upsilon as this variant represents it (lines 8 and 9)."""
+        """Upsilon as this variant represents it (lines 8 and 9).
+
+        Args:
+            looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
+        """
         return world_model(
             percepts,
             self.known_types,
@@ -109,8 +135,11 @@ class GroundingModel:
         """[phi*, gamma*] of a command in a world (line 11)."""
         return FactorGraph(_readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
 
-    def learn(self, solution: Solution) -> Symbol | None:
+    def learn(self, solution: Solution, scene: Scene | None = None) -> Symbol | None:
         """Add the outcome of a grounding that was acted on to the training set, and retrain (lines 16 to 25).
+
+        Args:
+            scene: all that was perceived; the paper's rule reads the solution alone.
 
         Returns:
             The symbol that was learned, if any.
@@ -145,7 +174,8 @@ def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearMo
         bags.append(features.encode_groundings(kind, example.world, [example.children])[0][labelled])
         phrases += [k] * len(labelled)
         labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
-        weights += [example.weight] * len(labelled)
+        own = example.weights or (1.0,) * len(example.correspondences)
+        weights += [example.weight * own[j] for j in labelled]
     width = max((b.shape[1] for b in bags), default=0)
     return tabulate(
         features.encode_phrases([e.phrase for e in examples]),

@@ -146,7 +146,8 @@ class Example:
     `correspondences[j]` labels the grounding about `world.objects[j]`; None leaves it unlabelled. `children`
     are the child groundings, about objects of the same world. Symbols are stored, never features:
     `features.FeatureSet` encodes an example anew under whatever is known by then. `weight` scales its
-    log-likelihood.
+    log-likelihood; `weights`, if given, has a further factor for each grounding, so that a label can be soft: the
+    same groundings ACTIVE in one example and INACTIVE in another.
     """
 
     phrase: Phrase
@@ -154,3 +155,4 @@ class Example:
     correspondences: tuple[Correspondence | None, ...]
     children: tuple[Child, ...] = ()
     weight: float = 1.0
+    weights: tuple[float, ...] | None = None

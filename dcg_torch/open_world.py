@@ -1,0 +1,246 @@
+"""The model that does not lock in its mistakes: `model=open_world`.
+
+It is the paper's log-linear factor graph, with one difference in what it is trained on. The paper's robot adds its
+own guess to the training set and believes it for ever. This one keeps a posterior over what each word names
+(`meaning`), moved by every command with all that was in the world, and trains on it: soft examples that are made
+anew from the posterior before every fit. When later evidence contradicts an earlier one, the weights of the wrong
+columns fade. Every type met and every word heard has columns, whether or not their bond is known yet.
+
+Grounding is still that of `graph.FactorGraph`, and nothing else decides.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from dcg_torch.features import LOOKED_ROUND, PAPER_GROUPS, FeatureSet, Group
+from dcg_torch.graph import Solution
+from dcg_torch.loglinear import TERNARY, FitResult, LogLinearModel, fit
+from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
+from dcg_torch.meaning.lexicon import Entry, lexicon
+from dcg_torch.meaning.soft import Unseen, soft_examples
+from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
+from dcg_torch.symbols import Example, Percept, PhraseKind, Pose, Symbol, WorldModel
+from dcg_torch.world.upsilon import world_model
+
+LOOKED = frozenset({LOOKED_ROUND})
+HELD = 0.5
+"""Probability from which on a word counts among `symbols`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Census:
+    """How many objects there are: of each type and colour, in a world that was looked at all round.
+
+    It starts as if `cells` pairs of type and colour had been looked for and `objects` found.
+    """
+
+    objects: float = 1.5
+    cells: float = 10.0
+
+    @property
+    def rate(self) -> float:
+        """Expected objects of one type and colour in one world."""
+        return self.objects / self.cells
+
+    def count(self, objects: int, cells: int) -> Census:
+        """With one more world."""
+        return Census(self.objects + objects, self.cells + cells)
+
+
+@dataclass(frozen=True, slots=True)
+class OpenWorld:
+    """What is assumed of the world and of speakers.
+
+    Attributes:
+        nouns: of nouns.
+        colors: of colour words, which are hardly ever wrong.
+        hidden: number of objects of a type and colour to be expected though the robot has looked round: hidden
+            ones, and such that a speaker believes to be there.
+        strength: see `soft.soft_examples`.
+    """
+
+    nouns: Prior = Prior()
+    colors: Prior = Prior(synonym=0.05, unmet=1.0, slip=0.005)
+    hidden: float = 0.01
+    strength: float = 5.0
+
+
+class OpenWorldModel(GroundingModel):
+    """A `GroundingModel` that trains on a posterior over meanings.
+
+    Attributes:
+        beliefs: what the nouns name.
+        color_beliefs: what the colour words name.
+        census: how many objects there are.
+    """
+
+    def __init__(
+        self,
+        variant: Variant,
+        symbols: Iterable[Symbol],
+        examples: Iterable[Example],
+        features: FeatureSet,
+        loglinear: LogLinearModel,
+        *,
+        beliefs: Beliefs,
+        color_beliefs: Beliefs,
+        assumed: OpenWorld,
+        census: Census | None = None,
+    ) -> None:
+        super().__init__(variant, symbols, examples, features, loglinear)
+        self.beliefs, self.color_beliefs = beliefs, color_beliefs
+        self.assumed, self.census = assumed, census or Census()
+
+    @classmethod
+    def trained(
+        cls, training: TrainingSet, variant: Variant | None = None, assumed: OpenWorld | None = None
+    ) -> OpenWorldModel:
+        """The model before its first command.
+
+        Of the training set, the examples of verbs and prepositions are kept as they are; those of a bare noun and
+        colour are what the settled words say.
+        """
+        assumed = assumed or OpenWorld()
+        variant = variant or Variant()
+        variant = replace(variant, groups=variant.groups | PAPER_GROUPS | {Group.OPEN}, ternary=True)
+        kept = [e for e in training.examples if not _is_plain_noun(e)]
+        features = FeatureSet.initial(variant.groups, training.symbols, training.colors, kept)
+        model = cls(
+            variant,
+            training.symbols,
+            kept,
+            features,
+            LogLinearModel(features.pairs, TERNARY),
+            beliefs=Beliefs.start({s.word: s.type for s in training.symbols}, assumed.nouns),
+            color_beliefs=Beliefs.start({c: c for c in training.colors}, assumed.colors),
+            assumed=assumed,
+        )
+        model.train()
+        return model
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types met so far; before the first command, those that the training set names."""
+        return self.beliefs.types
+
+    def world_model(
+        self,
+        percepts: Iterable[Percept],
+        robot: Pose | None = None,
+        speaker: Pose | None = None,
+        *,
+        looked: bool = False,
+    ) -> WorldModel:
+        """Upsilon; its hypothetical objects say whether the robot has looked round."""
+        unseen = LOOKED if looked else frozenset()
+        return world_model(percepts, self.known_types, robot=robot, speaker=speaker, unseen=unseen)
+
+    def learn(self, solution: Solution, scene: Scene | None = None) -> Symbol | None:
+        """Weigh a command's evidence and train on the posterior that follows.
+
+        What the robot chose to do is no evidence, so it doesn't enter.
+
+        Args:
+            scene: what was perceived and said; without it nothing can be learned.
+
+        Returns:
+            The command's word, if this command moved its probability above `HELD`.
+        """
+        phrase = solution.noun
+        if scene is None or phrase is None or phrase.noun is None or not self.variant.learns:
+            return None
+        self._meet(scene)
+        before = self.symbols.get(phrase.noun)
+        self._hear(phrase.noun, phrase.color, scene)
+        self._renew()
+        now = self.symbols.get(phrase.noun)
+        return now if now != before else None
+
+    def train(self) -> FitResult:
+        """Fit from the present weights, on the training set and on the posterior."""
+        rate = self.census.rate
+        soft = soft_examples(
+            self.beliefs,
+            self.color_beliefs,
+            Unseen(ahead=rate * _UNSEEN, left=self.assumed.hidden, colors=max(1, len(self.color_beliefs.types))),
+            looked=LOOKED,
+            strength=self.assumed.strength,
+        )
+        table = encode([*self.examples, *soft], self.features, self.loglinear)
+        # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds
+        tolerance = 0.01 * self.assumed.strength
+        self.fitted = fit(self.loglinear, table, l2=self.variant.l2, tolerance=tolerance)
+        return self.fitted
+
+    def lexicon(self) -> list[Entry]:
+        """Every noun with what it may mean, and from which commands."""
+        return lexicon(self.beliefs)
+
+    def forget(self, word: str) -> None:
+        """Forget all that was heard of a noun, and train."""
+        self.beliefs = self.beliefs.forget(word)
+        self._renew()
+
+    def correct(self, word: str, type_: str) -> None:
+        """Settle a noun on a type, and train."""
+        self.beliefs = self.beliefs.correct(word, type_)
+        self._renew()
+
+    def _meet(self, scene: Scene) -> None:
+        """Take note of the types and colours seen, and of how many there are."""
+        self.beliefs = self.beliefs.meet(p.type for p in scene.percepts)
+        self.color_beliefs = self.color_beliefs.meet(p.color for p in scene.percepts if p.color is not None)
+        if scene.looked:
+            cells = len(self.beliefs.types) * max(1, len(self.color_beliefs.types))
+            self.census = self.census.count(len(scene.percepts), cells)
+
+    def _hear(self, noun: str, color: str | None, scene: Scene) -> None:
+        """Weigh a noun in the light of the colour said, and the colour in the light of the noun."""
+        meant = [p for p in scene.percepts if scene.meant is None or p.id in scene.meant]
+        by_color = dict[str, float]()
+        by_type = dict[str, float]()
+        said_of = _said(self.beliefs, noun)
+        color_of = None if color is None else _said(self.color_beliefs, color)
+        for p in meant:
+            as_colored = 1.0 if color_of is None or p.color is None else color_of.get(p.color, 0.0)
+            by_type[p.type] = by_type.get(p.type, 0.0) + as_colored
+            if p.color is not None:
+                by_color[p.color] = by_color.get(p.color, 0.0) + said_of.get(p.type, 0.0)
+        unseen = 0.0
+        if scene.meant is None:
+            unseen = self.assumed.hidden * self.census.rate if scene.looked else self.census.rate * _UNSEEN
+        several = 1 if color is not None else max(1, len(self.color_beliefs.types))
+        self.beliefs = self.beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
+        if color is not None:
+            self.color_beliefs = self.color_beliefs.weigh(Evidence(color, by_color, unseen, scene.source))
+
+    def _renew(self) -> None:
+        """Columns for what is new, the symbols held, and a fit."""
+        self.features = self.features.include(
+            nouns=self.beliefs.posterior.words,
+            types=self.beliefs.types,
+            colors=(*self.color_beliefs.posterior.words, *self.color_beliefs.types),
+        )
+        self.loglinear.grow(self.features.pairs)
+        best = {w: self.beliefs.posterior.best(w) for w in self.beliefs.posterior.words}
+        self.symbols = {w: Symbol(w, t) for w, (t, p) in best.items() if p >= HELD and t != UNMET}
+        self.train()
+
+
+_UNSEEN = 1.0 - 57.0 / 360.0
+"""Share of the ground that is out of view before the robot turns."""
+
+
+def _said(beliefs: Beliefs, word: str) -> dict[str, float]:
+    """How readily a word is said of each type (or colour) met."""
+    table, new = beliefs.said_of()
+    words = beliefs.posterior.words
+    row = table[words.index(word)] if word in words else new
+    return dict(zip(beliefs.posterior.types, map(float, row), strict=True))
+
+
+def _is_plain_noun(example: Example) -> bool:
+    phrase = example.phrase
+    return phrase.kind is PhraseKind.NOUN and not phrase.words and not example.children
