@@ -5,7 +5,7 @@ It joins the rooms: features and weights, the symbols known, and the training se
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -57,13 +57,15 @@ class Scene:
     Attributes:
         percepts: all that it perceived.
         looked: did it look all round?
-        meant: ids of objects, one of which was said to be meant, in answer to a question; None: nothing was said.
+        meant: ids of the objects that may still be meant after the speaker's answers; None: nothing was said.
+        certain: the speaker said which object is meant.
         source: which command it was, for the lexicon.
     """
 
     percepts: tuple[Percept, ...] = ()
     looked: bool = False
     meant: frozenset[str] | None = None
+    certain: bool = False
     source: str = ""
 
 
@@ -108,6 +110,14 @@ class GroundingModel:
     def known_types(self) -> tuple[str, ...]:
         """The types of M.Gamma, in the order of learning."""
         return tuple(dict.fromkeys(s.type for s in self.symbols.values()))
+
+    def beliefs_about(self, but: Collection[str]) -> dict[str, dict[str, float]] | None:
+        """word -> type -> probability, of all words `but` some; None for a model that has no such beliefs."""
+        return None
+
+    def sure_names(self) -> dict[str, str]:
+        """type -> a word for it that the robot holds for certain."""
+        return {s.type: s.word for s in reversed(self.symbols.values())}
 
     def world_model(
         self,

@@ -11,7 +11,8 @@ Grounding is still that of `graph.FactorGraph`, and nothing else decides.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
 from dcg_torch.features import LOOKED_ROUND, PAPER_GROUPS, FeatureSet, Group
@@ -25,28 +26,42 @@ from dcg_torch.symbols import Example, Percept, PhraseKind, Pose, Symbol, WorldM
 from dcg_torch.world.upsilon import world_model
 
 LOOKED = frozenset({LOOKED_ROUND})
+_SURE = 0.95  # probability from which on the robot uses a word itself
 HELD = 0.5
 """Probability from which on a word counts among `symbols`."""
 
 
 @dataclass(frozen=True, slots=True)
 class Census:
-    """How many objects there are: of each type and colour, in a world that was looked at all round.
+    """How many objects there are in a world that was looked at all round.
 
-    It starts as if `cells` pairs of type and colour had been looked for and `objects` found.
+    Attributes:
+        objects, cells: objects found, and pairs of type and colour that were looked for.
+        again, found: objects found of a type and colour of which one was there already, and all that were found.
+
+    The defaults are what is assumed before the first world, and give way to what is counted.
     """
 
     objects: float = 1.5
     cells: float = 10.0
+    again: float = 0.25
+    found: float = 10.0
 
     @property
     def rate(self) -> float:
-        """Expected objects of one type and colour in one world."""
+        """Expected objects of one type and colour."""
         return self.objects / self.cells
 
-    def count(self, objects: int, cells: int) -> Census:
+    @property
+    def repeats(self) -> float:
+        """Expected further objects of a type and colour of which one is there."""
+        return self.again / self.found
+
+    def count(self, percepts: Collection[Percept], cells: int) -> Census:
         """With one more world."""
-        return Census(self.objects + objects, self.cells + cells)
+        repeated = len(percepts) - len({(p.type, p.color) for p in percepts})
+        n = len(percepts)
+        return Census(self.objects + n, self.cells + cells, self.again + repeated, self.found + n)
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,6 +140,22 @@ class OpenWorldModel(GroundingModel):
         """The types met so far; before the first command, those that the training set names."""
         return self.beliefs.types
 
+    def beliefs_about(self, but: Collection[str]) -> dict[str, dict[str, float]]:
+        """word -> type -> probability, of all words `but` some; what is below a thousandth is left out."""
+        posterior = self.beliefs.posterior
+        return {
+            word: {t: round(p, 6) for t, p in posterior.of(word).items() if p >= 1e-3}
+            for word in posterior.words
+            if word not in but
+        }
+
+    def sure_names(self) -> dict[str, str]:
+        """type -> the word that most certainly names it, if any does."""
+        posterior = self.beliefs.posterior
+        best = {word: posterior.best(word) for word in posterior.words}
+        sure = sorted((p, word, t) for word, (t, p) in best.items() if p >= _SURE and t != UNMET)
+        return {t: word for _, word, t in sure}
+
     def world_model(
         self,
         percepts: Iterable[Percept],
@@ -160,11 +191,16 @@ class OpenWorldModel(GroundingModel):
 
     def train(self) -> FitResult:
         """Fit from the present weights, on the training set and on the posterior."""
-        rate = self.census.rate
+        colors = max(1, len(self.color_beliefs.types))
+        unseen = Unseen(
+            ahead=_rivals(self.census.rate * colors * _UNSEEN),
+            ahead_colored=_rivals(self.census.repeats * _UNSEEN),
+            left=self.assumed.hidden,
+        )
         soft = soft_examples(
             self.beliefs,
             self.color_beliefs,
-            Unseen(ahead=rate * _UNSEEN, left=self.assumed.hidden, colors=max(1, len(self.color_beliefs.types))),
+            unseen,
             looked=LOOKED,
             strength=self.assumed.strength,
         )
@@ -194,7 +230,7 @@ class OpenWorldModel(GroundingModel):
         self.color_beliefs = self.color_beliefs.meet(p.color for p in scene.percepts if p.color is not None)
         if scene.looked:
             cells = len(self.beliefs.types) * max(1, len(self.color_beliefs.types))
-            self.census = self.census.count(len(scene.percepts), cells)
+            self.census = self.census.count(scene.percepts, cells)
 
     def _hear(self, noun: str, color: str | None, scene: Scene) -> None:
         """Weigh a noun in the light of the colour said, and the colour in the light of the noun."""
@@ -209,7 +245,7 @@ class OpenWorldModel(GroundingModel):
             if p.color is not None:
                 by_color[p.color] = by_color.get(p.color, 0.0) + said_of.get(p.type, 0.0)
         unseen = 0.0
-        if scene.meant is None:
+        if not scene.certain:
             unseen = self.assumed.hidden * self.census.rate if scene.looked else self.census.rate * _UNSEEN
         several = 1 if color is not None else max(1, len(self.color_beliefs.types))
         self.beliefs = self.beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
@@ -231,6 +267,14 @@ class OpenWorldModel(GroundingModel):
 
 _UNSEEN = 1.0 - 57.0 / 360.0
 """Share of the ground that is out of view before the robot turns."""
+
+
+def _rivals(expected: float) -> float:
+    """The odds of the unseen objects of a kind against one that is seen, when each is meant as likely as any other.
+
+    With n of them, n Poisson, that one is meant with probability E[1 / (1 + n)], which is more than 1 / (1 + E[n]).
+    """
+    return expected / -math.expm1(-expected) - 1.0 if expected > 1e-9 else expected / 2.0
 
 
 def _said(beliefs: Beliefs, word: str) -> dict[str, float]:

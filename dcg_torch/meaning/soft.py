@@ -30,17 +30,17 @@ NEVER_HEARD = "(never heard)"
 
 @dataclass(frozen=True, slots=True)
 class Unseen:
-    """How many objects of a type, of a stated colour, are to be expected where the robot has not looked.
+    """How much the objects of a type that the robot has not seen weigh against one that it has.
 
     Attributes:
-        ahead: before it has looked round.
-        left: after it has, hidden or not there at all.
-        colors: number of colours; without a stated colour that many times more are expected.
+        ahead: before it has looked round, no colour said.
+        ahead_colored: the same, those of the colour said.
+        left: after it has looked round, for what is hidden or not there at all.
     """
 
     ahead: float
+    ahead_colored: float
     left: float
-    colors: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,10 +92,9 @@ def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[s
     """Hypothetical objects, of a known type and of one not met, with a colour said and without."""
     color = next(iter(colors.posterior.words), None)
     for noun, type_, scale in _anchors(nouns):
-        for said, times in ((None, unseen.colors), (color, 1)):
-            for attributes, rate in ((frozenset[str](), unseen.ahead), (looked, unseen.left)):
-                thing = _object(type_, hypothetical=True, attributes=attributes)
-                yield _Pair(_phrase(noun, said), thing, scale * rate * (1 if attributes else times))
+        for said, ahead in ((None, unseen.ahead), (color, unseen.ahead_colored)):
+            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
+                yield _Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
 
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:

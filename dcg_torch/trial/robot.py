@@ -57,6 +57,15 @@ class Robot(Protocol):
         """Leave the surroundings of an object; True when it ended outside them."""
         ...
 
+    def go_to(self, x: float, y: float, percepts: list[Percept]) -> bool:
+        """Drive to a place round all objects; True when it got there."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """Simulated seconds that it has moved since `load`."""
+        ...
+
 
 @dataclass
 class _State:
@@ -124,6 +133,16 @@ class FakeRobot:
         x, y = next(p.position[:2] for p in percepts if p.id == target)
         self._go((2 * self.pose.x - x, 2 * self.pose.y - y), 2.0)
         return True
+
+    def go_to(self, x: float, y: float, percepts: list[Percept]) -> bool:
+        """Face the place and go there."""
+        self._go((x, y), math.dist((x, y), (self.pose.x, self.pose.y)))
+        return True
+
+    @property
+    def seconds(self) -> float:
+        """As if it drove 0.65 metres and turned 2 radians a second."""
+        return self.path_length / 0.65 + self.turned / 2.0
 
     def _bearing(self, point: tuple[float, float]) -> float:
         pose = self.pose
