@@ -7,6 +7,7 @@ which names may fire:
     F_U              is the noun known, is the object's type known
     F_H              is the object hypothetical
     F_C              the stated colour (f_word) and the object's colour (f_color)
+    relation         beyond the paper: how things stand by themselves, among those alike, and to landmarks (`space`)
 
 and `PAIRS` which of them meet: a noun with types, a stated colour with colours, a verb with the relation to its
 child. Without that restriction a word learned from one blue object would come to mean "blue" as well.
@@ -24,6 +25,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch import space
 from dcg_torch.loglinear import Bag
 from dcg_torch.symbols import (
     Child,
@@ -44,10 +46,10 @@ class Group(enum.StrEnum):
     UNKNOWN = "unknown"
     HYPOTHETICAL = "hypothetical"
     COLOR = "color"
-    OPEN = "open"  # beyond the paper: what has never been heard or met has columns too, and so has a look all round
+    RELATION = "relation"
+    OPEN = "open"  # what has never been heard or met has columns too, and so has a look all round
 
 
-PAPER_GROUPS = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
 LOOKED_ROUND = "looked round"
 """Attribute of a hypothetical object, once the robot has seen all the ground that it can."""
 
@@ -58,17 +60,23 @@ PAIRS: dict[str, frozenset[str]] = {
     "kind": frozenset({"kind", "known", "hypothetical", "has color", "child"}),
     "verb": frozenset({"kind", "child"}),
     "preposition": frozenset({"kind", "child"}),
-    "word": frozenset(),
-    "noun": frozenset({"type"}),
+    "modifier": frozenset({"kind", "relation"}),
+    "word": frozenset({"rank", "state", "stack color"}),
+    "context": frozenset({"kind", "state", "relation"}),
+    "noun": frozenset({"type", "state"}),
     "noun known": frozenset({"known", "hypothetical"}),
     "color": frozenset({"color"}),
     "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
 }
 
+PAPER = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
+"""The feature groups of the paper's fullest model, DCG-UPUP-Away with colour."""
+
 GROUNDING_OF = {
     PhraseKind.VERB: GroundingKind.ACTION,
     PhraseKind.PREPOSITION: GroundingKind.REGION,
     PhraseKind.NOUN: GroundingKind.OBJECT,
+    PhraseKind.MODIFIER: GroundingKind.PLACED,
 }
 
 Feature = tuple[Group, str]
@@ -90,6 +98,9 @@ def _fixed_groundings() -> Iterator[Feature]:
     yield Group.UNKNOWN, "known: no"
     yield Group.COLOR, "color: unknown"
     yield Group.HYPOTHETICAL, "hypothetical: yes"
+    for names in (*space.RELATIONS.values(), space.STATES, space.RANKS):
+        for name in names:
+            yield Group.RELATION, name
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -124,7 +135,7 @@ class FeatureSet:
         cls,
         groups: Iterable[Group],
         symbols: Iterable[Symbol],
-        colors: Iterable[str],
+        colors: Sequence[str],
         examples: Sequence[Example],
     ) -> FeatureSet:
         """The columns of a first training (Alg. 1, lines 3 and 4).
@@ -132,16 +143,18 @@ class FeatureSet:
         Nouns, types and colours get columns from `symbols` and `colors` only, so that the invented ones of the
         examples that teach "unknown" stay unknown; verbs, prepositions and adjectives come from the examples.
         """
-        start = cls(frozenset(groups))
-        start = start._with(_fixed_languages(), _fixed_groundings())
+        start = cls(frozenset(groups))._with(_fixed_languages(), _fixed_groundings())
+        return start.extended(symbols, colors, examples)
+
+    def extended(self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example]) -> FeatureSet:
+        """Columns for a labelled corpus: its nouns and types, its colours, and the other words of its examples."""
+        new = self
         for symbol in symbols:
-            start = start.grow(symbol)
+            new = new.grow(symbol)
         for color in colors:
-            start = start._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
-        words: list[Feature] = []
-        for example in examples:
-            words += (f for f in _word_features(example.phrase))
-        return start._with(words, [])
+            new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
+        words = [f for example in examples for f in _word_features(example.phrase)]
+        return new._with(words, [(Group.RELATION, f"stack color: {color}") for color in colors])
 
     def grow(self, symbol: Symbol) -> FeatureSet:
         """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
@@ -255,6 +268,44 @@ class FeatureSet:
                 bag[c, index[child.grounding.object.id], column] = same
         return bag
 
+    def encode_things(self, world: WorldModel, where: space.Layout, *, ranked: bool) -> Bag:
+        """Grounding columns of a noun phrase's groundings, places included.
+
+        Args:
+            where: the layout of `world`.
+            ranked: whether the phrase has words that a rank could be meant by.
+
+        Returns:
+            (len(world.things), k) bag.
+        """
+        names = [[f"kind: {GroundingKind.OBJECT}", *self.object_names(o)] for o in world.things]
+        if Group.RELATION in self.groups:
+            described = [space.states(world.things, where)]
+            if ranked:
+                described.append(space.ranks(world.things, where))
+            for further in described:
+                for own, more in zip(names, further, strict=True):
+                    own += more
+        return _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
+
+    def encode_placed(self, where: space.Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int64]:
+        """Grounding columns of a modifier's groundings: how every thing stands to every tuple of landmarks.
+
+        Args:
+            landmarks: c tuples of thing numbers.
+
+        Returns:
+            (c, things, k) bag.
+        """
+        n = len(where.place)
+        kind = np.full((len(landmarks), n), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)
+        columns = [kind]
+        if Group.RELATION in self.groups:
+            for family, values in space.relations(where, landmarks).items():
+                table = np.array([self.grounding[name] for name in space.RELATIONS[family]] + [-1])
+                columns.append(table[values])
+        return np.stack(columns, axis=2)
+
     def grounding_names(self, grounding: Grounding, children: Sequence[Child]) -> list[str]:
         """Names of the grounding features that fire, for explanations."""
         world = WorldModel(tuple({o.id: o for o in (grounding.object, *(c.grounding.object for c in children))}.values()))
@@ -264,9 +315,24 @@ class FeatureSet:
 
 
 def _word_features(phrase: Phrase) -> Iterator[Feature]:
-    """The language features of a phrase's plain words; a noun's and a colour's depend on what is known."""
-    for word in phrase.words:
-        yield Group.DCG, f"{phrase.kind}: {word}"
+    """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
+
+    Words of a noun phrase also fire together ("second from the left"), and modifiers and such words together with
+    the context: what they compare the object with.
+    """
+    if phrase.kind is PhraseKind.NOUN:
+        words = dict.fromkeys((*phrase.words, " ".join(phrase.words))) if phrase.words else ()
+        for word in words:
+            yield Group.RELATION, f"word: {word}"
+    else:
+        words = phrase.words
+        for word in words:
+            yield Group.DCG, f"{phrase.kind}: {word}"
+    for context in phrase.context:
+        yield Group.RELATION, f"context: {context}"
+        if phrase.kind is not PhraseKind.NOUN:
+            for word in words:
+                yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
 
 
 def _pad(rows: list[list[int]]) -> Bag:

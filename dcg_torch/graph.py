@@ -16,16 +16,17 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch import space
 from dcg_torch.features import GROUNDING_OF, FeatureSet
 from dcg_torch.loglinear import LogLinearModel
-from dcg_torch.symbols import Child, Correspondence, Grounding, Object, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.symbols import Child, Correspondence, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 
 @dataclass(frozen=True)
@@ -132,54 +133,116 @@ class FactorGraph:
         """
         if not self.world.objects:
             return Solution(self.tree, self.world, None, {})
-        beams: dict[int, list[Hypothesis]] = {}
-        for level in _levels(self.phrases):
-            scored = self._score_level(level, beams, features, model, beam)
-            beams.update({node: self._best(of_node, beam) for node, of_node in scored.items()})
-        root = scored[0]
-        totals = np.logaddexp.reduce(root.scores, axis=(0, 2))
+        root = self._pass(features, model, beam)
+        totals = np.logaddexp.reduce(root.scores, axis=(0, 2))[: len(self.world.objects)]
         probabilities = np.exp(totals - np.logaddexp.reduce(totals))
         return Solution(
             self.tree,
             self.world,
-            beams[0][0],
+            self._best(root, 1)[0],
             {o.id: float(p) for o, p in zip(self.world.objects, probabilities, strict=True)},
         )
+
+    def landmarks(
+        self, thing: int, features: FeatureSet, model: LogLinearModel, *, beam: int = 8
+    ) -> list[tuple[float, Hypothesis]]:
+        """What the modifiers of a noun phrase rest on, given that it means a certain thing: p(landmark | thing).
+
+        The tree's root must be the noun phrase.
+
+        Args:
+            thing: its number in the world.
+
+        Returns:
+            For every modifier and every choice of its landmarks, the probability and the hypothesis.
+        """
+        found = []
+        for modifier in self._pass(features, model, beam).modifiers:
+            column = modifier.mixture[:, thing]
+            for combo, probability in enumerate(np.exp(column - np.logaddexp.reduce(column))):
+                found.append((float(probability), modifier.hypothesis(thing, self.world.things[thing], combo)))
+        return found
+
+    def _pass(self, features: FeatureSet, model: LogLinearModel, beam: int) -> _Scored:
+        """From the leaves to the root, whose scores are returned."""
+        beams: dict[int, list[Hypothesis]] = {}
+        placed: dict[int, _Placed] = {}
+        root: _Scored | None = None
+        for level in _levels(self.phrases):
+            for node, of_node in self._score_level(level, beams, placed, features, model, beam).items():
+                if isinstance(of_node, _Placed):
+                    placed[node] = of_node
+                else:
+                    root = of_node
+                    beams[node] = self._best(of_node, beam)
+        assert root is not None  # the last level holds the root alone
+        return root
+
+    @cached_property
+    def layout(self) -> space.Layout:
+        """Where the things of the world are."""
+        return space.layout(self.world)
 
     def _score_level(
         self,
         level: Sequence[int],
         beams: Mapping[int, Sequence[Hypothesis]],
+        placed: Mapping[int, _Placed],
         features: FeatureSet,
         model: LogLinearModel,
         beam: int,
-    ) -> dict[int, _Scored]:
+    ) -> dict[int, _Scored | _Placed]:
         """Scores of every configuration of the phrases of one level, from one evaluation of all their factors."""
         trees: list[ParseTree] = [self.phrases.nodes[node]["tree"] for node in level]
-        combos = [list(itertools.product(*(beams[c][:beam] for c in self.phrases.predecessors(n)))) for n in level]
-        bags = [
-            features.encode_groundings(
-                GROUNDING_OF[tree.phrase.kind], self.world, [[h.child for h in combo] for combo in of_node]
-            )
-            for tree, of_node in zip(trees, combos, strict=True)
-        ]
+        below = [list(self.phrases.predecessors(node)) for node in level]
+        combos = [list(itertools.product(*(beams[c][:beam] for c in nodes if c in beams))) for nodes in below]
+        bags = [self._encode(tree, of_node, features) for tree, of_node in zip(trees, combos, strict=True)]
         width = max(bag.shape[2] for bag in bags)
         rows = [np.pad(b, ((0, 0), (0, 0), (0, width - b.shape[2])), constant_values=-1) for b in bags]
         flat = np.concatenate([r.reshape(-1, width) for r in rows])
         phrase = np.repeat(np.arange(len(level)), [r.shape[0] * r.shape[1] for r in rows])
         language = features.encode_phrases([tree.phrase for tree in trees])
         log_psi = model.log_psi(language, flat, phrase).numpy()
-        out: dict[int, _Scored] = {}
+        out: dict[int, _Scored | _Placed] = {}
         for which, node in enumerate(level):
             table = log_psi[phrase == which].reshape(*rows[which].shape[:2], -1)
+            kind = trees[which].phrase.kind
+            scores = np.array([sum(h.log_score for h in combo) for combo in combos[which]])
+            if kind is PhraseKind.MODIFIER:
+                active = table[:, :, model.correspondences.index(Correspondence.ACTIVE)]
+                mixture = active + (scores - np.logaddexp.reduce(scores))[:, None]
+                out[node] = _Placed(trees[which], combos[which], mixture)
+                continue
             meant = [c for c in model.correspondences if c is not Correspondence.INACTIVE]
-            if trees[which].phrase.kind is PhraseKind.NOUN:
+            if kind is PhraseKind.NOUN:
                 meant = [Correspondence.ACTIVE]  # the opposite of an object is no object
             inactive = table[:, :, model.correspondences.index(Correspondence.INACTIVE)]
-            base = inactive.sum(axis=1) + [sum(h.log_score for h in combo) for combo in combos[which]]
-            scores = [base[:, None] + table[:, :, model.correspondences.index(phi)] - inactive for phi in meant]
-            out[node] = _Scored(trees[which], combos[which], meant, np.stack(scores, axis=2))
+            # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
+            base = (np.array([math.fsum(row) for row in inactive]) + scores)[:, None]
+            modifiers = [placed[c] for c in below[which] if c in placed]
+            for modifier in modifiers:
+                base = base + modifier.log_psi
+            log_odds = [base + table[:, :, model.correspondences.index(phi)] - inactive for phi in meant]
+            out[node] = _Scored(trees[which], combos[which], meant, np.stack(log_odds, axis=2), modifiers)
+        # Only a landmark may be a place: what a command is about is an object.
+        for node, of_node in out.items():
+            above = [self.phrases.nodes[up]["tree"].phrase.kind for up in self.phrases.successors(node)]
+            if isinstance(of_node, _Scored) and PhraseKind.MODIFIER not in above:
+                out[node] = replace(of_node, scores=of_node.scores[:, : len(self.world.objects)])
         return out
+
+    def _encode(
+        self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]], features: FeatureSet
+    ) -> NDArray[np.int64]:
+        """(len(combos), groundings, k) bag of a phrase's factors."""
+        kind = GROUNDING_OF[tree.phrase.kind]
+        if kind is GroundingKind.OBJECT:
+            return features.encode_things(self.world, self.layout, ranked=bool(tree.phrase.words))[None]
+        if kind is GroundingKind.PLACED:
+            index = {thing.id: j for j, thing in enumerate(self.world.things)}
+            landmarks = [[index[h.child.grounding.object.id] for h in combo] for combo in combos]
+            return features.encode_placed(self.layout, landmarks)
+        return features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
@@ -187,19 +250,52 @@ class FactorGraph:
         found = []
         for flat in np.argsort(-scored.scores, axis=None, kind="stable")[:beam]:
             c, j, p = np.unravel_index(flat, scored.scores.shape)
-            child = Child(Grounding(kind, self.world.objects[j]), scored.meant[p])
-            found.append(Hypothesis(scored.tree, child, scored.combos[c], float(scored.scores[c, j, p])))
+            thing = self.world.things[j]
+            child = Child(Grounding(kind, thing), scored.meant[p])
+            below = (*scored.combos[c], *(m.hypothesis(int(j), thing) for m in scored.modifiers))
+            found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
         return found
 
 
 @dataclass(frozen=True)
 class _Scored:
-    """log-scores (combos of child hypotheses, objects, correspondences that are not INACTIVE) of a phrase."""
+    """log-scores (combos of child hypotheses, groundings, correspondences that are not INACTIVE) of a phrase."""
 
     tree: ParseTree
     combos: Sequence[tuple[Hypothesis, ...]]
     meant: Sequence[Correspondence]
     scores: NDArray[np.float64]
+    modifiers: Sequence[_Placed] = ()
+
+
+@dataclass(frozen=True)
+class _Placed:
+    """A modifier's factors, for every thing that its noun phrase may mean.
+
+    A modifier describes, it does not pick: many things may stand next to a cube. So of its correspondences only
+    that of the object meant is asserted, and the landmark is summed over:
+
+        Psi(object) = sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark)
+
+    Attributes:
+        mixture: (combos, things) the logarithm of the summands.
+    """
+
+    tree: ParseTree
+    combos: Sequence[tuple[Hypothesis, ...]]
+    mixture: NDArray[np.float64]
+
+    @cached_property
+    def log_psi(self) -> NDArray[np.float64]:
+        """(things,) log Psi(thing)."""
+        total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
+        return total
+
+    def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
+        """That the thing j stands so, to its best landmarks or to those of a given combo."""
+        best = int(self.mixture[:, j].argmax()) if combo is None else combo
+        child = Child(Grounding(GroundingKind.PLACED, thing))
+        return Hypothesis(self.tree, child, self.combos[best], float(self.log_psi[j]))
 
 
 def _levels(phrases: nx.DiGraph) -> list[list[int]]:

@@ -96,7 +96,7 @@ def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
     object that was meant, one of every other known type with the same attributes, INACTIVE. Without these, what is
     known of a word learned in one lesson could not outweigh a matching colour.
     """
-    meant = [o for o, c in zip(example.world.objects, example.correspondences, strict=True) if c is not None and c != 0]
+    meant = [o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0]
     if example.phrase.kind is not PhraseKind.NOUN or len(meant) != 1:
         return example
     named = symbols.get(example.phrase.noun or "")

@@ -7,9 +7,10 @@ Mathematics (eqs. 4, 8 and 9 of the paper, for factor n and correspondence phi)
 
     objective(weight) = - sum_n count[n] * log Psi[n, phi_n]  +  l2 / 2 * |weight|^2
 
-`language` and `grounding` are binary, so a row is stored as the list of its ones. With A the distinct
-language rows and B the distinct grounding rows, all scores are A weight[phi] B', and with R the residual
-(probability minus label, weighted by count) the gradient is A' R[phi] B + l2 weight[phi].
+`language` and `grounding` are binary, so a row is stored as the list of its ones. Identical factors are merged, and
+with A the distinct language rows, scores are sums of entries of A weight[phi]: the phrases' side is multiplied once
+for all groundings. With R the residual (probability minus label, weighted by count), spread over the same entries,
+the gradient is A' R[phi] + l2 weight[phi].
 
 Conventions
     P   correspondences: (INVERTED, INACTIVE, ACTIVE) of eq. 4, or (INACTIVE, ACTIVE) of eqs. 6, 8 and 9
@@ -21,6 +22,7 @@ Conventions
 from __future__ import annotations
 
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -62,7 +64,9 @@ class LogLinearModel:
         old, (languages, groundings) = self.weight, self.weight.shape[1:]
         mask = torch.from_numpy(pairs)
         if not torch.equal(mask[:languages, :groundings], self.pairs):
-            raise ValueError(f"a mask of {pairs.shape} columns does not extend the old one of {(languages, groundings)}")
+            raise ValueError(
+                f"a mask of {pairs.shape} columns does not extend the old one of {(languages, groundings)}"
+            )
         self.pairs = mask
         self.weight = torch.zeros(old.shape[0], *pairs.shape, dtype=torch.float64)
         self.weight[:, :languages, :groundings] = old
@@ -80,6 +84,7 @@ class LogLinearModel:
         """
         # Bags are summed column by column, elementwise: the order of additions, and so every bit of the
         # result, depends on what fires and not on how many columns there are.
+        language, grounding = _distinct(language), _distinct(grounding)
         padded = torch.nn.functional.pad(self.weight, (0, 1, 0, 1))
         of_phrase = _bag_sum(padded, torch.from_numpy(language), dim=1)  # (P, m, G + 1)
         flat = of_phrase.reshape(of_phrase.shape[0], -1)
@@ -87,6 +92,16 @@ class LogLinearModel:
         offset = torch.from_numpy(phrase * (self.weight.shape[2] + 1))[:, None]
         scores = _bag_sum(flat, columns + offset, dim=1)  # (P, n)
         return torch.log_softmax(scores, dim=0).T
+
+
+def _distinct(bag: Bag) -> Bag:
+    """The rows sorted, every column named once: a binary feature that is named twice fires once."""
+    rows = np.sort(bag, axis=1)
+    repeated = rows[:, 1:] == rows[:, :-1]
+    if not repeated[rows[:, 1:] >= 0].any():
+        return rows
+    rows[:, 1:][repeated] = -1
+    return np.sort(rows, axis=1)
 
 
 def _bag_sum(table: torch.Tensor, bag: torch.Tensor, dim: int) -> torch.Tensor:
@@ -106,14 +121,13 @@ class Table:
 
     Attributes:
         language: (A, L) the distinct language rows, dense.
-        grounding: (B, G) the distinct grounding rows, dense.
-        cell: (N,) position of each distinct factor in the A x B grid, flattened.
-        count: (N, P) summed weights of the examples with each label.
+        position: (N, k) where each distinct factor's scores come from: cells of the (A, G + 1) matrix that is
+            `language` times a weight, flattened; the last column is zero and pads.
+        count: (P, N) summed weights of the examples with each label.
     """
 
     language: torch.Tensor
-    grounding: torch.Tensor
-    cell: torch.Tensor
+    position: torch.Tensor
     count: torch.Tensor
 
 
@@ -149,18 +163,13 @@ def tabulate(
         shape: (P, L, G).
     """
     correspondences, languages, groundings = shape
-    a_rows, a_of = np.unique(np.sort(language, axis=1), axis=0, return_inverse=True)
-    b_rows, b_of = np.unique(np.sort(grounding, axis=1), axis=0, return_inverse=True)
-    position = a_of.reshape(-1)[phrase] * len(b_rows) + b_of.reshape(-1)
-    cell, which = np.unique(position, return_inverse=True)
-    count = np.zeros((len(cell), correspondences))
-    np.add.at(count, (which.reshape(-1), label), weight)
-    return Table(
-        language=_dense(a_rows, languages),
-        grounding=_dense(b_rows, groundings),
-        cell=torch.from_numpy(cell),
-        count=torch.from_numpy(count),
-    )
+    a_rows, a_of = np.unique(_distinct(language), axis=0, return_inverse=True)
+    keyed = np.column_stack([a_of.reshape(-1)[phrase], _distinct(grounding)])
+    rows, which = np.unique(keyed, axis=0, return_inverse=True)
+    count = np.zeros((correspondences, len(rows)))
+    np.add.at(count, (label, which.reshape(-1)), weight)
+    position = rows[:, :1] * (groundings + 1) + rows[:, 1:] % (groundings + 1)
+    return Table(_dense(a_rows, languages), torch.from_numpy(position), torch.from_numpy(count))
 
 
 def _dense(bag: Bag, columns: int) -> torch.Tensor:
@@ -171,27 +180,35 @@ def _dense(bag: Bag, columns: int) -> torch.Tensor:
 
 
 def objective(
-    weight: torch.Tensor, table: Table, pairs: torch.Tensor, l2: float
+    weight: torch.Tensor, tables: Sequence[Table], pairs: torch.Tensor, l2: float
 ) -> tuple[torch.Tensor, torch.Tensor]:
-    """The penalised negative log-likelihood and its gradient with respect to `weight` (P, L, G)."""
-    left = table.language @ weight  # (P, A, G)
-    scores = (left @ table.grounding.T).flatten(1)  # (P, A * B)
-    log_psi = torch.log_softmax(scores[:, table.cell], dim=0)  # (P, N)
-    count = table.count.T
-    value = -(count * log_psi).sum() + 0.5 * l2 * weight.square().sum()
-    residual = torch.zeros_like(scores)
-    residual[:, table.cell] = log_psi.exp() * count.sum(0) - count
-    grid = residual.view(len(weight), len(table.language), len(table.grounding))
-    gradient = (table.language.T @ (grid @ table.grounding)) * pairs + l2 * weight
-    return value, gradient
+    """The penalised negative log-likelihood and its gradient with respect to `weight` (P, L, G).
+
+    Args:
+        tables: labelled factors; the objective is the sum over all.
+    """
+    value = 0.5 * l2 * weight.square().sum()
+    gradient = torch.zeros_like(weight)
+    padded = torch.nn.functional.pad(weight, (0, 1))
+    for table in tables:
+        by_phrase = (table.language @ padded).flatten(1)  # (P, A * (G + 1))
+        n, k = table.position.shape
+        flat = table.position.reshape(-1)
+        scores = by_phrase.index_select(1, flat).view(-1, n, k).sum(2)  # (P, N)
+        log_psi = torch.log_softmax(scores, dim=0)
+        value = value - (table.count * log_psi).sum()
+        residual = log_psi.exp() * table.count.sum(0) - table.count
+        spread = torch.zeros_like(by_phrase).index_add_(1, flat, residual.repeat_interleave(k, dim=1))
+        gradient += (table.language.T @ spread.view(len(weight), len(table.language), -1))[:, :, :-1]
+    return value, gradient * pairs + l2 * weight
 
 
 def fit(
     model: LogLinearModel,
-    table: Table,
+    tables: Sequence[Table],
     *,
     l2: float,
-    tolerance: float = 1e-4,
+    tolerance: float = 1e-7,
     max_steps: int = 500,
     history: int = 20,
 ) -> FitResult:
@@ -201,9 +218,9 @@ def fit(
 
     Args:
         model: its `weight` is the start and receives the optimum.
-        table: the labelled factors.
+        tables: the labelled factors.
         l2: strength of the penalty, > 0.
-        tolerance: stop when the gradient's max-norm falls below it.
+        tolerance: stop when the gradient's max-norm, per unit of the examples' weight, falls below it.
         max_steps: L-BFGS iterations at the most.
         history: curvature pairs kept.
 
@@ -213,6 +230,7 @@ def fit(
     if l2 <= 0:
         raise ValueError(f"l2 must be positive, not {l2}: without it the optimum is not unique")
     began = time.perf_counter()
+    tolerance *= max(1.0, sum(float(table.count.sum()) for table in tables))
     weight = model.weight.clone().requires_grad_()
     # A fresh optimiser a fit: torch's keeps curvature in the old shape.
     optimizer = torch.optim.LBFGS(
@@ -227,13 +245,13 @@ def fit(
 
     def closure() -> float:
         with torch.no_grad():
-            value, weight.grad = objective(weight, table, model.pairs, l2)
+            value, weight.grad = objective(weight, tables, model.pairs, l2)
         return float(value)
 
-    optimizer.step(closure)
+    optimizer.step(closure)  # type: ignore[no-untyped-call]
     state = optimizer.state[weight]
     with torch.no_grad():
-        value, gradient = objective(weight, table, model.pairs, l2)
+        value, gradient = objective(weight, tables, model.pairs, l2)
     model.weight = weight.detach()
     norm = float(gradient.abs().max()) if gradient.numel() else 0.0
     steps = int(state["n_iter"])
@@ -243,7 +261,7 @@ def fit(
         gradient=norm,
         steps=steps,
         evaluations=int(state["func_evals"]),
-        rows=len(table.cell),
+        rows=sum(len(table.position) for table in tables),
         status="converged" if norm <= tolerance else "step limit" if limit else "stalled",
         seconds=time.perf_counter() - began,
     )

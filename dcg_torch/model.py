@@ -10,11 +10,23 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dcg_torch.features import GROUNDING_OF, PAPER_GROUPS, FeatureSet, Group
+from dcg_torch import space
+from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
-from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit, tabulate
-from dcg_torch.symbols import Correspondence, Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
+from dcg_torch.loglinear import BINARY, TERNARY, Bag, FitResult, LogLinearModel, Table, fit, tabulate
+from dcg_torch.relational import place_examples, place_symbols, relational
+from dcg_torch.symbols import (
+    Correspondence,
+    Example,
+    GroundingKind,
+    ParseTree,
+    Percept,
+    PhraseKind,
+    Pose,
+    Symbol,
+    WorldModel,
+)
 from dcg_torch.world.upsilon import world_model
 
 
@@ -32,7 +44,7 @@ class Variant:
         beam: hypotheses of a child phrase that its parent considers.
     """
 
-    groups: frozenset[Group] = PAPER_GROUPS
+    groups: frozenset[Group] = PAPER
     unknown: bool = True
     hypothetical: bool = True
     learns: bool = True
@@ -77,6 +89,7 @@ class GroundingModel:
         loglinear: the weights.
         symbols: every known word and its type, in the order of learning.
         examples: T, the training set so far.
+        corpus: further examples, which were labelled over whole worlds: trained on as they are.
         fitted: how the last training went; None for a model that was restored.
     """
 
@@ -87,10 +100,12 @@ class GroundingModel:
         examples: Iterable[Example],
         features: FeatureSet,
         loglinear: LogLinearModel,
+        corpus: Iterable[Example] = (),
     ) -> None:
         self.variant = variant
         self.symbols = {s.word: s for s in symbols}
         self.examples = list(examples)
+        self.corpus = list(corpus)
         self.features = features
         self.loglinear = loglinear
         self.fitted: FitResult | None = None
@@ -100,9 +115,13 @@ class GroundingModel:
         """Lines 1 to 6 of Algorithm 1: a model with its initial groundings and features, trained."""
         variant = variant or Variant()
         examples = _restrict(training.examples, variant)
-        features = FeatureSet.initial(variant.groups, training.symbols, training.colors, examples)
+        words, corpus = list(training.symbols), []
+        if Group.RELATION in variant.groups:
+            words += place_symbols()
+            corpus = place_examples()
+        features = FeatureSet.initial(variant.groups, words, training.colors, [*examples, *corpus])
         loglinear = LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY)
-        model = cls(variant, training.symbols, examples, features, loglinear)
+        model = cls(variant, training.symbols, examples, features, loglinear, corpus)
         model.train()
         return model
 
@@ -143,7 +162,11 @@ class GroundingModel:
 
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11)."""
-        return FactorGraph(_readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
+        return FactorGraph(self.readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
+
+    def readable(self, tree: ParseTree) -> ParseTree:
+        """The phrases of a tree that this variant's features read."""
+        return relational(tree) if Group.RELATION in self.variant.groups else _path(tree)
 
     def learn(self, solution: Solution, scene: Scene | None = None) -> Symbol | None:
         """Add the outcome of a grounding that was acted on to the training set, and retrain (lines 16 to 25).
@@ -168,32 +191,66 @@ class GroundingModel:
         self.train()
         return symbol
 
-    def train(self) -> FitResult:
+    def train(self, *, max_steps: int = 500) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
-        examples = [contrast(e, self.symbols) for e in self.examples]
-        self.fitted = fit(self.loglinear, encode(examples, self.features, self.loglinear), l2=self.variant.l2)
+        examples = [contrast(e, self.symbols) for e in self.examples] + self.corpus
+        self.fitted = fit(self.loglinear, encode(examples, self.features, self.loglinear), l2=self.variant.l2, max_steps=max_steps)
         return self.fitted
 
 
-def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> Table:
-    """The labelled factors of `examples` under the given columns."""
+def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> list[Table]:
+    """The labelled factors of `examples` under the given columns, a table for each kind of phrase."""
+    encoder = _Encoder(features)
+    tables = []
+    for kind in PhraseKind:
+        of_kind = [e for e in examples if e.phrase.kind is kind]
+        if of_kind:
+            tables.append(_tabulate(of_kind, encoder, model))
+    return tables
+
+
+class _Encoder:
+    """Encodes examples; what depends on the world alone is done once for all examples of a world."""
+
+    def __init__(self, features: FeatureSet) -> None:
+        self.features = features
+        self._layouts: dict[int, space.Layout] = {}
+        self._things: dict[tuple[int, bool], Bag] = {}
+
+    def bag(self, example: Example) -> Bag:
+        """(groundings, k) bag of an example's factors."""
+        kind, world = GROUNDING_OF[example.phrase.kind], example.world
+        if kind not in (GroundingKind.OBJECT, GroundingKind.PLACED):
+            return self.features.encode_groundings(kind, world, [example.children])[0]
+        where = self._layouts.get(id(world))
+        if where is None:
+            where = self._layouts[id(world)] = space.layout(world)
+        if kind is GroundingKind.PLACED:
+            index = {thing.id: j for j, thing in enumerate(world.things)}
+            return self.features.encode_placed(where, [[index[c.grounding.object.id] for c in example.children]])[0]
+        key = id(world), bool(example.phrase.words)
+        if key not in self._things:
+            self._things[key] = self.features.encode_things(world, where, ranked=key[1])
+        return self._things[key]
+
+
+def _tabulate(examples: Sequence[Example], encoder: _Encoder, model: LogLinearModel) -> Table:
     bags, phrases, labels, weights = [], [], [], []
     for k, example in enumerate(examples):
-        kind = GROUNDING_OF[example.phrase.kind]
         labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
-        bags.append(features.encode_groundings(kind, example.world, [example.children])[0][labelled])
+        bags.append(encoder.bag(example)[labelled])
         phrases += [k] * len(labelled)
         labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
         own = example.weights or (1.0,) * len(example.correspondences)
         weights += [example.weight * own[j] for j in labelled]
-    width = max((b.shape[1] for b in bags), default=0)
+    width = max(b.shape[1] for b in bags)
     return tabulate(
-        features.encode_phrases([e.phrase for e in examples]),
+        encoder.features.encode_phrases([e.phrase for e in examples]),
         np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in bags]),
         np.array(phrases, dtype=np.int64),
         np.array(labels, dtype=np.int64),
         np.array(weights),
-        (len(model.correspondences), *features.shape),
+        (len(model.correspondences), *encoder.features.shape),
     )
 
 
@@ -215,10 +272,9 @@ def _restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
     return kept
 
 
-def _readable(tree: ParseTree) -> ParseTree:
-    """The path from the root to the object meant: the phrases that this model's features read.
+def _path(tree: ParseTree) -> ParseTree:
+    """The path from the root to the object meant: a tree's first child leads to it.
 
-    A tree's first child leads to the object meant. What modifies a noun phrase, and where a thing is to be put,
-    is beyond the paper's features.
+    What modifies a noun phrase, and where a thing is to be put, is beyond the paper's features.
     """
-    return replace(tree, children=() if tree.phrase.kind is PhraseKind.NOUN else tuple(map(_readable, tree.children[:1])))
+    return replace(tree, children=() if tree.phrase.kind is PhraseKind.NOUN else tuple(map(_path, tree.children[:1])))

@@ -15,7 +15,7 @@ import math
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass, replace
 
-from dcg_torch.features import LOOKED_ROUND, PAPER_GROUPS, FeatureSet, Group
+from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
 from dcg_torch.graph import Solution
 from dcg_torch.loglinear import TERNARY, FitResult, LogLinearModel, fit
 from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
@@ -119,7 +119,7 @@ class OpenWorldModel(GroundingModel):
         """
         assumed = assumed or OpenWorld()
         variant = variant or Variant()
-        variant = replace(variant, groups=variant.groups | PAPER_GROUPS | {Group.OPEN}, ternary=True)
+        variant = replace(variant, groups=variant.groups | PAPER | {Group.OPEN}, ternary=True)
         kept = [e for e in training.examples if not _is_plain_noun(e)]
         features = FeatureSet.initial(variant.groups, training.symbols, training.colors, kept)
         model = cls(
@@ -189,7 +189,7 @@ class OpenWorldModel(GroundingModel):
         now = self.symbols.get(phrase.noun)
         return now if now != before else None
 
-    def train(self) -> FitResult:
+    def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit from the present weights, on the training set and on the posterior."""
         colors = max(1, len(self.color_beliefs.types))
         unseen = Unseen(
@@ -204,10 +204,10 @@ class OpenWorldModel(GroundingModel):
             looked=LOOKED,
             strength=self.assumed.strength,
         )
-        table = encode([*self.examples, *soft], self.features, self.loglinear)
+        tables = encode([*self.examples, *soft], self.features, self.loglinear)
         # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds
-        tolerance = 0.01 * self.assumed.strength
-        self.fitted = fit(self.loglinear, table, l2=self.variant.l2, tolerance=tolerance)
+        tolerance = 0.01 * self.assumed.strength / sum(float(table.count.sum()) for table in tables)
+        self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
         return self.fitted
 
     def lexicon(self) -> list[Entry]:

@@ -24,6 +24,7 @@ class PhraseKind(enum.StrEnum):
     VERB = "verb"
     PREPOSITION = "preposition"
     NOUN = "noun"
+    MODIFIER = "modifier"  # a preposition that describes a noun phrase: "(the cone) behind (the cube)"
 
 
 class GroundingKind(enum.StrEnum):
@@ -32,6 +33,7 @@ class GroundingKind(enum.StrEnum):
     ACTION = "action"  # a verb's constraint on the motion: end near the object, or far from it
     REGION = "region"  # a preposition's: the surroundings of the object
     OBJECT = "object"  # a noun phrase's: the object itself
+    PLACED = "placed"  # a modifier's: the object, as one that stands so to the child's
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,8 @@ class Phrase:
     `words` are the lower-case lemmas that describe a verb or preposition ("go", "not"; "away from" is one
     word of a preposition). A noun phrase has its head in `noun` (singular, "fire hydrant" is one noun, None
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
-    `words` ("big", "second", "leftmost").
+    `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
+    of its meaning ("object of take").
     """
 
     kind: PhraseKind
@@ -51,6 +54,7 @@ class Phrase:
     color: str | None = None
     plural: bool = False
     count: int | None = None
+    context: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,11 +110,20 @@ class Object:
 
 @dataclass(frozen=True, slots=True)
 class WorldModel:
-    """Upsilon, with the poses that "in front of" or "closest to me" are relative to."""
+    """Upsilon, with the poses that "in front of" or "closest to me" are relative to.
+
+    `places` can be spoken of but not be meant: corners, edges, the middle, the robot, the speaker.
+    """
 
     objects: tuple[Object, ...]
     robot: Pose | None = None
     speaker: Pose | None = None
+    places: tuple[Object, ...] = ()
+
+    @property
+    def things(self) -> tuple[Object, ...]:
+        """All that a noun phrase may speak of: the objects, then the places."""
+        return self.objects + self.places
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +156,8 @@ class Symbol:
 class Example:
     """The labelled factors of one phrase in one world: phi_ij for every grounding gamma_ij of lambda_i.
 
-    `correspondences[j]` labels the grounding about `world.objects[j]`; None leaves it unlabelled. `children`
+    `correspondences[j]` labels the grounding about `world.things[j]`; None leaves it unlabelled, and so do labels
+    that end early. `children`
     are the child groundings, about objects of the same world. Symbols are stored, never features:
     `features.FeatureSet` encodes an example anew under whatever is known by then. `weight` scales its
     log-likelihood; `weights`, if given, has a further factor for each grounding, so that a label can be soft: the

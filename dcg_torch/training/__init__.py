@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 from typing import Literal
@@ -21,6 +22,7 @@ from dcg_torch.symbols import (
     Phrase,
     PhraseKind,
     Symbol,
+    WorldModel,
 )
 from dcg_torch.world.upsilon import world_model
 
@@ -84,7 +86,8 @@ def read_training(path: Path) -> TrainingSet:
 
 def _examples(entry: _Entry, known_types: tuple[str, ...]) -> list[Example]:
     """The noun phrase's example, the preposition's if there is one, and the verb's."""
-    world = world_model([_percept(text) for text in entry.see], known_types)
+    seen = world_model([_percept(text) for text in entry.see], known_types)
+    world = WorldModel(tuple(replace(o, position=None) for o in seen.objects))  # a list of what is seen says no places
     found = [o for o in world.objects if o.id == entry.means]
     if len(found) != 1:
         raise ValueError(f"means {entry.means!r}, which is not among {[o.id for o in world.objects]}")

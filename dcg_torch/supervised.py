@@ -1,0 +1,145 @@
+"""Learning from commands whose objects are known: the landmarks that they speak of are not, and are inferred.
+
+Expectation-maximisation over the landmarks. A lesson says which object a command means, not which cube "next to the
+cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier (`graph.landmarks`);
+then examples weighted by it, and one fit of the log-linear model on all of them. The first turn knows no relations
+and spreads over all landmarks that the words allow.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+
+from dcg_torch.graph import FactorGraph, Hypothesis
+from dcg_torch.loglinear import FitResult
+from dcg_torch.model import GroundingModel
+from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
+
+_NEGLIGIBLE = 0.02
+"""Landmarks less probable than this teach nothing."""
+_FAR_NEGATIVE = 0.1
+"""Weight of the objects that the noun phrase rules out already, as negative examples of its modifiers."""
+_STEPS = 300
+"""L-BFGS iterations of the last round."""
+
+
+@dataclass(frozen=True)
+class Lesson:
+    """A command and the ids of the objects it means."""
+
+    tree: ParseTree
+    world: WorldModel
+    targets: frozenset[str]
+
+
+def teach(
+    model: GroundingModel,
+    lessons: Sequence[Lesson],
+    *,
+    known_types: Collection[str] | None = None,
+    rounds: int = 4,
+    beam: int = 12,
+    progress: Callable[[int], None] | None = None,
+) -> FitResult:
+    """Train a model on lessons, which are added to its corpus.
+
+    Args:
+        known_types: types that may become known; None: all that are meant in the lessons.
+        rounds: of expectation and maximisation.
+        beam: landmarks considered for each modifier.
+        progress: called with the number of each round that is done.
+    """
+    prepared = [(lesson, noun) for lesson in lessons if (noun := _noun(model.readable(lesson.tree))) is not None]
+    words, colors = _inventory(prepared, known_types)
+    phrases = [Example(node.phrase, lesson.world, ()) for lesson, noun in prepared for node in noun.walk()]
+    for word in words:
+        model.symbols.setdefault(word.word, word)
+    model.features = model.features.extended(words, colors, phrases)
+    model.loglinear.grow(model.features.pairs)
+    before = list(model.corpus)
+    for number in range(rounds):
+        model.corpus = before + [e for lesson, noun in prepared for e in _expect(model, lesson, noun, beam)]
+        # The weights are only on their way until the landmarks have settled.
+        fitted = model.train(max_steps=_STEPS if number == rounds - 1 else _STEPS // 4)
+        if progress is not None:
+            progress(number)
+    return fitted
+
+
+def _noun(tree: ParseTree) -> ParseTree | None:
+    """The noun phrase of the object meant."""
+    return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+
+
+def _inventory(
+    prepared: Sequence[tuple[Lesson, ParseTree]], known_types: Collection[str] | None
+) -> tuple[list[Symbol], list[str]]:
+    """The symbols that the lessons make known, each noun for the type it means most, and their colours."""
+    meant: dict[str, Counter[str]] = {}
+    colors: dict[str, None] = {}
+    for lesson, noun in prepared:
+        for o in lesson.world.objects:
+            if o.id in lesson.targets and o.type is not None and (known_types is None or o.type in known_types):
+                if noun.phrase.noun is not None:
+                    meant.setdefault(noun.phrase.noun, Counter())[o.type] += 1
+                if o.color is not None:
+                    colors[o.color] = None
+        for node in noun.walk():
+            if node.phrase.color is not None:
+                colors[node.phrase.color] = None
+    return [Symbol(word, types.most_common(1)[0][0]) for word, types in meant.items()], list(colors)
+
+
+def _expect(model: GroundingModel, lesson: Lesson, noun: ParseTree, beam: int) -> list[Example]:
+    """The examples of a lesson, weighted by what the present model takes its landmarks to be."""
+    world = lesson.world
+    meant = [j for j, o in enumerate(world.objects) if o.id in lesson.targets]
+    labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.objects)
+    for j, o in enumerate(world.objects):
+        if noun.children and any(_alike(noun.phrase, o, world.objects[k]) for k in meant):
+            labels[j] = None  # here it is the modifiers that tell them apart
+    for j in meant:
+        labels[j] = Correspondence.ACTIVE
+    examples = [Example(noun.phrase, world, tuple(labels))]
+    if noun.children:
+        graph = FactorGraph(noun, world)
+        for j in meant:
+            for weight, hypothesis in graph.landmarks(j, model.features, model.loglinear, beam=beam):
+                if weight > _NEGLIGIBLE:
+                    examples += _modifier(hypothesis, noun.phrase, world, weight / len(meant), lesson.targets)
+    return examples
+
+
+def _modifier(
+    hypothesis: Hypothesis, head: Phrase, world: WorldModel, weight: float, targets: Collection[str]
+) -> list[Example]:
+    """What a modifier and its landmarks teach: the thing meant stands so, those that the head allows too do not."""
+    meant = hypothesis.child.grounding.object
+    near: list[Correspondence | None] = [None] * len(world.things)
+    far = list(near)
+    for j, thing in enumerate(world.things):
+        if thing.id == meant.id:
+            near[j] = Correspondence.ACTIVE
+        elif thing.id not in targets and j < len(world.objects):
+            (near if _alike(head, thing, meant) else far)[j] = Correspondence.INACTIVE
+    phrase, children = hypothesis.tree.phrase, tuple(h.child for h in hypothesis.children)
+    examples = [
+        Example(phrase, world, tuple(near), children, weight),
+        Example(phrase, world, tuple(far), children, weight * _FAR_NEGATIVE),
+    ]
+    for landmark in hypothesis.children:
+        chosen = landmark.child.grounding.object
+        labels = tuple(
+            Correspondence.ACTIVE if thing.id == chosen.id else Correspondence.INACTIVE for thing in world.things
+        )
+        examples.append(Example(landmark.tree.phrase, world, labels, (), weight))
+        for below in landmark.children:
+            examples += _modifier(below, landmark.tree.phrase, world, weight, ())
+    return examples
+
+
+def _alike(head: Phrase, one: Object, other: Object) -> bool:
+    """Does the head of a noun phrase say the same of both, as far as their types and colours go?"""
+    return (head.noun is None or one.type == other.type) and (head.color is None or one.color == other.color)
