@@ -193,8 +193,8 @@ class OpenWorldModel(GroundingModel):
         """Fit from the present weights, on the training set and on the posterior."""
         colors = max(1, len(self.color_beliefs.types))
         unseen = Unseen(
-            ahead=_rivals(self.census.rate * colors * _UNSEEN),
-            ahead_colored=_rivals(self.census.repeats * _UNSEEN),
+            ahead=_rivals((self.census.rate * (colors - 1) + self.census.repeats) * _UNSEEN) + self.assumed.hidden,
+            ahead_colored=_rivals(self.census.repeats * _UNSEEN) + self.assumed.hidden,
             left=self.assumed.hidden,
         )
         soft = soft_examples(
@@ -209,6 +209,10 @@ class OpenWorldModel(GroundingModel):
         tolerance = 0.01 * self.assumed.strength / sum(float(table.count.sum()) for table in tables)
         self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
         return self.fitted
+
+    def beliefs_of(self, word: str) -> dict[str, float]:
+        """type -> probability that a noun names it."""
+        return self.beliefs.posterior.of(word)
 
     def lexicon(self) -> list[Entry]:
         """Every noun with what it may mean, and from which commands."""

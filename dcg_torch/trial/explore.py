@@ -7,7 +7,7 @@ command is grounded anew with what is seen then, or returns False: what is known
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -85,9 +85,10 @@ class Worth:
 class LookBefore:
     """Look round while more than one thing may be meant; then drive to where unseen ground is.
 
-    A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
+    `meanings` gives type -> probability for a noun. A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
     """
 
+    meanings: Callable[[str], Mapping[str, float]]
     worth: Worth = Worth()
     places: list[Point] = field(default_factory=list)
     _turned: int = 0
@@ -122,7 +123,10 @@ class LookBefore:
         return True
 
     def _worth_turning(self, solution: Solution) -> bool:
-        if meanings_out_of_view(solution, self.worth.least) > self.worth.meanings:
+        noun = None if solution.noun is None else solution.noun.noun
+        if noun is None:
+            return solution.object is not None and solution.object.hypothetical
+        if meanings_out_of_view(solution, self.meanings(noun), self.worth.least) > self.worth.meanings:
             return True
         unsure = self.worth.sure is not None and max_seen(solution) < self.worth.sure
         return unsure and missing(solution) > 0.02
@@ -138,22 +142,17 @@ def max_seen(solution: Solution) -> float:
     return max((solution.probabilities[o.id] for o in solution.world.objects if not o.hypothetical), default=0.0)
 
 
-def meanings_out_of_view(solution: Solution, least: float) -> float:
-    """Share of the belief, over the types the word may name, that types without a fitting object in view have.
+def meanings_out_of_view(solution: Solution, meanings: Mapping[str, float], least: float) -> float:
+    """Share of the belief about a word that is with types of which no fitting object is in view.
 
-    A hypothetical object is worth its type's belief times the number to be expected, so that these compare among
-    themselves as the beliefs do; a type is in view once an object of it is more probable than the unseen one.
+    An object in view fits if it is more probable than an unseen one of its type: a stated colour is its colour.
     """
-    seen: dict[str | None, float] = {}
-    for o in solution.world.objects:
-        if not o.hypothetical:
-            seen[o.type] = max(seen.get(o.type, 0.0), solution.probabilities[o.id])
-    unseen = {o.type: solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical}
-    total = math.fsum(unseen.values())
-    if total <= 0.0:
-        return 0.0
-    shares = {t: p / total for t, p in unseen.items()}
-    return math.fsum(share for t, share in shares.items() if share > least and seen.get(t, 0.0) < unseen[t])
+    probability = solution.probabilities
+    unseen = {o.type: probability[o.id] for o in solution.world.objects if o.hypothetical}
+    in_view = {
+        o.type for o in solution.world.objects if not o.hypothetical and probability[o.id] > unseen.get(o.type, 0.0)
+    }
+    return math.fsum(p for t, p in meanings.items() if p > least and t not in in_view)
 
 
 _CELL = 0.4  # metres
