@@ -2,71 +2,57 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 
 import hydra
+from hydra._internal.utils import get_args_parser
 from hydra.core.hydra_config import HydraConfig
-from hydra.errors import HydraException
+from hydra.types import RunMode
 from omegaconf import DictConfig
-from omegaconf.errors import OmegaConfBaseException
 from rich.console import Console
-from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+from rich.markup import escape
 
-from dcg_torch.config import register, settings_of
-from dcg_torch.records import Iteration
+from dcg_torch.config import CONFIG_ERRORS, explain, register, save_composed, settings_of
+from dcg_torch.console import CommandBar, make_console
 from dcg_torch.resources import resource
-from dcg_torch.settings import Settings, SettingsError
+from dcg_torch.settings import Settings
 
 _STARTED = time.perf_counter()
 
 
-def run_experiment(settings: Settings, directory: Path, console: Console) -> None:
-    """Run what is not finished yet, then write the report.
+def _application(config: DictConfig) -> None:
+    """One experiment, in the folder that Hydra chose."""
+    from dcg_torch.experiment import check_folder, run, user_errors
 
-    Raises:
-        SettingsError, RunFolderError, WorldFileError, SpeakerError, SimulatorError: the user's input is wrong.
-    """
-    from dcg_torch.experiment import run
-
-    console.print(f"[bold]{settings.name}[/bold]: {settings.trials} trials of {settings.iterations} commands, "
-                  f"model {settings.model.name}, in {directory}")
-    with _progress(settings, console) as progress:
-        run(settings, directory, progress)
-    _report(settings, directory, console)
-
-
-class _progress:
-    """A progress bar over commands, with the accuracy so far."""
-
-    def __init__(self, settings: Settings, console: Console) -> None:
-        columns = ("{task.description}", BarColumn(), MofNCompleteColumn())
-        self._bar = Progress(
-            *(TextColumn(c) if isinstance(c, str) else c for c in columns),
-            TextColumn("accuracy {task.fields[accuracy]}"),
-            TimeElapsedColumn(),
-            TimeRemainingColumn(),
-            console=console,
+    directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
+    try:
+        settings = settings_of(config)
+        check_folder(settings, directory)
+        save_composed(config, directory)
+        console.print(
+            f"[bold]{escape(settings.name)}[/bold]: {settings.trials} trials of {settings.iterations} commands, "
+            f"model {escape(settings.model.name)}, in {escape(str(directory))}"
         )
-        self._task = self._bar.add_task("commands", total=settings.trials * settings.iterations, accuracy="-")
-        self._done = self._right = 0
-
-    def __enter__(self) -> Callable[[Sequence[Iteration]], None]:
-        self._bar.start()
-        return self._show
-
-    def __exit__(self, *_: object) -> None:
-        self._bar.stop()
-
-    def _show(self, rows: Sequence[Iteration]) -> None:
-        self._done += len(rows)
-        self._right += sum(row.correct for row in rows)
-        accuracy = f"{100 * self._right / self._done:.1f} %" if self._done else "-"
-        self._bar.update(self._task, completed=self._done, accuracy=accuracy)
+        with CommandBar(settings.trials * settings.iterations, console) as bar:
+            run(settings, directory, bar)
+        _report(settings, directory, console)
+    except CONFIG_ERRORS as error:
+        sys.exit(refuse(explain(error), directory))
+    except KeyboardInterrupt:
+        sweep = HydraConfig.get().mode == RunMode.MULTIRUN
+        where = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
+        print(f"dcg_torch: interrupted; the same command with {where} goes on from here", file=sys.stderr)
+        sys.exit(130)
+    except Exception as error:
+        if not isinstance(error, user_errors()):
+            raise
+        sys.exit(refuse(str(error), directory))
 
 
 def _report(settings: Settings, directory: Path, console: Console) -> None:
@@ -85,6 +71,10 @@ def _report(settings: Settings, directory: Path, console: Console) -> None:
         from dcg_torch.report.figures import save_figures
 
         figures = save_figures(rows, timings, directory / "figures")
+    if settings.screenshots:
+        from dcg_torch.watch.pictures import save_screenshots
+
+        save_screenshots(settings, directory / "screenshots")
     if settings.tensorboard:
         from dcg_torch.report.board import write_board
 
@@ -94,37 +84,44 @@ def _report(settings: Settings, directory: Path, console: Console) -> None:
     tables.print_paper_table(measures, console, seconds)
     tables.print_iterations(measures, console)
     tables.print_errors(measures, console)
-    if figures:
-        console.print(f"figures: {directory / 'figures'}")
-    console.print(f"rows: {directory / 'iterations.jsonl'}   curves: tensorboard --logdir {directory.parent}")
+    shown = escape(str(directory))
+    for pictures in ("figures", "animations", "screenshots"):
+        if (directory / pictures).is_dir():
+            console.print(f"{pictures}: {shown}/{pictures}")
+    console.print(f"rows: {shown}/iterations.jsonl   curves: tensorboard --logdir {escape(str(directory.parent))}")
 
 
-def _application(config: DictConfig) -> None:
-    run_experiment(settings_of(config), Path(HydraConfig.get().runtime.output_dir), Console())
-
-
-def _refuse(message: str) -> int:
+def refuse(message: str, directory: Path | None = None) -> int:
+    """Say what is wrong, in one line; the exit status. A folder that was made for nothing goes away."""
     print(f"dcg_torch: {' '.join(message.split())}", file=sys.stderr)
+    if directory is not None:
+        with contextlib.suppress(OSError):
+            directory.rmdir()  # only if it is empty
     return 2
 
 
-def main() -> int:
-    """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
-    from dcg_torch.experiment import USER_ERRORS
-
+def run_application(application: Callable[[], None]) -> int:
+    """Run a Hydra application; the exit status: 0 done, 2 wrong input, 130 interrupted."""
     os.environ["HYDRA_FULL_ERROR"] = "1"  # errors come here as exceptions, not as Hydra's own printed report
+    # Hydra would answer an option that it doesn't have with ten lines of usage.
+    _, strange = get_args_parser().parse_known_args()
+    if strange:
+        return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
     register()
-    application = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="config")(_application)
     try:
         application()
-    except (HydraException, OmegaConfBaseException) as error:
-        return _refuse(str(error))
-    except USER_ERRORS as error:
-        return _refuse(str(error))
+    except CONFIG_ERRORS as error:
+        return refuse(explain(error))
     except KeyboardInterrupt:
-        print("dcg_torch: interrupted; the same command with the same hydra.run.dir goes on from here", file=sys.stderr)
+        print("dcg_torch: interrupted", file=sys.stderr)
         return 130
     return 0
+
+
+def main() -> int:
+    """Run the command line."""
+    application = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="config")(_application)
+    return run_application(application)
 
 
 if __name__ == "__main__":

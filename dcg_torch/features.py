@@ -42,6 +42,8 @@ from dcg_torch.symbols import (
 
 
 class Group(enum.StrEnum):
+    """The feature groups; the first four are the paper's."""
+
     DCG = "dcg"
     UNKNOWN = "unknown"
     HYPOTHETICAL = "hypothetical"
@@ -160,9 +162,8 @@ class FeatureSet:
         """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
         languages: list[Feature] = [(Group.DCG, f"noun: {symbol.word}")]
         groundings: list[Feature] = [(Group.DCG, f"type: {symbol.type}")]
-        for word in (symbol.color_word, symbol.color):
-            if word is not None:
-                languages.append((Group.COLOR, f"color: {word}"))
+        said = (symbol.color_word, symbol.color)
+        languages += [(Group.COLOR, f"color: {word}") for word in said if word is not None]
         if symbol.color is not None:
             groundings.append((Group.COLOR, f"color: {symbol.color}"))
         return self._with(languages, groundings)
@@ -308,7 +309,9 @@ class FeatureSet:
 
     def grounding_names(self, grounding: Grounding, children: Sequence[Child]) -> list[str]:
         """Names of the grounding features that fire, for explanations."""
-        world = WorldModel(tuple({o.id: o for o in (grounding.object, *(c.grounding.object for c in children))}.values()))
+        world = WorldModel(
+            tuple({o.id: o for o in (grounding.object, *(c.grounding.object for c in children))}.values())
+        )
         names = list(self.grounding)
         row = self.encode_groundings(grounding.kind, world, [children])[0, 0]
         return [names[column] for column in row if column >= 0]
@@ -320,18 +323,15 @@ def _word_features(phrase: Phrase) -> Iterator[Feature]:
     Words of a noun phrase also fire together ("second from the left"), and modifiers and such words together with
     the context: what they compare the object with.
     """
-    if phrase.kind is PhraseKind.NOUN:
-        words = dict.fromkeys((*phrase.words, " ".join(phrase.words))) if phrase.words else ()
-        for word in words:
-            yield Group.RELATION, f"word: {word}"
-    else:
-        words = phrase.words
-        for word in words:
-            yield Group.DCG, f"{phrase.kind}: {word}"
+    is_noun = phrase.kind is PhraseKind.NOUN
+    for word in phrase.words:
+        yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
+    if is_noun and len(phrase.words) > 1:
+        yield Group.RELATION, f"word: {' '.join(phrase.words)}"
     for context in phrase.context:
         yield Group.RELATION, f"context: {context}"
-        if phrase.kind is not PhraseKind.NOUN:
-            for word in words:
+        if not is_noun:
+            for word in phrase.words:
                 yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
 
 

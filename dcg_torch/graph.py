@@ -26,7 +26,17 @@ from numpy.typing import NDArray
 from dcg_torch import space
 from dcg_torch.features import GROUNDING_OF, FeatureSet
 from dcg_torch.loglinear import LogLinearModel
-from dcg_torch.symbols import Child, Correspondence, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.symbols import (
+    Child,
+    Correspondence,
+    Grounding,
+    GroundingKind,
+    Object,
+    ParseTree,
+    Phrase,
+    PhraseKind,
+    WorldModel,
+)
 
 
 @dataclass(frozen=True)
@@ -40,6 +50,11 @@ class Hypothesis:
     child: Child
     children: tuple[Hypothesis, ...]
     log_score: float
+
+    @property
+    def factor_children(self) -> tuple[Child, ...]:
+        """Gamma_c of this phrase's factor: a noun phrase's modifiers have factors of their own instead."""
+        return () if self.child.grounding.kind is GroundingKind.OBJECT else tuple(h.child for h in self.children)
 
     def walk(self) -> list[Hypothesis]:
         """This hypothesis and those below, parents first."""
@@ -65,6 +80,21 @@ class Solution:
     def object(self) -> Object | None:
         """gamma*: the object the command is about."""
         return None if self.best is None else self.best.child.grounding.object
+
+    @property
+    def objects(self) -> tuple[Object, ...]:
+        """What the command is about, if it speaks of several: as many as it counts, or all that are as likely.
+
+        "As likely" is at least half as probable as the best. A phrase in the singular means one.
+        """
+        noun = self.noun
+        if self.object is None or noun is None or (not noun.plural and (noun.count or 1) == 1):
+            return () if self.object is None else (self.object,)
+        ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
+        if noun.count is not None:
+            return tuple(ranked[: noun.count])
+        least = 0.5 * self.probabilities[ranked[0].id]
+        return tuple(o for o in ranked if self.probabilities[o.id] >= least)
 
     @property
     def noun(self) -> Phrase | None:

@@ -20,7 +20,7 @@ def unsupervised_training(solution: Solution) -> list[Example]:
     if solution.best is None:
         return []
     return [
-        labelled(h.tree.phrase, h.child, tuple(c.child for c in h.children), solution.world, unseen_alike=True)
+        labelled(h.tree.phrase, h.child, h.factor_children, solution.world, unseen_alike=True)
         for h in solution.best.walk()
     ]
 
@@ -38,13 +38,17 @@ def labelled(
     def label(o: Object) -> Correspondence | None:
         if o.id == chosen.id:
             return meant.correspondence
+        if phrase.kind is PhraseKind.MODIFIER:
+            return None  # it describes, it does not pick: others may stand so too
         if phrase.kind is PhraseKind.NOUN and (
             described_alike(phrase, o, chosen) or (unseen_alike and o.hypothetical and o.type == chosen.type)
         ):
             return None
         return Correspondence.INACTIVE
 
-    return Example(phrase, world, tuple(label(o) for o in world.objects), children)
+    return Example(
+        phrase, world, tuple(label(o) for o in (world.objects if chosen in world.objects else world.things)), children
+    )
 
 
 def described_alike(phrase: Phrase, one: Object, other: Object) -> bool:
@@ -56,13 +60,22 @@ def described_alike(phrase: Phrase, one: Object, other: Object) -> bool:
     return same_kind and (phrase.color is None or one.color == other.color)
 
 
-def new_symbol(solution: Solution, features: FeatureSet) -> Symbol | None:
-    """gamma': the symbol to learn, if an unknown noun met a perceived object of unknown type (lines 17 and 18)."""
+def new_symbol(solution: Solution, features: FeatureSet, *, synonyms: float | None = None) -> Symbol | None:
+    """gamma': the symbol to learn, if an unknown noun met a perceived object of unknown type (lines 17 and 18).
+
+    Args:
+        synonyms: beyond the paper, an unknown noun may also become another word for a known type: where nothing of
+            unknown type is in the world, and the grounding has at least this probability.
+    """
     obj, noun = solution.object, solution.noun
-    if obj is None or obj.hypothetical or obj.known or obj.type is None:
+    if obj is None or obj.hypothetical or obj.type is None:
         return None
     if noun is None or noun.noun is None or features.knows_noun(noun.noun):
         return None
+    if obj.known:
+        strange = any(not o.known for o in solution.world.objects)
+        if synonyms is None or strange or (solution.probability or 0.0) < synonyms:
+            return None
     return Symbol(noun.noun, obj.type, obj.color, noun.color)
 
 
@@ -72,21 +85,31 @@ def replace_unknown(examples: Iterable[Example], known_types: Collection[str]) -
     An example recorded while a type was unknown changes its meaning when the type is learned: positives and
     negatives alike. Examples that mention no such object are returned as they are.
     """
-    return [_relabel(e, known_types) for e in examples]
+    renewed: dict[int, WorldModel] = {}  # examples of one world go on sharing it
+    return [_relabel(e, known_types, renewed) for e in examples]
 
 
-def _relabel(example: Example, known_types: Collection[str]) -> Example:
+def _relabel(example: Example, known_types: Collection[str], renewed: dict[int, WorldModel]) -> Example:
     def renew(o: Object) -> Object:
         known = o.type in known_types
         return o if o.known == known else replace(o, known=known)
 
-    objects = tuple(renew(o) for o in example.world.objects)
-    if all(new is old for new, old in zip(objects, example.world.objects, strict=True)):
+    old = example.world
+    if id(old) not in renewed:
+        objects = tuple(renew(o) for o in old.objects)
+        same = all(new is was for new, was in zip(objects, old.objects, strict=True))
+        renewed[id(old)] = old if same else replace(old, objects=objects)
+    world = renewed[id(old)]
+    if world is old:
         return example
+    places = {o.id for o in old.places}  # these are known from the start
     children = tuple(
-        replace(c, grounding=replace(c.grounding, object=renew(c.grounding.object))) for c in example.children
+        c
+        if c.grounding.object.id in places
+        else replace(c, grounding=replace(c.grounding, object=renew(c.grounding.object)))
+        for c in example.children
     )
-    return replace(example, world=replace(example.world, objects=objects), children=children)
+    return replace(example, world=world, children=children)
 
 
 def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
@@ -96,7 +119,9 @@ def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
     object that was meant, one of every other known type with the same attributes, INACTIVE. Without these, what is
     known of a word learned in one lesson could not outweigh a matching colour.
     """
-    meant = [o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0]
+    meant = [
+        o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0
+    ]
     if example.phrase.kind is not PhraseKind.NOUN or len(meant) != 1:
         return example
     named = symbols.get(example.phrase.noun or "")

@@ -194,7 +194,7 @@ def objective(
         by_phrase = (table.language @ padded).flatten(1)  # (P, A * (G + 1))
         n, k = table.position.shape
         flat = table.position.reshape(-1)
-        scores = by_phrase.index_select(1, flat).view(-1, n, k).sum(2)  # (P, N)
+        scores = by_phrase.index_select(1, flat).view(len(weight), n, k).sum(2)  # (P, N)
         log_psi = torch.log_softmax(scores, dim=0)
         value = value - (table.count * log_psi).sum()
         residual = log_psi.exp() * table.count.sum(0) - table.count

@@ -9,6 +9,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch import space
 from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group
@@ -42,6 +43,7 @@ class Variant:
         ternary: correspondences of eq. 4 (with INVERTED) rather than of eqs. 6, 8 and 9.
         l2: strength of the penalty on the weights.
         beam: hypotheses of a child phrase that its parent considers.
+        synonyms: see `learning.new_symbol`; None in the paper, which has one word per type.
     """
 
     groups: frozenset[Group] = PAPER
@@ -51,6 +53,7 @@ class Variant:
     ternary: bool = True
     l2: float = 0.05
     beam: int = 8
+    synonyms: float | None = None
 
 
 @dataclass(frozen=True)
@@ -89,7 +92,6 @@ class GroundingModel:
         loglinear: the weights.
         symbols: every known word and its type, in the order of learning.
         examples: T, the training set so far.
-        corpus: further examples, which were labelled over whole worlds: trained on as they are.
         fitted: how the last training went; None for a model that was restored.
     """
 
@@ -105,10 +107,11 @@ class GroundingModel:
         self.variant = variant
         self.symbols = {s.word: s for s in symbols}
         self.examples = list(examples)
-        self.corpus = list(corpus)
+        self._corpus = list(corpus)
         self.features = features
         self.loglinear = loglinear
         self.fitted: FitResult | None = None
+        self._corpus_tables: tuple[FeatureSet, list[Table]] | None = None
 
     @classmethod
     def trained(cls, training: TrainingSet, variant: Variant | None = None) -> GroundingModel:
@@ -124,6 +127,15 @@ class GroundingModel:
         model = cls(variant, training.symbols, examples, features, loglinear, corpus)
         model.train()
         return model
+
+    @property
+    def corpus(self) -> list[Example]:
+        """Examples that were labelled over whole worlds: trained on as they are."""
+        return self._corpus
+
+    @corpus.setter
+    def corpus(self, examples: Iterable[Example]) -> None:
+        self._corpus, self._corpus_tables = list(examples), None
 
     @property
     def known_types(self) -> tuple[str, ...]:
@@ -168,7 +180,7 @@ class GroundingModel:
         """The phrases of a tree that this variant's features read."""
         return relational(tree) if Group.RELATION in self.variant.groups else _path(tree)
 
-    def learn(self, solution: Solution, scene: Scene | None = None) -> Symbol | None:
+    def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Add the outcome of a grounding that was acted on to the training set, and retrain (lines 16 to 25).
 
         Args:
@@ -180,21 +192,28 @@ class GroundingModel:
         if not self.variant.learns:
             return None
         examples = unsupervised_training(solution)
-        symbol = new_symbol(solution, self.features) if Group.UNKNOWN in self.variant.groups else None
+        symbol = (
+            new_symbol(solution, self.features, synonyms=self.variant.synonyms)
+            if Group.UNKNOWN in self.variant.groups
+            else None
+        )
         if symbol is not None:
             self.symbols[symbol.word] = symbol
             self.features = self.features.grow(symbol)
             self.loglinear.grow(self.features.pairs)
             self.examples = replace_unknown(self.examples, self.known_types)
+            self.corpus = replace_unknown(self.corpus, self.known_types)
             examples = replace_unknown(examples, self.known_types)
         self.examples += examples
-        self.train()
+        self.train(max_steps=max_steps)
         return symbol
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
-        examples = [contrast(e, self.symbols) for e in self.examples] + self.corpus
-        self.fitted = fit(self.loglinear, encode(examples, self.features, self.loglinear), l2=self.variant.l2, max_steps=max_steps)
+        tables = encode([contrast(e, self.symbols) for e in self.examples], self.features, self.loglinear)
+        if self._corpus_tables is None or self._corpus_tables[0] is not self.features:
+            self._corpus_tables = self.features, encode(self.corpus, self.features, self.loglinear)
+        self.fitted = fit(self.loglinear, [*tables, *self._corpus_tables[1]], l2=self.variant.l2, max_steps=max_steps)
         return self.fitted
 
 
@@ -209,6 +228,11 @@ def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearMo
     return tables
 
 
+def example_bag(example: Example, features: FeatureSet) -> Bag:
+    """(groundings, k) bag of the grounding columns that fire for every grounding of an example's phrase."""
+    return _Encoder(features).bag(example)
+
+
 class _Encoder:
     """Encodes examples; what depends on the world alone is done once for all examples of a world."""
 
@@ -220,17 +244,26 @@ class _Encoder:
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of an example's factors."""
         kind, world = GROUNDING_OF[example.phrase.kind], example.world
-        if kind not in (GroundingKind.OBJECT, GroundingKind.PLACED):
-            return self.features.encode_groundings(kind, world, [example.children])[0]
-        where = self._layouts.get(id(world))
-        if where is None:
-            where = self._layouts[id(world)] = space.layout(world)
+        if kind is GroundingKind.OBJECT:
+            return self._of_things(world, ranked=bool(example.phrase.words))
+        hypotheses: NDArray[np.int64]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
-            return self.features.encode_placed(where, [[index[c.grounding.object.id] for c in example.children]])[0]
-        key = id(world), bool(example.phrase.words)
+            landmarks = [index[c.grounding.object.id] for c in example.children]
+            hypotheses = self.features.encode_placed(self._layout(world), [landmarks])
+        else:
+            hypotheses = self.features.encode_groundings(kind, world, [example.children])
+        return hypotheses.reshape(hypotheses.shape[1:])
+
+    def _layout(self, world: WorldModel) -> space.Layout:
+        if id(world) not in self._layouts:
+            self._layouts[id(world)] = space.layout(world)
+        return self._layouts[id(world)]
+
+    def _of_things(self, world: WorldModel, *, ranked: bool) -> Bag:
+        key = id(world), ranked
         if key not in self._things:
-            self._things[key] = self.features.encode_things(world, where, ranked=key[1])
+            self._things[key] = self.features.encode_things(world, self._layout(world), ranked=ranked)
         return self._things[key]
 
 

@@ -17,6 +17,8 @@ class _Record(BaseModel):
 
 
 class PoseRecord(_Record):
+    """A pose in the world: metres and radians."""
+
     x: float
     y: float
     yaw: float

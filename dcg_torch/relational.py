@@ -31,7 +31,13 @@ _PLACE_WORDS = {
     "speaker": ("speaker", None),
 }
 _SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
-_SIDE_WORDS |= {"bottom": "near side", "near": "near side", "front": "near side", "upper": "far side", "lower": "near side"}
+_SIDE_WORDS |= {
+    "bottom": "near side",
+    "near": "near side",
+    "front": "near side",
+    "upper": "far side",
+    "lower": "near side",
+}
 _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
 

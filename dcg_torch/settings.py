@@ -11,22 +11,30 @@ class SettingsError(ValueError):
 
 
 class Speaker(enum.StrEnum):
+    """Who gives the commands; see `dcg_torch.speaker`."""
+
     canonical = "canonical"
     written = "written"
     human = "human"
 
 
 class Asking(enum.StrEnum):
+    """When the robot asks back."""
+
     never = "never"
     when_unsure = "when_unsure"
 
 
 class RobotKind(enum.StrEnum):
+    """What carries the commands out: a robot in physics, or one of pure geometry."""
+
     pybullet = "pybullet"
     fake = "fake"
 
 
 class Order(enum.StrEnum):
+    """How a trial's commands are taken from those of its worlds."""
+
     drawn = "drawn"
     file = "file"
 
@@ -43,6 +51,7 @@ class ModelSettings:
     ternary: bool = True
     l2: float = 0.05
     beam: int = 8
+    synonyms: float | None = None
 
 
 @dataclass
@@ -102,6 +111,27 @@ class Settings:
     screenshots: bool = False
 
 
+@dataclass
+class EvaluateSettings:
+    """Training on one episode file and grounding another.
+
+    Attributes:
+        train, test: the files (JSON lines).
+        known_types: leave the training rows about other types out; null: keep all.
+        learn: learn after each test command, in file order, without seeing its target.
+        explain: id of a test episode whose grounding is to be explained.
+        rounds: of expectation-maximisation over the landmarks.
+    """
+
+    train: str = "???"  # Hydra's mark of what must be given
+    test: str = "???"
+    model: ModelSettings = field(default_factory=ModelSettings)
+    known_types: list[str] | None = None
+    learn: bool = False
+    explain: str | None = None
+    rounds: int = 4
+
+
 def check(settings: Settings) -> None:
     """See that the values make sense together.
 
@@ -110,17 +140,17 @@ def check(settings: Settings) -> None:
     """
     positive = {"trials": settings.trials, "iterations": settings.iterations, "model.beam": settings.model.beam}
     positive |= {"worlds_per_trial": settings.worlds_per_trial, "simulator.min_pixels": settings.simulator.min_pixels}
-    for name, value in positive.items():
-        if value < 1:
-            raise SettingsError(f"{name}={value}: give a number of at least 1")
+    for name, number in positive.items():
+        if number < 1:
+            raise SettingsError(f"{name}={number}: give a number of at least 1")
     if settings.seed < 0 or settings.workers < 0:
         name = "seed" if settings.seed < 0 else "workers"
         raise SettingsError(f"{name}={getattr(settings, name)}: give a number of at least 0")
     shares = {"color_rate": settings.color_rate}
     shares |= {f"simulator.{name}": getattr(settings.simulator, name) for name in ("wrong_class", "missed")}
-    for name, value in shares.items():
-        if not 0.0 <= value <= 1.0:
-            raise SettingsError(f"{name}={value}: a share lies between 0 and 1")
+    for name, share in shares.items():
+        if not 0.0 <= share <= 1.0:
+            raise SettingsError(f"{name}={share}: a share lies between 0 and 1")
     if not settings.model.l2 > 0.0:
         raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
     if not 0.0 < abs(settings.simulator.spin_step) <= 57.0:
@@ -130,5 +160,8 @@ def check(settings: Settings) -> None:
     wrong = [trial for trial in settings.animate if not 0 <= trial < settings.trials]
     if wrong:
         raise SettingsError(f"animate={settings.animate}: trials go from 0 to {settings.trials - 1}")
+    for name, asked in (("simulator.gui", settings.simulator.gui), ("animate", settings.animate)):
+        if asked and settings.simulator.kind is RobotKind.fake:
+            raise SettingsError(f"{name}={asked}: the fake robot has nothing to show; take simulator=pybullet")
     if settings.asking is Asking.when_unsure:
         raise SettingsError("asking=when_unsure: the paper's models ask nothing; take asking=never")

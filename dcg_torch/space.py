@@ -47,7 +47,9 @@ def _names() -> dict[str, list[str]]:
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in ("side", "side seen")}
     for order in ("closest", "farthest"):
-        families |= {f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)] for which in SETS}
+        families |= {
+            f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)] for which in SETS
+        }
     families |= {"between": ["between", "not between"], "line": ["in line across", "in line along"]}
     return families
 
@@ -112,7 +114,8 @@ def seen_from(robot: Pose, points: Floats) -> Floats:
     """Points (n, 2) in the robot's frame."""
     c, s = math.cos(robot.yaw), math.sin(robot.yaw)
     moved = points - np.array([robot.x, robot.y])
-    return moved @ np.array([[c, -s], [s, c]])
+    seen: Floats = moved @ np.array([[c, -s], [s, c]])
+    return seen
 
 
 def states(things: Sequence[Object], where: Layout) -> list[list[str]]:
@@ -120,20 +123,21 @@ def states(things: Sequence[Object], where: Layout) -> list[list[str]]:
     position = where.position
     with np.errstate(invalid="ignore"):
         apart = np.hypot(*(position[:, None, :2] - position[None, :, :2]).transpose(2, 0, 1))
-        near = (apart < NEXT) & ~where.place[None, :] & ~np.eye(len(things), dtype=np.bool_)
-        column = (apart < SAME_SPOT) & ~where.place[None, :] & ~np.eye(len(things), dtype=np.bool_)
-    covered, raised = where.over.any(axis=0), where.over.any(axis=1)
-    lonely, stacked = ~near.any(axis=1), column.any(axis=1)
+        other = ~where.place[None, :] & ~np.eye(len(things), dtype=np.bool_)
+        column = other & (apart < SAME_SPOT)
+        beside = other & (apart < NEXT)
+    above, below = where.over.sum(axis=0), where.over.sum(axis=1)
+    neighbours, stack = beside.sum(axis=1), column.sum(axis=1)
     out = []
     for j, thing in enumerate(things):
         names = [f"state: {a}" for a in sorted(thing.attributes)]
         if thing.position is not None and not where.place[j]:
             names += [
-                "state: covered" if covered[j] else "state: clear",
-                "state: on something" if raised[j] else "state: on the floor",
-                "state: alone" if lonely[j] else "state: in a stack" if stacked[j] else "state: beside something",
+                "state: covered" if above[j] else "state: clear",
+                "state: on something" if below[j] else "state: on the floor",
+                "state: alone" if not neighbours[j] else "state: in a stack" if stack[j] else "state: beside something",
             ]
-            colors = {things[k].color for k in np.flatnonzero(column[j])} - {None}
+            colors = {thing.color for thing, over in zip(things, column[j], strict=True) if over} - {None}
             names += [f"stack color: {color}" for color in sorted(map(str, colors))]
         out.append(names)
     return out
@@ -215,7 +219,14 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> dict[str, In
 def _vertical(distance: Floats, up: Floats) -> Ints:
     same = distance < SAME_SPOT
     return np.select(
-        [same & (up > ONE_LEVEL), same & (up > 0.01), same & (up < -ONE_LEVEL), same & (up < -0.01), up > 0.01, up < -0.01],
+        [
+            same & (up > ONE_LEVEL),
+            same & (up > 0.01),
+            same & (up < -ONE_LEVEL),
+            same & (up < -0.01),
+            up > 0.01,
+            up < -0.01,
+        ],
         [VERTICAL.index(name) for name in ("higher over", "on top", "lower under", "right under", "above", "below")],
         VERTICAL.index("level"),
     )
@@ -246,7 +257,9 @@ def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
     return out
 
 
-def places(bounds: tuple[float, float, float, float] | None, robot: Pose | None, speaker: Pose | None) -> tuple[Object, ...]:
+def places(
+    bounds: tuple[float, float, float, float] | None, robot: Pose | None, speaker: Pose | None
+) -> tuple[Object, ...]:
     """The places that can be spoken of.
 
     Args:

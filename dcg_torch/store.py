@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import json
 import os
 from pathlib import Path
 
+import torch
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
@@ -30,6 +32,7 @@ class _Description:
     grounding: tuple[str, ...]
     symbols: tuple[Symbol, ...]
     examples: tuple[Example, ...]
+    corpus: tuple[Example, ...] = ()
 
 
 _ADAPTER = TypeAdapter(_Description)
@@ -45,10 +48,12 @@ def save(model: GroundingModel, directory: Path) -> None:
         tuple(model.features.grounding),
         tuple(model.symbols.values()),
         tuple(model.examples),
+        tuple(model.corpus),
     )
     weights, text = directory / WEIGHTS, directory / DESCRIPTION
     save_file({"weight": model.loglinear.weight.contiguous()}, f"{weights}.part")
-    Path(f"{text}.part").write_bytes(_ADAPTER.dump_json(description))
+    # Sets in their order of names, so that the same model gives the same bytes.
+    Path(f"{text}.part").write_text(json.dumps(_ADAPTER.dump_python(description), default=sorted), encoding="utf-8")
     os.replace(f"{weights}.part", weights)
     os.replace(f"{text}.part", text)
 
@@ -59,11 +64,12 @@ def load(directory: Path) -> GroundingModel:
     Raises:
         StoreError: a file is missing, broken, or does not fit the other.
     """
+    for name in (DESCRIPTION, WEIGHTS):
+        if not (directory / name).is_file():
+            raise StoreError(f"{directory / name}: no saved model here; save one with dcg_torch.save")
     try:
         described = _ADAPTER.validate_json((directory / DESCRIPTION).read_bytes())
         weight = load_file(directory / WEIGHTS)["weight"]
-    except FileNotFoundError as error:
-        raise StoreError(f"{error.filename or directory}: no saved model here; save one with dcg_torch.save") from None
     except (ValidationError, SafetensorError, KeyError) as error:
         raise StoreError(f"{directory}: not a saved model: {' '.join(str(error).split())[:200]}") from None
     features = FeatureSet(
@@ -71,9 +77,20 @@ def load(directory: Path) -> GroundingModel:
         {name: k for k, name in enumerate(described.language)},
         {name: k for k, name in enumerate(described.grounding)},
     )
-    expected = (len(described.correspondences), *features.shape)
-    if tuple(weight.shape) != expected:
-        raise StoreError(f"{directory}: weights of shape {tuple(weight.shape)} for columns of {expected}")
-    loglinear = LogLinearModel(features.pairs, described.correspondences)
+    expected = (len(described.correspondences), len(described.language), len(described.grounding))
+    if tuple(weight.shape) != expected or weight.dtype != torch.float64:
+        raise StoreError(
+            f"{directory}: weights of {weight.dtype} and shape {tuple(weight.shape)}, not float64 and {expected}; "
+            f"{WEIGHTS} and {DESCRIPTION} are not of one model"
+        )
+    if features.shape != expected[1:]:
+        raise StoreError(f"{directory}: {DESCRIPTION} names a feature twice")
+    try:
+        pairs = features.pairs
+    except KeyError as error:
+        raise StoreError(f"{directory}: {DESCRIPTION} names features that do not exist: {error}") from None
+    loglinear = LogLinearModel(pairs, described.correspondences)
     loglinear.weight = weight
-    return GroundingModel(described.variant, described.symbols, described.examples, features, loglinear)
+    return GroundingModel(
+        described.variant, described.symbols, described.examples, features, loglinear, described.corpus
+    )

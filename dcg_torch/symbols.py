@@ -21,6 +21,8 @@ class Correspondence(enum.IntEnum):
 
 
 class PhraseKind(enum.StrEnum):
+    """What a phrase is, by its head."""
+
     VERB = "verb"
     PREPOSITION = "preposition"
     NOUN = "noun"
@@ -73,6 +75,8 @@ class ParseTree:
 
 @dataclass(frozen=True, slots=True)
 class Pose:
+    """Where on the floor, and the heading: metres, radians."""
+
     x: float
     y: float
     yaw: float = 0.0

@@ -1,5 +1,6 @@
 """The simulated robot in PyBullet: bodies, camera to percepts, turn, drive. The only room that imports pybullet."""
 
+from dcg_torch.simulator import quiet  # noqa: F401  (before all that import pybullet)
 from dcg_torch.simulator.base import add_robot
 from dcg_torch.simulator.camera import Camera, Recogniser
 from dcg_torch.simulator.client import Client, SimulatorError

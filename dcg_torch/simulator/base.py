@@ -108,9 +108,12 @@ class Base:
             self.on_tick(now)
 
 
-def turn_towards(error: float) -> float:
-    """The turning speed (rad/s) at which an angle `error` (radians) can still be stopped at."""
-    size = min(MAX_TURN, math.sqrt(1.4 * _TURN_ACCELERATION * abs(error)), 3.0 * abs(error))
+def turn_towards(error: float, gain: float = 3.0) -> float:
+    """The turning speed (rad/s) at which an angle `error` (radians) can still be stopped at.
+
+    The last of the way is slowed down in proportion, by `gain` (1/s): gentle while driving, brisk in place.
+    """
+    size = min(MAX_TURN, math.sqrt(1.4 * _TURN_ACCELERATION * abs(error)), gain * abs(error))
     return math.copysign(size, error)
 
 

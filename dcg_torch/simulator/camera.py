@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from dcg_torch.simulator.client import Client
 from dcg_torch.symbols import Percept, Pose
 
-_NEAR, _FAR = 0.02, 30.0  # metres
+NEAR, FAR = 0.02, 30.0
+"""Metres between which the camera shows anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,24 +40,29 @@ class Camera:
 
     def pixels(self, client: Client, pose: Pose) -> dict[int, int]:
         """Body number -> count of its visible pixels, seen by a robot at `pose`."""
-        eye, towards = self._view(pose)
+        eye, towards = self._looking(pose)
         with client.hidden_floor():
-            _, mask = _render(client, eye, towards, self.width, self.rows, self._vertical(self.width, self.rows))
+            _, mask = _render(client, eye, towards, self.width, self.rows, self.vertical(self.width, self.rows))
         bodies, counts = np.unique(mask, return_counts=True)
         return {int(body): int(count) for body, count in zip(bodies, counts, strict=True) if body >= 0}
 
     def picture(self, client: Client, pose: Pose, *, width: int = 320, height: int = 180) -> NDArray[np.uint8]:
         """What a robot at `pose` sees, as (height, width, 3) bytes, the same angle across at any size."""
-        eye, towards = self._view(pose)
-        return _render(client, eye, towards, width, height, self._vertical(width, height))[0]
+        eye, towards = self._looking(pose)
+        return _render(client, eye, towards, width, height, self.vertical(width, height))[0]
 
-    def _view(self, pose: Pose) -> tuple[_Point, _Point]:
+    def eye(self, pose: Pose) -> _Point:
+        """Where the lens of a robot at `pose` is."""
         ahead, left = math.cos(pose.yaw), math.sin(pose.yaw)
-        eye = (pose.x + self.forward * ahead, pose.y + self.forward * left, self.height)
-        return eye, (eye[0] + ahead, eye[1] + left, self.height)
+        return (pose.x + self.forward * ahead, pose.y + self.forward * left, self.height)
 
-    def _vertical(self, width: int, height: int) -> float:
-        """The vertical field of view in radians that goes with square pixels."""
+    def _looking(self, pose: Pose) -> tuple[_Point, _Point]:
+        """The lens, and a point straight ahead of it."""
+        eye = self.eye(pose)
+        return eye, (eye[0] + math.cos(pose.yaw), eye[1] + math.sin(pose.yaw), self.height)
+
+    def vertical(self, width: int, height: int) -> float:
+        """The vertical field of view in radians that goes with square pixels in a picture of this size."""
         return 2.0 * math.atan(math.tan(self.field_of_view / 2.0) * height / width)
 
 
@@ -92,7 +98,7 @@ def _render(
         width,
         height,
         pybullet.computeViewMatrix(eye, towards, up),
-        pybullet.computeProjectionMatrixFOV(math.degrees(vertical), width / height, _NEAR, _FAR),
+        pybullet.computeProjectionMatrixFOV(math.degrees(vertical), width / height, NEAR, FAR),
         lightDirection=[2.0, -3.0, 6.0],
         lightAmbientCoeff=0.55,
         lightDiffuseCoeff=0.5,

@@ -39,7 +39,7 @@ class Client:
 
     def __init__(self, *, gui: bool = False, pace: float = 3.0) -> None:
         if gui:
-            _require_display()
+            require_display()
         self.gui = gui
         self._pace = pace
         self.id: int = pybullet.connect(pybullet.GUI if gui else pybullet.DIRECT)
@@ -127,8 +127,12 @@ class Client:
         return {contact[2] for contact in contacts} - {self.floor, body}
 
 
-def _require_display() -> None:
-    """PyBullet ends the whole process where it can't open its window, so look before it tries."""
+def require_display() -> None:
+    """See that there is a screen: PyBullet ends the whole process where it can't open its window.
+
+    Raises:
+        SimulatorError: there is none.
+    """
     if not sys.platform.startswith("linux"):
         return
     advice = "run with simulator.gui=false, or on a machine with a screen (or under xvfb-run)"

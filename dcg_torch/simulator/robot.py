@@ -29,6 +29,7 @@ _MARGINS = (0.08, 0.03)  # metres between robot and objects; the second where th
 _BERTHS = (1.05, 0.85, 0.70)  # metres from the middle of what is to be avoided, the widest possible first
 _LOOK_SECONDS, _LOOK_ANGLE = 0.4, 0.35  # while driving, look this often (simulated seconds; radians turned)
 _LOOKAHEAD = 0.25  # metres along the path, where the robot steers to
+_SPIN_GAIN = 7.0  # 1/s, see `turn_towards`
 _FACING = 0.5  # radians off course, beyond which it turns without driving on
 _UNKNOWN_RADIUS = 0.22  # metres, for a percept that says no size
 
@@ -184,7 +185,7 @@ class SimulatedRobot:
         goal = base.heading + angle
         deadline = base.seconds + 5.0 + abs(angle)
         while (abs(goal - base.heading) > 0.004 or abs(base.turn) > 0.05) and base.seconds < deadline:
-            base.tick(0.0, turn_towards(goal - base.heading))
+            base.tick(0.0, turn_towards(goal - base.heading, _SPIN_GAIN))
         base.halt()
 
     def drive_to(self, target: str, percepts: list[Percept], *, avoid: frozenset[str] = frozenset()) -> bool:

@@ -6,35 +6,24 @@ highlighted object has a ring on the floor, an outline and an arrow above it, an
 
 from __future__ import annotations
 
-import contextlib
 import itertools
 import math
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
 
 import numpy as np
-import pybullet
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFilter
 
-from dcg_torch.simulator.bodies import Model, Part, add_model, add_object, extent, footprint
-from dcg_torch.simulator.bodies.meshes import Mesh, merged
-from dcg_torch.symbols import Pose
+from dcg_torch.simulator.bodies import extent, footprint
+from dcg_torch.simulator.stage import AddRobot, Stage
+from dcg_torch.simulator.view import Pixels, View, circle, direction
 from dcg_torch.world.files import World, WorldObject
 
-Pixels = NDArray[np.uint8]
-AddRobot = Callable[[int, Pose], int]
-
-_ROBOT: Final = Path(__file__).parent / "models" / "robot.urdf"
 HIGHLIGHT: Final = (255, 196, 0)
 _RIM: Final = (60, 40, 0)  # a dark edge that keeps the highlight visible on a light floor
-_HAZE: Final = (225, 225, 220)  # where the floor ends
 _OVERSAMPLING: Final = 2
 _ELEVATION: Final = math.radians(36.0)
-_FIELD_OF_VIEW: Final = math.radians(18.0)  # vertical; narrow, so that upright things stay upright at the edges
-_NEAREST: Final = 8.0  # m, of the camera to the nearest object
 
 
 def world_screenshot(
@@ -51,8 +40,8 @@ def world_screenshot(
     Raises:
         ValueError: `highlight` is no object of this world, or one of its types has no body.
     """
-    with _rendered(world, size, add_robot) as scene:
-        return scene.picture(highlight)
+    with Stage(world, add_robot) as stage:
+        return _Scene(stage, size).picture(highlight)
 
 
 def save_pair_screenshots(
@@ -62,7 +51,8 @@ def save_pair_screenshots(
     directory.mkdir(parents=True, exist_ok=True)
     paths = []
     for world in worlds:
-        with _rendered(world, size, add_robot) as scene:
+        with Stage(world, add_robot) as stage:
+            scene = _Scene(stage, size)
             for item in world.objects:
                 path = directory / f"{world.name}-{item.id}.png"
                 Image.fromarray(scene.picture(item.id)).save(path)
@@ -70,112 +60,36 @@ def save_pair_screenshots(
     return paths
 
 
-@dataclass(frozen=True, slots=True)
-class _View:
-    """A camera at `eye` that looks along `forward`; `size` (width, height) in pixels, `fov` vertical in radians."""
+def close_up(type: str, color: str, side: int = 220) -> Pixels:
+    """One object by itself, uint8 of shape (side, side, 3).
 
-    eye: np.ndarray
-    forward: np.ndarray
-    fov: float
-    size: tuple[int, int]
-    near: float = 0.1
-
-    @property
-    def axes(self) -> tuple[np.ndarray, np.ndarray]:
-        """Unit vectors to the right and upwards in the picture."""
-        right = np.cross(self.forward, [0.0, 0.0, 1.0])
-        right = right / np.linalg.norm(right)
-        return right, np.cross(right, self.forward)
-
-    def project(self, points: np.ndarray) -> np.ndarray:
-        """World points (n, 3) to pixels (n, 2), x to the right and y down."""
-        right, up = self.axes
-        offset = points - self.eye
-        scale = self.size[1] / 2 / math.tan(self.fov / 2) / (offset @ self.forward)
-        return np.stack([self.size[0] / 2 + scale * (offset @ right), self.size[1] / 2 - scale * (offset @ up)], axis=1)
-
-    def render(self, client: int) -> tuple[Pixels, NDArray[np.int64]]:
-        """Colours (h, w, 3) and body ids (h, w), -1 where there is nothing."""
-        width, height = self.size
-        right, up = self.axes
-        light = up - 0.6 * right - 0.9 * self.forward  # over the left shoulder
-        _, _, colors, _, bodies = pybullet.getCameraImage(
-            width,
-            height,
-            pybullet.computeViewMatrix(self.eye.tolist(), (self.eye + self.forward).tolist(), [0.0, 0.0, 1.0]),
-            pybullet.computeProjectionMatrixFOV(math.degrees(self.fov), width / height, self.near, 60.0),
-            lightDirection=light.tolist(),
-            lightAmbientCoeff=0.55,
-            lightDiffuseCoeff=0.5,
-            lightSpecularCoeff=0.05,
-            shadow=0,  # the renderer's own end in the middle of a floor this large
-            renderer=pybullet.ER_TINY_RENDERER,
-            physicsClientId=client,
-        )
-        image = np.array(colors, dtype=np.uint8).reshape(height, width, 4)[..., :3]
-        return image, np.asarray(bodies, dtype=np.int64).reshape(height, width)
-
-
-def _fitting_view(points: np.ndarray, forward: np.ndarray, fov: float, size: tuple[int, int]) -> _View:
-    """The nearest camera with this direction that has all points (n, 3) within the middle 86 % of the picture.
-
-    In camera coordinates (a right, b up, c forward) a point is inside when |a - x| <= t (c - z): the largest z
-    has a closed form, and so have the x and y in the middle of what is then left.
+    Raises:
+        ValueError: unknown type or colour.
     """
-    right, up = _View(np.zeros(3), forward, fov, size).axes
-    depth = points @ forward
-    tangents = 0.86 * math.tan(fov / 2) * np.array([size[0] / size[1], 1.0])
-    across = [points @ axis for axis in (right, up)]
-    low = [(a - t * depth).max() for a, t in zip(across, tangents, strict=True)]
-    high = [(a + t * depth).min() for a, t in zip(across, tangents, strict=True)]
-    limits = [(h - w) / (2 * t) for w, h, t in zip(low, high, tangents, strict=True)]
-    z = min(*limits, depth.min() - _NEAREST)
-    x, y = ((w + h) / 2 for w, h in zip(low, high, strict=True))  # z drops out of the middle
-    return _View(x * right + y * up + z * forward, forward, fov, size)
+    item = WorldObject(id=type, type=type, color=color, position=(0.5, 0.5))  # in the middle of a tile
+    with Stage(World(name=type, objects=(item,))) as stage:
+        stage.put(None)
+        picture, _ = stage.render(_near(item, math.radians(50.0), side * _OVERSAMPLING))
+    return np.asarray(Image.fromarray(picture).reduce(_OVERSAMPLING))
 
 
 class _Scene:
-    """One world in one client, rendered once; `picture` adds the highlight of one object."""
+    """One world, rendered once; `picture` adds the highlight of one object."""
 
-    def __init__(self, client: int, world: World, size: tuple[int, int], add_robot: AddRobot) -> None:
-        self._client = client
-        self._world = world
+    def __init__(self, stage: Stage, size: tuple[int, int]) -> None:
+        self._stage = stage
         self._size = (size[0] * _OVERSAMPLING, size[1] * _OVERSAMPLING)
-        self._floor = add_model(client, _floor(world), (0.89, 0.89, 0.87), (0.0, 0.0))
-        self._bodies = {o.id: add_object(client, o.type, o.color, o.position, o.yaw) for o in world.objects}
-        add_robot(client, world.start)
-        yaw = world.start.yaw
-        forward = np.array(
-            [math.cos(_ELEVATION) * math.cos(yaw), math.cos(_ELEVATION) * math.sin(yaw), -math.sin(_ELEVATION)]
-        )
-        corners = [_corners(o.position, footprint(o.type), extent(o.type)[2]) for o in world.objects]
-        corners.append(_corners((world.start.x, world.start.y), 0.2, 0.4))
-        self._view = _fitting_view(np.concatenate(corners), forward, _FIELD_OF_VIEW, self._size)
-        self._image, self._mask = self._view.render(client)
-        self._image[self._mask < 0] = _HAZE
-        self._ground(world)
-
-    def _ground(self, world: World) -> None:
-        """Soft shadows where things touch the floor, without which they seem to float."""
-        shade = Image.new("L", self._size)
-        draw = ImageDraw.Draw(shade)
-        for position, radius in (
-            *((o.position, footprint(o.type)) for o in world.objects),
-            ((world.start.x, world.start.y), 0.19),
-        ):
-            draw.polygon(self._circle(position, 0.8 * radius + 0.03), fill=150)
-        soft = np.asarray(shade.filter(ImageFilter.GaussianBlur(self._size[1] / 160)), dtype=float) / 255
-        dark = 1.0 - soft * (self._mask == self._floor)
-        self._image = (self._image * dark[..., None]).astype(np.uint8)
+        self._view = stage.overview(self._size, _ELEVATION)
+        self._image, self._mask = stage.render(self._view)
 
     def picture(self, highlight: str | None) -> Pixels:
         image = Image.fromarray(self._image)
         if highlight is not None:
-            found = [o for o in self._world.objects if o.id == highlight]
+            found = [o for o in self._stage.world.objects if o.id == highlight]
             if not found:
                 raise ValueError(
-                    f"world {self._world.name!r} has no object {highlight!r} to highlight; "
-                    f"it has {', '.join(self._bodies)}"
+                    f"world {self._stage.world.name!r} has no object {highlight!r} to highlight; "
+                    f"it has {', '.join(self._stage.bodies)}"
                 )
             image = self._pointed_at(image, found[0])
         return np.asarray(image.reduce(_OVERSAMPLING))
@@ -189,7 +103,7 @@ class _Scene:
             draw = ImageDraw.Draw(layer)
             draw.polygon(self._circle(item.position, radius + 0.22 + grow), fill=255)
             draw.polygon(self._circle(item.position, radius + 0.12 - grow), fill=0)
-        on_floor = Image.fromarray(((self._mask == self._floor) | (self._mask < 0)).astype(np.uint8) * 255)
+        on_floor = Image.fromarray(((self._mask == self._stage.floor) | (self._mask < 0)).astype(np.uint8) * 255)
         for layer, color in ((rim, _RIM), (ring, HIGHLIGHT)):
             image.paste(color, mask=Image.composite(layer, Image.new("L", image.size), on_floor))
         self._outline(image, item, unit)
@@ -199,7 +113,7 @@ class _Scene:
 
     def _outline(self, image: Image.Image, item: WorldObject, unit: float) -> None:
         width = 2 * round(unit) + 1
-        shape = Image.fromarray((self._mask == self._bodies[item.id]).astype(np.uint8) * 255)
+        shape = Image.fromarray((self._mask == self._stage.bodies[item.id]).astype(np.uint8) * 255)
         place = shape.getbbox()
         if place is None:  # hidden altogether
             return
@@ -210,9 +124,7 @@ class _Scene:
         image.paste(HIGHLIGHT, around[:2], Image.composite(Image.new("L", inner.size), outer, inner))
 
     def _circle(self, position: tuple[float, float], radius: float) -> list[tuple[float, float]]:
-        angles = np.linspace(0.0, math.tau, 73)
-        points = np.stack([np.cos(angles) * radius, np.sin(angles) * radius, np.zeros_like(angles)], axis=1)
-        return [(x, y) for x, y in self._view.project(points + np.array([*position, 0.0]))]
+        return self._view.outline(circle(position, radius))
 
     def _arrow(self, image: Image.Image, item: WorldObject, unit: float) -> None:
         points = self._arrow_outline(item, unit)
@@ -237,7 +149,7 @@ class _Scene:
             for a, b in sorted(itertools.product(steps, steps), key=lambda ab: sum(c not in (0.0, 1.0) for c in ab))
             if a in (0.0, 1.0) or b in (0.0, 1.0)
         ]
-        shown = (self._mask >= 0) & (self._mask != self._floor)
+        shown = (self._mask >= 0) & (self._mask != self._stage.floor)
         kept_free = [*self._arrow_outline(item, unit), *self._circle(item.position, footprint(item.type) + 0.24)]
 
         def hidden(place: tuple[int, int]) -> tuple[bool, int]:
@@ -246,51 +158,22 @@ class _Scene:
             return covers, int(shown[y : y + framed, x : x + framed].sum())
 
         x, y = min(places, key=hidden)
-        picture, mask = self._near_view(item, side).render(self._client)
-        picture[mask < 0] = _HAZE
+        picture, _ = self._near_view(item, side).render(self._stage.client)
         ImageDraw.Draw(image).rectangle((x, y, x + framed - 1, y + framed - 1), fill=HIGHLIGHT)
         image.paste(Image.fromarray(picture), (x + margin, y + margin))
 
-    def _near_view(self, item: WorldObject, side: int) -> _View:
+    def _near_view(self, item: WorldObject, side: int) -> View:
         """From about where the main camera is, but never straight at the front, a side or the back."""
         from_camera = math.atan2(*(self._view.eye[:2] - np.array(item.position))[::-1])
         oblique = [item.yaw + sign * turn for sign in (1, -1) for turn in (math.radians(50), math.radians(125))]
         azimuth = min(oblique, key=lambda angle: abs(math.remainder(angle - from_camera, math.tau)))
-        down = math.radians(22.0)
-        forward = -np.array([math.cos(down) * math.cos(azimuth), math.cos(down) * math.sin(azimuth), math.sin(down)])
-        middle = np.array([*item.position, extent(item.type)[2] / 2])
-        distance = 1.9
-        # what stands before the object is cut away by the near plane
-        return _View(middle - distance * forward, forward, math.radians(24.0), (side, side), near=distance - 0.45)
+        return _near(item, azimuth, side)
 
 
-@contextlib.contextmanager
-def _rendered(world: World, size: tuple[int, int], add_robot: AddRobot | None) -> Iterator[_Scene]:
-    client = pybullet.connect(pybullet.DIRECT)
-    try:
-        yield _Scene(client, world, size, add_robot or _robot)
-    finally:
-        pybullet.disconnect(client)
-
-
-def _corners(position: tuple[float, float], radius: float, height: float) -> np.ndarray:
-    x, y = position
-    return np.array([[x + a * radius, y + b * radius, z] for a in (-1, 1) for b in (-1, 1) for z in (0.0, height)])
-
-
-def _floor(world: World) -> Model:
-    """Tiles of a metre in two light tones, with their upper side on z = 0, well beyond the objects."""
-    reach = math.ceil(max(abs(c) for o in world.objects for c in (*o.position, world.robot.x, world.robot.y))) + 14
-    tiles: tuple[list[Mesh], list[Mesh]] = ([], [])
-    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    up, halves = np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]])
-    tile = Mesh(square, up, halves)
-    for x in range(-reach, reach):
-        for y in range(-reach, reach):
-            tiles[(x + y) % 2].append(tile.moved(x, y))
-    return Model((Part(merged(tiles[0])), Part(merged(tiles[1]), (0.85, 0.85, 0.83))))
-
-
-def _robot(client: int, pose: Pose) -> int:
-    turn = pybullet.getQuaternionFromEuler([0.0, 0.0, pose.yaw])
-    return int(pybullet.loadURDF(str(_ROBOT), [pose.x, pose.y, 0.0], turn, physicsClientId=client))
+def _near(item: WorldObject, azimuth: float, side: int) -> View:
+    """A square view of one object, from the side `azimuth` (radians) and a little above."""
+    forward = direction(azimuth + math.pi, math.radians(22.0))
+    middle = np.array([*item.position, extent(item.type)[2] / 2])
+    distance = 1.9
+    # what stands before the object is cut away by the near plane
+    return View(middle - distance * forward, forward, math.radians(24.0), (side, side), near=distance - 0.45)

@@ -6,7 +6,7 @@ kept beside the text, so that a parse can be judged.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
@@ -32,7 +32,9 @@ class Command:
 class Speaker(Protocol):
     """Gives commands for a world; every object is meant by at least one, unless nobody wrote any."""
 
-    def commands(self, world: World, rng: np.random.Generator) -> list[Command]: ...
+    def commands(self, world: World, rng: np.random.Generator) -> list[Command]:
+        """What it says in one world."""
+        ...
 
 
 class SpeakerError(ValueError):
@@ -109,7 +111,7 @@ def make_speaker(kind: str, color_rate: float) -> Speaker:
     Raises:
         SpeakerError: no such speaker.
     """
-    makers = {
+    makers: dict[str, Callable[[], Speaker]] = {
         "canonical": lambda: GeneratingSpeaker(color_rate),
         "written": WrittenSpeaker,
         "human": lambda: GeneratingSpeaker(color_rate, human_names()),

@@ -22,16 +22,24 @@ class Parse(Protocol):
     """What reading a command gives: a tree, or the problem in words."""
 
     @property
-    def tree(self) -> ParseTree | None: ...
+    def tree(self) -> ParseTree | None:
+        """The phrases, or None if there is a problem."""
+        ...
 
     @property
-    def problem(self) -> str | None: ...
+    def problem(self) -> str | None:
+        """Why there is no tree."""
+        ...
 
     @property
-    def noun(self) -> str | None: ...
+    def noun(self) -> str | None:
+        """The noun of the object meant."""
+        ...
 
     @property
-    def color(self) -> str | None: ...
+    def color(self) -> str | None:
+        """The colour stated of the object meant."""
+        ...
 
 
 Parser = Callable[[str, Collection[str]], Parse]
@@ -46,6 +54,7 @@ class Stopwatch:
 
     @contextmanager
     def __call__(self, name: str) -> Iterator[None]:
+        """Add the time of a `with` block to `name`, and one to its count."""
         began = time.perf_counter()
         try:
             yield

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -57,7 +58,7 @@ def run_trial(
             explorer=None if explorer is None else explorer(),
             asking=asking,
             listener=truthful(command.target),
-            watch=None if watch is None else lambda look, c=command: watch(c, look),
+            watch=None if watch is None else functools.partial(watch, command),
             stopwatch=clock,
         )
         with clock("train"):

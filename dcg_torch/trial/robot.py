@@ -24,7 +24,9 @@ class Robot(Protocol):
         ...
 
     @property
-    def pose(self) -> Pose: ...
+    def pose(self) -> Pose:
+        """Where it is now."""
+        ...
 
     @property
     def path_length(self) -> float:
@@ -153,6 +155,4 @@ class FakeRobot:
         state, distance = self._state, max(0.0, distance)
         pose = state.pose
         state.path_length += distance
-        state.pose = Pose(
-            pose.x + distance * math.cos(pose.yaw), pose.y + distance * math.sin(pose.yaw), pose.yaw
-        )
+        state.pose = Pose(pose.x + distance * math.cos(pose.yaw), pose.y + distance * math.sin(pose.yaw), pose.yaw)

@@ -3,9 +3,9 @@
     from dcg_torch.simulator.bodies import Model, Part, register
     from dcg_torch.simulator.bodies.meshes import box
 
-    @register("crate")
-    def crate() -> Model:
-        return Model((Part(box(0.3, 0.3, 0.35)),))
+    @register("suitcase")
+    def suitcase() -> Model:
+        return Model((Part(box(0.3, 0.2, 0.45)),))
 
 teaches a new type.
 """
@@ -18,6 +18,7 @@ from typing import Any
 
 import pybullet
 
+from dcg_torch.simulator.bodies import laboratory as laboratory  # its types register themselves
 from dcg_torch.simulator.bodies import types
 from dcg_torch.simulator.bodies.colors import RGB, rgb
 from dcg_torch.simulator.bodies.looks import Model, Part, model, register, registered

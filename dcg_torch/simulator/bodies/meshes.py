@@ -43,6 +43,11 @@ class Mesh:
         side /= np.linalg.norm(side)
         return self._turned(np.stack([side, np.cross(up, side), up]))
 
+    def turned(self, angle: float) -> Mesh:
+        """The same mesh, turned about the z axis by `angle` radians, to the left seen from above."""
+        c, s = math.cos(angle), math.sin(angle)
+        return self._turned(np.array([[c, s, 0.0], [-s, c, 0.0], [0.0, 0.0, 1.0]]))
+
     def upright(self) -> Mesh:
         """The same mesh, turned so that its y points up and its z towards -y: an outline seen from the right side."""
         return self._turned(np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]))

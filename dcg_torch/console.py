@@ -1,0 +1,56 @@
+"""The terminal: its width, and a progress bar over commands."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from types import TracebackType
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+from dcg_torch.records import Iteration
+
+_LOG_WIDTH = 140  # columns; into a pipe or a file there is no width to keep to
+
+
+def make_console() -> Console:
+    """Standard output; wide enough for the tables where it is no terminal."""
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(width=max(_LOG_WIDTH, console.width), highlight=False)
+
+
+class CommandBar:
+    """A progress bar over commands, with the accuracy so far; call it with new rows.
+
+    Args:
+        total: how many commands there are to be.
+    """
+
+    def __init__(self, total: int, console: Console) -> None:
+        self._bar = Progress(
+            "{task.description}",
+            BarColumn(),
+            MofNCompleteColumn(),
+            TextColumn("accuracy {task.fields[accuracy]}"),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=console,
+        )
+        self._task = self._bar.add_task("commands", total=total, accuracy="-")
+        self._done = self._right = 0
+
+    def __enter__(self) -> CommandBar:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+    def __call__(self, rows: Sequence[Iteration]) -> None:
+        """Count `rows` as done."""
+        self._done += len(rows)
+        self._right += sum(row.correct for row in rows)
+        accuracy = f"{100 * self._right / self._done:.1f} %" if self._done else "-"
+        self._bar.update(self._task, completed=self._done, accuracy=accuracy)

@@ -1,0 +1,121 @@
+"""A camera that stands anywhere: what it shows, where points come to lie in its picture, where it has to stand.
+
+Conventions: points are (n, 3) in metres in the world frame; pixels are (n, 2), x to the right and y down from the
+upper left corner.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+import pybullet
+from numpy.typing import NDArray
+
+Points = NDArray[np.float64]
+Pixels = NDArray[np.uint8]
+Box = tuple[int, int, int, int]  # left, top, right, bottom in pixels, the last two not included
+
+HAZE: Final = (225, 225, 220)  # where the floor ends
+_FAR: Final = 60.0  # metres
+_NEAREST: Final = 8.0  # metres from a fitted camera to the nearest point
+_FILLED: Final = 0.86  # share of the picture's width and height that the points may take
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """A camera at `eye` that looks along `forward`; `size` (width, height) in pixels, `fov` vertical in radians."""
+
+    eye: Points
+    forward: Points
+    fov: float
+    size: tuple[int, int]
+    near: float = 0.1
+
+    @property
+    def axes(self) -> tuple[Points, Points]:
+        """Unit vectors to the right and upwards in the picture."""
+        right = np.cross(self.forward, [0.0, 0.0, 1.0])
+        right = right / np.linalg.norm(right)
+        return right, np.cross(right, self.forward)
+
+    def project(self, points: Points) -> Points:
+        """World points (n, 3) to pixels (n, 2)."""
+        right, up = self.axes
+        offset = points - self.eye
+        scale = self.size[1] / 2 / math.tan(self.fov / 2) / (offset @ self.forward)
+        return np.stack([self.size[0] / 2 + scale * (offset @ right), self.size[1] / 2 - scale * (offset @ up)], axis=1)
+
+    def outline(self, points: Points) -> list[tuple[float, float]]:
+        """World points (n, 3) as the pixels that a drawing takes."""
+        return [(float(x), float(y)) for x, y in self.project(points)]
+
+    def render(self, client: int, box: Box | None = None) -> tuple[Pixels, NDArray[np.int64]]:
+        """Colours (h, w, 3) and body ids (h, w), -1 where there is nothing; of the whole picture or a part of it."""
+        width, height = self.size
+        left, top, right, bottom = box or (0, 0, width, height)
+        axis, up = self.axes
+        light = up - 0.6 * axis - 0.9 * self.forward  # over the left shoulder
+        pixel = 2 * self.near * math.tan(self.fov / 2) / height  # on the near plane, metres
+        across, down = right - left, bottom - top
+        _, _, colors, _, bodies = pybullet.getCameraImage(
+            across,
+            down,
+            pybullet.computeViewMatrix(self.eye.tolist(), (self.eye + self.forward).tolist(), [0.0, 0.0, 1.0]),
+            pybullet.computeProjectionMatrix(
+                (left - width / 2) * pixel,
+                (right - width / 2) * pixel,
+                (height / 2 - bottom) * pixel,
+                (height / 2 - top) * pixel,
+                self.near,
+                _FAR,
+            ),
+            lightDirection=light.tolist(),
+            lightAmbientCoeff=0.55,
+            lightDiffuseCoeff=0.5,
+            lightSpecularCoeff=0.05,
+            shadow=0,  # the renderer's own end in the middle of a floor this large
+            renderer=pybullet.ER_TINY_RENDERER,
+            physicsClientId=client,
+        )
+        mask = np.asarray(bodies, dtype=np.int64).reshape(down, across)
+        image = np.array(colors, dtype=np.uint8).reshape(down, across, 4)[..., :3]
+        image[mask < 0] = HAZE
+        return image, mask
+
+
+def fitting_view(points: Points, forward: Points, fov: float, size: tuple[int, int]) -> View:
+    """The nearest camera with this direction that has all points (n, 3) within the middle 86 % of the picture.
+
+    In camera coordinates (a right, b up, c forward) a point is inside when |a - x| <= t (c - z): the largest z
+    has a closed form, and so have the x and y in the middle of what is then left.
+    """
+    right, up = View(np.zeros(3), forward, fov, size).axes
+    depth = points @ forward
+    tangents = _FILLED * math.tan(fov / 2) * np.array([size[0] / size[1], 1.0])
+    across = [points @ axis for axis in (right, up)]
+    low = [(a - t * depth).max() for a, t in zip(across, tangents, strict=True)]
+    high = [(a + t * depth).min() for a, t in zip(across, tangents, strict=True)]
+    limits = [(h - w) / (2 * t) for w, h, t in zip(low, high, tangents, strict=True)]
+    z = min(*limits, depth.min() - _NEAREST)
+    x, y = ((w + h) / 2 for w, h in zip(low, high, strict=True))  # z drops out of the middle
+    return View(x * right + y * up + z * forward, forward, fov, size)
+
+
+def direction(yaw: float, down: float) -> Points:
+    """The unit vector of a camera that looks along `yaw` and `down` radians below the horizon."""
+    return np.array([math.cos(down) * math.cos(yaw), math.cos(down) * math.sin(yaw), -math.sin(down)])
+
+
+def circle(position: tuple[float, float], radius: float) -> Points:
+    """A closed circle on the floor as points (n, 3)."""
+    return sector(position, radius, 0.0, math.tau)
+
+
+def sector(position: tuple[float, float], radius: float, start: float, end: float) -> Points:
+    """An arc on the floor about `position` from angle `start` to `end` (radians, both included) as points (n, 3)."""
+    angles = np.linspace(start, end, max(3, round(abs(end - start) / math.radians(5.0)) + 1))
+    x, y = position[0] + radius * np.cos(angles), position[1] + radius * np.sin(angles)
+    return np.stack([x, y, np.zeros_like(angles)], axis=1)
