@@ -82,13 +82,28 @@ class OpenWorld:
     strength: float = 5.0
 
 
-class OpenWorldModel(GroundingModel):
-    """A `GroundingModel` that trains on a posterior over meanings.
+@dataclass(frozen=True)
+class Mind:
+    """All that an open-world model has learned; its weights follow from it.
 
     Attributes:
         beliefs: what the nouns name.
         color_beliefs: what the colour words name.
+        assumed: what it takes for granted.
         census: how many objects there are.
+    """
+
+    beliefs: Beliefs
+    color_beliefs: Beliefs
+    assumed: OpenWorld = OpenWorld()
+    census: Census = Census()
+
+
+class OpenWorldModel(GroundingModel):
+    """A `GroundingModel` that trains on a posterior over meanings.
+
+    Attributes:
+        mind: what it has learned.
     """
 
     def __init__(
@@ -99,14 +114,10 @@ class OpenWorldModel(GroundingModel):
         features: FeatureSet,
         loglinear: LogLinearModel,
         *,
-        beliefs: Beliefs,
-        color_beliefs: Beliefs,
-        assumed: OpenWorld,
-        census: Census | None = None,
+        mind: Mind,
     ) -> None:
         super().__init__(variant, symbols, examples, features, loglinear)
-        self.beliefs, self.color_beliefs = beliefs, color_beliefs
-        self.assumed, self.census = assumed, census or Census()
+        self.mind = mind
 
     @classmethod
     def trained(
@@ -128,12 +139,19 @@ class OpenWorldModel(GroundingModel):
             kept,
             features,
             LogLinearModel(features.pairs, TERNARY),
-            beliefs=Beliefs.start({s.word: s.type for s in training.symbols}, assumed.nouns),
-            color_beliefs=Beliefs.start({c: c for c in training.colors}, assumed.colors),
-            assumed=assumed,
+            mind=Mind(
+                Beliefs.start({s.word: s.type for s in training.symbols}, assumed.nouns),
+                Beliefs.start({c: c for c in training.colors}, assumed.colors),
+                assumed,
+            ),
         )
         model.train()
         return model
+
+    @property
+    def beliefs(self) -> Beliefs:
+        """What the nouns name."""
+        return self.mind.beliefs
 
     @property
     def known_types(self) -> tuple[str, ...]:
@@ -191,22 +209,22 @@ class OpenWorldModel(GroundingModel):
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit from the present weights, on the training set and on the posterior."""
-        colors = max(1, len(self.color_beliefs.types))
+        colors = max(1, len(self.mind.color_beliefs.types))
         unseen = Unseen(
-            ahead=_rivals((self.census.rate * (colors - 1) + self.census.repeats) * _UNSEEN) + self.assumed.hidden,
-            ahead_colored=_rivals(self.census.repeats * _UNSEEN) + self.assumed.hidden,
-            left=self.assumed.hidden,
+            ahead=_rivals((self.mind.census.rate * (colors - 1) + self.mind.census.repeats) * _UNSEEN) + self.mind.assumed.hidden,
+            ahead_colored=_rivals(self.mind.census.repeats * _UNSEEN) + self.mind.assumed.hidden,
+            left=self.mind.assumed.hidden,
         )
         soft = soft_examples(
             self.beliefs,
-            self.color_beliefs,
+            self.mind.color_beliefs,
             unseen,
             looked=LOOKED,
-            strength=self.assumed.strength,
+            strength=self.mind.assumed.strength,
         )
         tables = encode([*self.examples, *soft], self.features, self.loglinear)
         # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds
-        tolerance = 0.01 * self.assumed.strength / sum(float(table.count.sum()) for table in tables)
+        tolerance = 0.01 * self.mind.assumed.strength / sum(float(table.count.sum()) for table in tables)
         self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
         return self.fitted
 
@@ -220,29 +238,31 @@ class OpenWorldModel(GroundingModel):
 
     def forget(self, word: str) -> None:
         """Forget all that was heard of a noun, and train."""
-        self.beliefs = self.beliefs.forget(word)
+        self.mind = replace(self.mind, beliefs=self.beliefs.forget(word))
         self._renew()
 
     def correct(self, word: str, type_: str) -> None:
         """Settle a noun on a type, and train."""
-        self.beliefs = self.beliefs.correct(word, type_)
+        self.mind = replace(self.mind, beliefs=self.beliefs.correct(word, type_))
         self._renew()
 
     def _meet(self, scene: Scene) -> None:
         """Take note of the types and colours seen, and of how many there are."""
-        self.beliefs = self.beliefs.meet(p.type for p in scene.percepts)
-        self.color_beliefs = self.color_beliefs.meet(p.color for p in scene.percepts if p.color is not None)
+        beliefs = self.beliefs.meet(p.type for p in scene.percepts)
+        colors = self.mind.color_beliefs.meet(p.color for p in scene.percepts if p.color is not None)
+        census = self.mind.census
         if scene.looked:
-            cells = len(self.beliefs.types) * max(1, len(self.color_beliefs.types))
-            self.census = self.census.count(scene.percepts, cells)
+            census = census.count(scene.percepts, len(beliefs.types) * max(1, len(colors.types)))
+        self.mind = replace(self.mind, beliefs=beliefs, color_beliefs=colors, census=census)
 
     def _hear(self, noun: str, color: str | None, scene: Scene) -> None:
         """Weigh a noun in the light of the colour said, and the colour in the light of the noun."""
+        colors = self.mind.color_beliefs
         meant = [p for p in scene.percepts if scene.meant is None or p.id in scene.meant]
         by_color = dict[str, float]()
         by_type = dict[str, float]()
         said_of = _said(self.beliefs, noun)
-        color_of = None if color is None else _said(self.color_beliefs, color)
+        color_of = None if color is None else _said(colors, color)
         for p in meant:
             as_colored = 1.0 if color_of is None or p.color is None else color_of.get(p.color, 0.0)
             by_type[p.type] = by_type.get(p.type, 0.0) + as_colored
@@ -250,18 +270,19 @@ class OpenWorldModel(GroundingModel):
                 by_color[p.color] = by_color.get(p.color, 0.0) + said_of.get(p.type, 0.0)
         unseen = 0.0
         if not scene.certain:
-            unseen = self.assumed.hidden * self.census.rate if scene.looked else self.census.rate * _UNSEEN
-        several = 1 if color is not None else max(1, len(self.color_beliefs.types))
-        self.beliefs = self.beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
+            unseen = self.mind.assumed.hidden * self.mind.census.rate if scene.looked else self.mind.census.rate * _UNSEEN
+        several = 1 if color is not None else max(1, len(colors.types))
+        beliefs = self.beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
         if color is not None:
-            self.color_beliefs = self.color_beliefs.weigh(Evidence(color, by_color, unseen, scene.source))
+            colors = colors.weigh(Evidence(color, by_color, unseen, scene.source))
+        self.mind = replace(self.mind, beliefs=beliefs, color_beliefs=colors)
 
     def _renew(self) -> None:
         """Columns for what is new, the symbols held, and a fit."""
         self.features = self.features.include(
             nouns=self.beliefs.posterior.words,
             types=self.beliefs.types,
-            colors=(*self.color_beliefs.posterior.words, *self.color_beliefs.types),
+            colors=(*self.mind.color_beliefs.posterior.words, *self.mind.color_beliefs.types),
         )
         self.loglinear.grow(self.features.pairs)
         best = {w: self.beliefs.posterior.best(w) for w in self.beliefs.posterior.words}

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from pathlib import Path
 
 from rich.table import Table
 
@@ -51,3 +53,19 @@ def lexicon_table(entries: Iterable[Entry], title: str = "What the words mean to
         means = ", ".join(f"{t} {100 * p:.0f} %" for t, p in e.types)
         table.add_row(e.word, means, str(e.commands), "given" if e.settled else " ".join(e.sources))
     return table
+
+
+def save_lexicon(entries: Iterable[Entry], path: Path) -> None:
+    """Write the lexicon as JSON, an object per word."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(json.dumps([asdict(entry) for entry in entries], indent=1) + "\n", encoding="utf-8")
+
+
+def load_lexicon(path: Path) -> list[Entry]:
+    """What `save_lexicon` wrote."""
+    return [
+        Entry(
+            e["word"], tuple((t, p) for t, p in e["types"]), e["commands"], tuple(e["sources"]), e["settled"]
+        )
+        for e in json.loads(path.read_text(encoding="utf-8"))
+    ]

@@ -62,7 +62,7 @@ class Asking:
     """
 
     below: float = 0.9
-    least: float = 0.02
+    least: float = 0.05
     options: int = 4
     questions: int = 3
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -69,6 +70,9 @@ class Robot(Protocol):
         ...
 
 
+Labels = Callable[[Sequence[str], np.random.Generator], Sequence[str | None]]
+
+
 @dataclass
 class _State:
     world: World
@@ -78,15 +82,28 @@ class _State:
 
 
 class FakeRobot:
-    """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once."""
+    """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once.
 
-    def __init__(self) -> None:
+    Args:
+        labels: what the objects of a world, given their types in order, are recognised as (None: not at all); by
+            default as what they are.
+    """
+
+    def __init__(self, labels: Labels | None = None) -> None:
+        self._labels = labels
         self._now: _State | None = None
         self.collisions = 0
 
     def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
         """Stand at the start pose of `world`."""
         self._now = _State(world, world.start)
+        types = [o.type for o in world.objects]
+        if self._labels is None:
+            self._recognised: dict[str, str | None] = {o.id: o.type for o in world.objects}
+        else:
+            if rng is None:
+                raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
+            self._recognised = dict(zip((o.id for o in world.objects), self._labels(types, rng), strict=True))
 
     @property
     def _state(self) -> _State:
@@ -113,9 +130,9 @@ class FakeRobot:
         """Every object within half the field of view of the heading."""
         seen = []
         for o in self._state.world.objects:
-            bearing = abs(self._bearing(o.position))
-            if bearing < FIELD_OF_VIEW / 2:
-                seen.append((bearing, o.id, Percept(o.id, o.type, o.color, (*o.position, 0.0))))
+            bearing, label = abs(self._bearing(o.position)), self._recognised[o.id]
+            if bearing < FIELD_OF_VIEW / 2 and label is not None:
+                seen.append((bearing, o.id, Percept(o.id, label, o.color, (*o.position, 0.0))))
         return [percept for _, _, percept in sorted(seen, key=lambda item: item[:2])]
 
     def spin(self, angle: float) -> None:
