@@ -57,7 +57,7 @@ def _application(config: DictConfig) -> None:
 
 def _report(settings: Settings, directory: Path, console: Console) -> None:
     """Measures, tables, figures, TensorBoard and summary of the run in `directory`."""
-    from dcg_torch.experiment import read_run
+    from dcg_torch.experiment import lexicon_of, read_run
     from dcg_torch.report import tables
     from dcg_torch.report.measures import measure
     from dcg_torch.report.seconds import summarise_seconds
@@ -84,6 +84,10 @@ def _report(settings: Settings, directory: Path, console: Console) -> None:
     tables.print_paper_table(measures, console, seconds)
     tables.print_iterations(measures, console)
     tables.print_errors(measures, console)
+    if (last := lexicon_of(directory, settings.trials - 1)).exists():
+        from dcg_torch.meaning.lexicon import lexicon_table, load_lexicon
+
+        console.print(lexicon_table(load_lexicon(last), f"What the words mean to the robot of trial {last.stem}"))
     shown = escape(str(directory))
     for pictures in ("figures", "animations", "screenshots"):
         if (directory / pictures).is_dir():

@@ -52,6 +52,11 @@ def animation_of(directory: Path, trial: int) -> Path:
     return directory / "animations" / f"trial_{trial:04d}.gif"
 
 
+def lexicon_of(directory: Path, trial: int) -> Path:
+    """The file of what a trial's robot believes of words in the end; only some models have beliefs."""
+    return directory / "lexicon" / f"{trial:04d}.json"
+
+
 def _lines(path: Path) -> list[str]:
     """The whole lines of a file; one that was cut off does not count."""
     return path.read_text(encoding="utf-8").split("\n")[:-1]

@@ -49,6 +49,11 @@ class Group(enum.StrEnum):
     HYPOTHETICAL = "hypothetical"
     COLOR = "color"
     RELATION = "relation"
+    OPEN = "open"  # what has never been heard or met has columns too, and so has a look all round
+
+
+LOOKED_ROUND = "looked round"
+"""Attribute of a hypothetical object, once the robot has seen all the ground that it can."""
 
 
 # The family of a feature is what stands before the colon of its name. A language family meets these grounding
@@ -98,6 +103,8 @@ def _fixed_groundings() -> Iterator[Feature]:
     for names in (*space.RELATIONS.values(), space.STATES, space.RANKS):
         for name in names:
             yield Group.RELATION, name
+    yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
+    yield Group.OPEN, "type: (unmet)"
 
 
 def _fixed_languages() -> Iterator[Feature]:
@@ -108,6 +115,7 @@ def _fixed_languages() -> Iterator[Feature]:
     yield Group.UNKNOWN, "noun known: no"
     yield Group.COLOR, "color: unknown"
     yield Group.COLOR, "color stated: yes"
+    yield Group.OPEN, "noun: (unheard)"
 
 
 @dataclass(frozen=True)
@@ -160,6 +168,16 @@ class FeatureSet:
             groundings.append((Group.COLOR, f"color: {symbol.color}"))
         return self._with(languages, groundings)
 
+    def include(
+        self, *, nouns: Iterable[str] = (), types: Iterable[str] = (), colors: Iterable[str] = ()
+    ) -> FeatureSet:
+        """Columns for words heard and types met, not yet bound to one another; a colour has both."""
+        of_colors = [(Group.COLOR, f"color: {c}") for c in colors]
+        return self._with(
+            [*((Group.DCG, f"noun: {n}") for n in nouns), *of_colors],
+            [*((Group.DCG, f"type: {t}") for t in types), *of_colors],
+        )
+
     def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
         language, grounding = dict(self.language), dict(self.grounding)
         for table, features in ((language, languages), (grounding, groundings)):
@@ -188,7 +206,10 @@ class FeatureSet:
         """Names of the language features that fire for a phrase."""
         names = [f"kind: {phrase.kind}", *(name for _, name in _word_features(phrase))]
         if phrase.noun is not None:
-            names += [f"noun: {phrase.noun}", f"noun known: {'yes' if self.knows_noun(phrase.noun) else 'no'}"]
+            if self.knows_noun(phrase.noun):
+                names += [f"noun: {phrase.noun}", "noun known: yes"]
+            else:
+                names += ["noun: (unheard)", "noun known: no"]
         if phrase.color is not None:
             stated = f"color: {phrase.color}"
             names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
@@ -196,9 +217,11 @@ class FeatureSet:
 
     def object_names(self, obj: Object) -> list[str]:
         """Names of the grounding features that fire for an object by itself."""
-        names = [f"type: {obj.type}", "known: yes"] if obj.known else ["known: no"]
+        names = [f"type: {obj.type}", "known: yes"] if obj.known else ["type: (unmet)", "known: no"]
         if obj.hypothetical:
             names.append("hypothetical: yes")
+            if LOOKED_ROUND in obj.attributes:
+                names.append(f"hypothetical: {LOOKED_ROUND}")
         if obj.color is not None:
             own = f"color: {obj.color}"
             names.append(own if own in self.grounding else "color: unknown")

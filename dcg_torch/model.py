@@ -5,7 +5,7 @@ It joins the rooms: features and weights, the symbols known, and the training se
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -78,6 +78,25 @@ class _Encoded:
     batches: list[list[Table]]
 
 
+@dataclass(frozen=True)
+class Scene:
+    """What the robot saw and was told while it carried a command out.
+
+    Attributes:
+        percepts: all that it perceived.
+        looked: did it look all round?
+        meant: ids of the objects that may still be meant after the speaker's answers; None: nothing was said.
+        certain: the speaker said which object is meant.
+        source: which command it was, for the lexicon.
+    """
+
+    percepts: tuple[Percept, ...] = ()
+    looked: bool = False
+    meant: frozenset[str] | None = None
+    certain: bool = False
+    source: str = ""
+
+
 class GroundingModel:
     """DCG, DCG-UPUP, DCG-UPUP-Away, with or without colour: which, is said by the `Variant`.
 
@@ -136,10 +155,27 @@ class GroundingModel:
         """The types of M.Gamma, in the order of learning."""
         return tuple(dict.fromkeys(s.type for s in self.symbols.values()))
 
+    def beliefs_about(self, but: Collection[str]) -> dict[str, dict[str, float]] | None:
+        """word -> type -> probability, of all words `but` some; None for a model that has no such beliefs."""
+        return None
+
+    def sure_names(self) -> dict[str, str]:
+        """type -> a word for it that the robot holds for certain."""
+        return {s.type: s.word for s in reversed(self.symbols.values())}
+
     def world_model(
-        self, percepts: Iterable[Percept], robot: Pose | None = None, speaker: Pose | None = None
+        self,
+        percepts: Iterable[Percept],
+        robot: Pose | None = None,
+        speaker: Pose | None = None,
+        *,
+        looked: bool = False,
     ) -> WorldModel:
-        """Upsilon as this variant represents it (lines 8 and 9)."""
+        """Upsilon as this variant represents it (lines 8 and 9).
+
+        Args:
+            looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
+        """
         return world_model(
             percepts,
             self.known_types,
@@ -157,8 +193,11 @@ class GroundingModel:
         """The phrases of a tree that this variant's features read."""
         return relational(tree) if Group.RELATION in self.variant.groups else _path(tree)
 
-    def learn(self, solution: Solution, *, max_steps: int = 500) -> Symbol | None:
+    def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Add the outcome of a grounding that was acted on to the training set, and retrain (lines 16 to 25).
+
+        Args:
+            scene: all that was perceived; the paper's rule reads the solution alone.
 
         Returns:
             The symbol that was learned, if any.
@@ -255,7 +294,8 @@ def _tabulate(examples: Sequence[Example], encoder: _Encoder, model: LogLinearMo
         bags.append(encoder.bag(example)[labelled])
         phrases += [k] * len(labelled)
         labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
-        weights += [example.weight] * len(labelled)
+        own = example.weights or (1.0,) * len(example.correspondences)
+        weights += [example.weight * own[j] for j in labelled]
     width = max(b.shape[1] for b in bags)
     return tabulate(
         encoder.features.encode_phrases([e.phrase for e in examples]),

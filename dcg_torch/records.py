@@ -5,9 +5,9 @@ The names of `Iteration`'s fields are relied on by tools outside this project; f
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
 
 Kind = Literal["known", "unknown", "learned"]
 
@@ -68,6 +68,14 @@ class Iteration(_Record):
     arrived: bool | None  # None: there was nowhere to drive
     collisions: int  # contacts with anything but the floor
     expected_symbols: float  # known types if every new type met so far had been learned (the paper's red curve)
+    # Only of a model that has them; elsewhere the line doesn't mention them.
+    beliefs: dict[str, dict[str, float]] | None = None  # word -> type -> probability, of the words heard so far
+    dialogue: tuple[tuple[str, str], ...] | None = None  # the questions asked, with their answers
+
+    @model_serializer(mode="wrap")
+    def _without_absent(self, serialise: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        fields: dict[str, Any] = serialise(self)
+        return {k: v for k, v in fields.items() if v is not None or k not in ("beliefs", "dialogue")}
 
 
 class Timing(_Record):
@@ -88,3 +96,4 @@ class Timing(_Record):
     train_rows: int
     language_columns: int
     grounding_columns: int
+    moving: float = 0.0  # simulated seconds

@@ -5,6 +5,9 @@ from __future__ import annotations
 import enum
 from dataclasses import dataclass, field
 
+from dcg_torch.world.generator import TYPES
+from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
+
 
 class SettingsError(ValueError):
     """A setting that makes no sense; the message is one line: which, what is wrong, how to mend it."""
@@ -41,8 +44,33 @@ class Order(enum.StrEnum):
 
 
 @dataclass
+class OpenWorldSettings:
+    """What `model=open_world` assumes, and when it looks and asks.
+
+    Attributes:
+        synonym: factor for a word that names a type which has a name already.
+        unmet: weight of all types that were never met, where each met one has weight 1.
+        slip: share of commands whose noun is not the one for the type that the recogniser reports.
+        hidden: objects of a type and colour that are expected though the robot has looked all round.
+        strength: of the soft examples; more is closer to the posterior, and slower.
+        look_above: look on while types out of view have more than this share of the belief about the word.
+        views: places that the robot drives to for a look behind things, at the most.
+        ask_below: with asking=when_unsure, ask if the best object is less probable than this.
+    """
+
+    synonym: float = 0.05
+    unmet: float = 1.0
+    slip: float = 0.02
+    hidden: float = 0.01
+    strength: float = 5.0
+    look_above: float = 0.03
+    views: int = 2
+    ask_below: float = 0.75
+
+
+@dataclass
 class ModelSettings:
-    """See `model.Variant`."""
+    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for."""
 
     name: str = "dcg_upup_away_color"
     groups: list[str] = field(default_factory=lambda: ["dcg", "unknown", "hypothetical", "color"])
@@ -53,6 +81,8 @@ class ModelSettings:
     l2: float = 0.05
     beam: int = 8
     synonyms: float | None = None
+    posterior: bool = False
+    open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 
 
 @dataclass
@@ -84,6 +114,9 @@ class Settings:
         name: of the run folder and in the tables.
         experiment: the overlay it was composed with, for the record.
         worlds: committed, generated (ten fresh ones a trial), or a directory of world files.
+        types: number of types in generated worlds, the paper's eight first; beyond these only with the fake robot.
+        colors: number of colours in generated worlds, the paper's three first.
+        object_rate: probability of each type in each colour in a generated world.
         order: commands drawn at random, or as they stand in the files.
         color_rate: share of generated commands that state the colour.
         workers: processes; 0 takes one per core.
@@ -101,6 +134,9 @@ class Settings:
     iterations: int = 10
     worlds: str = "committed"
     worlds_per_trial: int = 10
+    types: int = 8
+    colors: int = 3
+    object_rate: float = 0.15
     order: Order = Order.drawn
     speaker: Speaker = Speaker.written
     color_rate: float = 1.0
@@ -168,5 +204,32 @@ def check(settings: Settings) -> None:
     for name, asked in (("simulator.gui", settings.simulator.gui), ("animate", settings.animate)):
         if asked and settings.simulator.kind is RobotKind.fake:
             raise SettingsError(f"{name}={asked}: the fake robot has nothing to show; take simulator=pybullet")
-    if settings.asking is Asking.when_unsure:
-        raise SettingsError("asking=when_unsure: the paper's models ask nothing; take asking=never")
+    most = {"types": (settings.types, len(MORE_TYPES)), "colors": (settings.colors, len(MORE_COLORS))}
+    for name, (number, limit) in most.items():
+        if not 1 <= number <= limit:
+            raise SettingsError(f"{name}={number}: give a number from 1 to {limit}")
+    if settings.types > len(TYPES) and settings.simulator.kind is not RobotKind.fake:
+        raise SettingsError(
+            f"types={settings.types}: the simulator has bodies for {len(TYPES)}; take simulator=fake, or fewer types"
+        )
+    if not 0.0 < settings.object_rate <= 1.0:
+        raise SettingsError(f"object_rate={settings.object_rate}: a probability above 0 and at most 1")
+    _check_open_world(settings.model.open_world)
+    if settings.asking is Asking.when_unsure and not settings.model.posterior:
+        raise SettingsError(
+            "asking=when_unsure: the paper's models ask nothing; take model=open_world, or asking=never"
+        )
+
+
+def _check_open_world(settings: OpenWorldSettings) -> None:
+    for name in ("synonym", "slip"):
+        if not 0.0 < getattr(settings, name) < 1.0:
+            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a share between 0 and 1")
+    for name in ("unmet", "hidden", "strength"):
+        if not getattr(settings, name) > 0.0:
+            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a number above 0")
+    for name in ("look_above", "ask_below"):
+        if not 0.0 <= getattr(settings, name) <= 1.0:
+            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a probability from 0 to 1")
+    if settings.views < 0:
+        raise SettingsError(f"model.open_world.views={settings.views}: give a number of at least 0")

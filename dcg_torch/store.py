@@ -15,6 +15,7 @@ from safetensors.torch import load_file, save_file
 from dcg_torch.features import FeatureSet
 from dcg_torch.loglinear import LogLinearModel
 from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.open_world import Mind, OpenWorldModel
 from dcg_torch.symbols import Correspondence, Example, Symbol
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
@@ -33,6 +34,7 @@ class _Description:
     symbols: tuple[Symbol, ...]
     examples: tuple[Example, ...]
     corpus: tuple[Example, ...] = ()
+    mind: Mind | None = None
 
 
 _ADAPTER = TypeAdapter(_Description)
@@ -49,6 +51,7 @@ def save(model: GroundingModel, directory: Path) -> None:
         tuple(model.symbols.values()),
         tuple(model.examples),
         tuple(model.corpus),
+        model.mind if isinstance(model, OpenWorldModel) else None,
     )
     weights, text = directory / WEIGHTS, directory / DESCRIPTION
     save_file({"weight": model.loglinear.weight.contiguous()}, f"{weights}.part")
@@ -91,6 +94,10 @@ def load(directory: Path) -> GroundingModel:
         raise StoreError(f"{directory}: {DESCRIPTION} names features that do not exist: {error}") from None
     loglinear = LogLinearModel(pairs, described.correspondences)
     loglinear.weight = weight
+    if described.mind is not None:
+        return OpenWorldModel(
+            described.variant, described.symbols, described.examples, features, loglinear, mind=described.mind
+        )
     return GroundingModel(
         described.variant, described.symbols, described.examples, features, loglinear, described.corpus
     )

@@ -164,7 +164,8 @@ class Example:
     that end early. `children`
     are the child groundings, about objects of the same world. Symbols are stored, never features:
     `features.FeatureSet` encodes an example anew under whatever is known by then. `weight` scales its
-    log-likelihood.
+    log-likelihood; `weights`, if given, has a further factor for each grounding, so that a label can be soft: the
+    same groundings ACTIVE in one example and INACTIVE in another.
     """
 
     phrase: Phrase
@@ -172,3 +173,4 @@ class Example:
     correspondences: tuple[Correspondence | None, ...]
     children: tuple[Child, ...] = ()
     weight: float = 1.0
+    weights: tuple[float, ...] | None = None

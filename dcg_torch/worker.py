@@ -15,23 +15,29 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from dcg_torch.experiment import MODEL, animation_of, part_of
+from dcg_torch.experiment import MODEL, animation_of, lexicon_of, part_of
 from dcg_torch.features import Group
 from dcg_torch.language import default_parser
+from dcg_torch.meaning.beliefs import Prior
+from dcg_torch.meaning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.open_world import OpenWorld, OpenWorldModel
+from dcg_torch.settings import Asking as WhenToAsk
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
-from dcg_torch.simulator.bodies import TYPES
 from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.store import save
 from dcg_torch.training import TrainingFileError, initial_training
+from dcg_torch.trial.asking import Asking
 from dcg_torch.trial.command import Look
+from dcg_torch.trial.explore import Explorer, LookBefore, Worth
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands, trial_generators
 from dcg_torch.trial.robot import FakeRobot, Robot
 from dcg_torch.watch.recording import Recorder
 from dcg_torch.watch.wording import meant
 from dcg_torch.world.files import WorldFileError
+from dcg_torch.world.names import MORE_TYPES
 
 TRIAL_ERRORS = (SettingsError, WorldFileError, SpeakerError, TrainingFileError, SimulatorError)
 """What a trial raises when the user's input is wrong: each has a message of one line."""
@@ -63,22 +69,22 @@ _initial_training = functools.cache(initial_training)
 
 
 @functools.cache
-def _robot(settings: str) -> Robot:
+def _robot(settings: str, types: int) -> Robot:
     """This process's robot: made once, since a world's outcome does not depend on the worlds before it."""
     chosen = SimulatorSettings(**json.loads(settings))
-    if chosen.kind == RobotKind.fake:
-        return FakeRobot()
     recogniser = Recogniser(
-        min_pixels=chosen.min_pixels, wrong_class=chosen.wrong_class, missed=chosen.missed, types=TYPES
+        min_pixels=chosen.min_pixels, wrong_class=chosen.wrong_class, missed=chosen.missed, types=MORE_TYPES[:types]
     )
+    if chosen.kind == RobotKind.fake:
+        return FakeRobot(recogniser.labels if chosen.wrong_class or chosen.missed else None)
     return SimulatedRobot(recogniser=recogniser, rng=np.random.default_rng(0), gui=chosen.gui)
 
 
 def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     """Run one trial, journalling its commands in `directory`; the model as it is at the end."""
     torch.set_num_threads(1)
-    model = GroundingModel.trained(_initial_training(), variant(settings.model))
-    robot = _robot(json.dumps(asdict(settings.simulator)))
+    model = untaught(settings.model)
+    robot = _robot(json.dumps(asdict(settings.simulator)), settings.types)
     recorder = Recorder(robot) if trial in settings.animate else None
     if isinstance(robot, SimulatedRobot):
         robot.on_tick = recorder.tick if recorder else None
@@ -91,6 +97,8 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
         robot,
         trial_generators(settings.seed, trial)[2],
         spin_step=math.radians(settings.simulator.spin_step),
+        explorer=_explorer(settings, model),
+        asking=_asking(settings),
         watch=_watcher(robot, recorder),
     )
     part = part_of(directory, trial)
@@ -104,6 +112,8 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
         from dcg_torch.watch.animation import animate  # here, because it costs a third of a second to import
 
         animate(recorder.episodes, animation_of(directory, trial))
+    if isinstance(model, OpenWorldModel):
+        save_lexicon(model.lexicon(), lexicon_of(directory, trial))
     if trial == settings.trials - 1:
         save(model, directory / MODEL)
     return model
@@ -121,6 +131,36 @@ def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look
             robot.say(f"{command.text}: {meant(look.solution)}")
 
     return watch
+
+
+def untaught(settings: ModelSettings) -> GroundingModel:
+    """The model of a configuration, trained on the initial examples alone.
+
+    Raises:
+        SettingsError: a feature group that does not exist.
+    """
+    if not settings.posterior:
+        return GroundingModel.trained(_initial_training(), variant(settings))
+    chosen = settings.open_world
+    prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
+    assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
+    return OpenWorldModel.trained(_initial_training(), variant(settings), assumed)
+
+
+def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:
+    """Looking before deciding, for the model that can tell what it is unsure of."""
+    chosen = settings.model.open_world
+    if not isinstance(model, OpenWorldModel):
+        return None
+    sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
+    worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
+    return functools.partial(LookBefore, model.beliefs_of, worth)
+
+
+def _asking(settings: Settings) -> Asking | None:
+    if settings.asking is WhenToAsk.never:
+        return None
+    return Asking(below=settings.model.open_world.ask_below)
 
 
 @functools.cache

@@ -7,12 +7,14 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from dcg_torch.graph import Solution
-from dcg_torch.model import GroundingModel
-from dcg_torch.symbols import ParseTree, Percept, Pose
+from dcg_torch.model import GroundingModel, Scene
+from dcg_torch.symbols import ParseTree, Percept, Pose, WorldModel
+from dcg_torch.trial.asking import Answer, Asking, Listener, Question, candidates, question
+from dcg_torch.trial.explore import Explorer, TurnInPlace
 from dcg_torch.trial.robot import Robot
 
 
@@ -80,6 +82,8 @@ class Outcome:
         in_view: ids seen from the start pose.
         percepts: all that was perceived, in the order of first sight.
         arrived: did the drive end where it should; None if there was nowhere to drive.
+        looked: did the robot look all round before it decided?
+        asked: the questions that it asked, with their answers.
     """
 
     parse: Parse
@@ -87,6 +91,15 @@ class Outcome:
     in_view: tuple[str, ...]
     percepts: tuple[Percept, ...]
     arrived: bool | None
+    looked: bool = False
+    asked: tuple[tuple[Question, Answer], ...] = ()
+
+    def scene(self, source: str) -> Scene:
+        """What there is to learn from, beside the grounding."""
+        denied = frozenset(id_ for q, a in self.asked if a.meant is None for id_ in q.candidates)
+        said = [a.meant for _, a in self.asked if a.meant is not None]
+        left = frozenset(said) or frozenset(p.id for p in self.percepts) - denied
+        return Scene(self.percepts, self.looked, left if self.asked else None, bool(said), source)
 
 
 def carry_out(
@@ -96,16 +109,23 @@ def carry_out(
     robot: Robot,
     *,
     spin_step: float = math.radians(20.0),
+    explorer: Explorer | None = None,
+    asking: Asking | None = None,
+    listener: Listener | None = None,
     watch: Callable[[Look], None] | None = None,
     stopwatch: Stopwatch | None = None,
 ) -> Outcome:
     """Ground a command and act on it.
 
-    While the grounding is hypothetical the robot turns in place (line 13) and grounds anew with what it has seen
-    meanwhile, until it has come full circle. A grounding that is then still hypothetical is not acted on.
+    The explorer moves the robot on, and what it has seen meanwhile is grounded anew, until the explorer is content:
+    by default that is the paper's, which turns in place while the grounding is hypothetical (line 13). Then the
+    robot may ask back. A grounding that is still hypothetical is not acted on: what is meant is not there.
 
     Args:
-        spin_step: radians between two looks; positive turns left.
+        spin_step: radians between two looks of the default explorer; positive turns left.
+        explorer: decides on the looks.
+        asking: when to ask back; None: never.
+        listener: answers the questions; None: nobody does, so none are asked.
         watch: called after every grounding.
         stopwatch: takes the times.
     """
@@ -118,25 +138,45 @@ def carry_out(
         reading = parse(text, model.symbols.keys())
     if reading.tree is None:
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
-    remaining = math.tau
+    explorer = explorer or TurnInPlace(spin_step)
     while True:
         with clock("ground"):
-            world = model.world_model(percepts.values(), start)
+            world = model.world_model(percepts.values(), start, looked=explorer.looked)
             solution = model.ground(reading.tree, world)
         if watch is not None:
             watch(Look(robot.pose, tuple(percepts.values()), solution))
-        if solution.object is None or not solution.object.hypothetical or remaining <= 1e-9:
-            break
-        step = min(abs(spin_step), remaining)
-        remaining -= step
         with clock("explore"):
-            robot.spin(math.copysign(step, spin_step))
+            moved = explorer.move(solution, tuple(percepts.values()), robot)
+        if not moved:
+            break
         with clock("perceive"):
             for percept in robot.perceive():
                 percepts.setdefault(percept.id, percept)
+    asked: list[tuple[Question, Answer]] = []
+    while asking is not None and listener is not None and len(asked) < asking.questions:
+        ids = candidates(solution, asking)
+        if not ids:
+            break
+        asked.append((q := question(ids, tuple(percepts.values()), start, model.sure_names()), listener(q)))
+        with clock("ground"):
+            solution = model.ground(reading.tree, _told(solution.world, *asked[-1]))
     arrived = None
     if solution.object is not None and not solution.object.hypothetical:
         move = robot.drive_away if solution.inverted else robot.drive_to
         with clock("drive"):
             arrived = move(solution.object.id, list(percepts.values()))
-    return Outcome(reading, solution, in_view, tuple(percepts.values()), arrived)
+    return Outcome(
+        reading, solution, in_view, tuple(percepts.values()), arrived, looked=explorer.looked, asked=tuple(asked)
+    )
+
+
+def _told(world: WorldModel, asked: Question, answer: Answer) -> WorldModel:
+    """Upsilon after an answer: the object that is meant, or all but those that are not."""
+    return replace(
+        world,
+        objects=tuple(
+            o
+            for o in world.objects
+            if (o.id == answer.meant if answer.meant is not None else o.id not in asked.candidates)
+        ),
+    )

@@ -11,7 +11,9 @@ import numpy as np
 from dcg_torch.model import GroundingModel
 from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.speaker import Command
+from dcg_torch.trial.asking import Asking, truthful
 from dcg_torch.trial.command import Look, Outcome, Parser, Stopwatch, carry_out
+from dcg_torch.trial.explore import Explorer
 from dcg_torch.trial.robot import Robot
 
 
@@ -24,6 +26,8 @@ def run_trial(
     rng: np.random.Generator,
     *,
     spin_step: float = math.radians(20.0),
+    explorer: Callable[[], Explorer] | None = None,
+    asking: Asking | None = None,
     watch: Callable[[Command, Look], None] | None = None,
 ) -> Iterator[tuple[Iteration, Timing]]:
     """Ground, act and learn, command by command; each command's record is yielded as it ends.
@@ -31,6 +35,8 @@ def run_trial(
     Args:
         model: freshly trained on the initial training set (lines 1 to 6); it learns in place.
         rng: draws the recogniser's mistakes, if it makes any.
+        explorer: makes the explorer of a command; None: the paper's turning in place.
+        asking: when to ask back; the speaker answers truthfully. None: never.
     """
     known_types = model.known_types
     first_words = frozenset(model.symbols)
@@ -49,12 +55,15 @@ def run_trial(
             parse,
             robot,
             spin_step=spin_step,
+            explorer=None if explorer is None else explorer(),
+            asking=asking,
+            listener=truthful(command.target),
             watch=None if watch is None else functools.partial(watch, command),
             stopwatch=clock,
         )
         with clock("train"):
             if outcome.solution is not None:
-                model.learn(outcome.solution)
+                model.learn(outcome.solution, outcome.scene(f"{iteration}"))
         fitted = model.fitted
         met |= {o.type for o in command.world.objects if o.id == command.target}
         chosen = _chosen(outcome)
@@ -79,7 +88,7 @@ def run_trial(
                 correct=grounded == command.target,
                 kind=kind,
                 probability=None if chosen is None or outcome.solution is None else outcome.solution.probability,
-                asked=0,
+                asked=len(outcome.asked),
                 symbols={s.word: s.type for s in model.symbols.values() if s.word not in first_words},
                 path_length=robot.path_length,
                 turned=robot.turned,
@@ -91,6 +100,8 @@ def run_trial(
                 arrived=outcome.arrived,
                 collisions=robot.collisions,
                 expected_symbols=float(len(met)),
+                beliefs=model.beliefs_about(first_words),
+                dialogue=tuple((q.text, a.text(q)) for q, a in outcome.asked) or None,
             ),
             Timing(
                 trial=trial,
@@ -102,6 +113,7 @@ def run_trial(
                 train_rows=0 if fitted is None else fitted.rows,
                 language_columns=model.features.shape[0],
                 grounding_columns=model.features.shape[1],
+                moving=robot.seconds,
             ),
         )
 

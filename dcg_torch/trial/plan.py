@@ -12,6 +12,7 @@ from dcg_torch.settings import Order, Settings, SettingsError
 from dcg_torch.speaker import Command, draw_trial, make_speaker
 from dcg_torch.world.files import World, load_worlds
 from dcg_torch.world.generator import generate_world
+from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
 
 
 def trial_generators(seed: int, trial: int) -> list[np.random.Generator]:
@@ -26,7 +27,14 @@ def trial_worlds(settings: Settings, rng: np.random.Generator) -> list[World]:
         WorldFileError: a world file is missing or not valid.
     """
     if settings.worlds == "generated":
-        return [generate_world(rng, f"generated_{k:02d}") for k in range(settings.worlds_per_trial)]
+        draw = functools.partial(
+            generate_world,
+            rng,
+            types=MORE_TYPES[: settings.types],
+            colors=MORE_COLORS[: settings.colors],
+            probability=settings.object_rate,
+        )
+        return [draw(f"generated_{k:02d}") for k in range(settings.worlds_per_trial)]
     return _worlds_of(resource("worlds") if settings.worlds == "committed" else Path(settings.worlds))
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -59,6 +60,18 @@ class Robot(Protocol):
         """Leave the surroundings of an object; True when it ended outside them."""
         ...
 
+    def go_to(self, x: float, y: float, percepts: list[Percept]) -> bool:
+        """Drive to a place round all objects; True when it got there."""
+        ...
+
+    @property
+    def seconds(self) -> float:
+        """Simulated seconds that it has moved since `load`."""
+        ...
+
+
+Labels = Callable[[Sequence[str], np.random.Generator], Sequence[str | None]]
+
 
 @dataclass
 class _State:
@@ -69,15 +82,28 @@ class _State:
 
 
 class FakeRobot:
-    """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once."""
+    """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once.
 
-    def __init__(self) -> None:
+    Args:
+        labels: what the objects of a world, given their types in order, are recognised as (None: not at all); by
+            default as what they are.
+    """
+
+    def __init__(self, labels: Labels | None = None) -> None:
+        self._labels = labels
         self._now: _State | None = None
         self.collisions = 0
 
     def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
         """Stand at the start pose of `world`."""
         self._now = _State(world, world.start)
+        types = [o.type for o in world.objects]
+        if self._labels is None:
+            self._recognised: dict[str, str | None] = {o.id: o.type for o in world.objects}
+        else:
+            if rng is None:
+                raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
+            self._recognised = dict(zip((o.id for o in world.objects), self._labels(types, rng), strict=True))
 
     @property
     def _state(self) -> _State:
@@ -104,9 +130,9 @@ class FakeRobot:
         """Every object within half the field of view of the heading."""
         seen = []
         for o in self._state.world.objects:
-            bearing = abs(self._bearing(o.position))
-            if bearing < FIELD_OF_VIEW / 2:
-                seen.append((bearing, o.id, Percept(o.id, o.type, o.color, (*o.position, 0.0))))
+            bearing, label = abs(self._bearing(o.position)), self._recognised[o.id]
+            if bearing < FIELD_OF_VIEW / 2 and label is not None:
+                seen.append((bearing, o.id, Percept(o.id, label, o.color, (*o.position, 0.0))))
         return [percept for _, _, percept in sorted(seen, key=lambda item: item[:2])]
 
     def spin(self, angle: float) -> None:
@@ -126,6 +152,16 @@ class FakeRobot:
         x, y = next(p.position[:2] for p in percepts if p.id == target)
         self._go((2 * self.pose.x - x, 2 * self.pose.y - y), 2.0)
         return True
+
+    def go_to(self, x: float, y: float, percepts: list[Percept]) -> bool:
+        """Face the place and go there."""
+        self._go((x, y), math.dist((x, y), (self.pose.x, self.pose.y)))
+        return True
+
+    @property
+    def seconds(self) -> float:
+        """As if it drove 0.65 metres and turned 2 radians a second."""
+        return self.path_length / 0.65 + self.turned / 2.0
 
     def _bearing(self, point: tuple[float, float]) -> float:
         pose = self.pose

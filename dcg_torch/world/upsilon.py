@@ -31,10 +31,16 @@ def perceive_objects(
     return [o for o in seen if o.known or unknown]
 
 
-def hypothesize_objects(known_types: Iterable[str]) -> list[Object]:
+def hypothesize_objects(known_types: Iterable[str], attributes: frozenset[str] = frozenset()) -> list[Object]:
     """KH and UH: an unseen instance of every known type, and one of an unknown type (line 9, Section III-C)."""
-    known = [Object(id=f"hypothetical {t}", type=t, known=True, hypothetical=True) for t in known_types]
-    return [*known, Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True)]
+    known = [
+        Object(id=f"hypothetical {t}", type=t, known=True, hypothetical=True, attributes=attributes)
+        for t in known_types
+    ]
+    return [
+        *known,
+        Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True, attributes=attributes),
+    ]
 
 
 def world_model(
@@ -45,9 +51,14 @@ def world_model(
     hypothetical: bool = True,
     robot: Pose | None = None,
     speaker: Pose | None = None,
+    unseen: frozenset[str] = frozenset(),
 ) -> WorldModel:
-    """Upsilon of a model variant: DCG has neither unknown nor hypothetical objects, DCG-UPUP no hypothetical."""
+    """Upsilon of a model variant: DCG has neither unknown nor hypothetical objects, DCG-UPUP no hypothetical.
+
+    Args:
+        unseen: attributes that the hypothetical objects have.
+    """
     objects = perceive_objects(percepts, known_types, unknown=unknown)
     if hypothetical:
-        objects += hypothesize_objects(known_types)
+        objects += hypothesize_objects(known_types, unseen)
     return WorldModel(tuple(objects), robot, speaker)

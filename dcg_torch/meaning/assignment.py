@@ -1,0 +1,173 @@
+"""Marginals of a distribution over assignments of words to types.
+
+Every word names one type, and several words may name one; each word after the first on a type costs a factor
+`repeat` < 1, so that the words repel one another (repeat = 0: one-to-one, 1: independent words):
+
+    P(t_1 ... t_W)  ~  prod_w psi[w, t_w]  *  prod_t repeat ** max(0, words on t - 1)
+
+`exact` sums over the sets of types that are taken, word by word; `propagate` is loopy belief propagation on the
+same factors. With repeat = 0 the latter is the data-association recursion of Williams and Lau (2014,
+"Approximate evaluation of marginal association probabilities with belief propagation", IEEE Trans. AES 50(4)).
+Propagation errs most on small tight clusters, as when two words share two types, and those are cheap to sum; so
+`marginals` propagates over all and then sums exactly within each cluster that is small.
+
+Conventions: psi is (W, T), non-negative, every row has a positive entry; `free[t]` is False for columns whose
+words do not repel each other (types that have a name for certain carry their factor in psi; "some type not met
+yet" is no single type).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Matrix = NDArray[np.float64]
+Vector = NDArray[np.float64]
+
+EXACT_COST = 300_000
+"""Words times types times sets of types, up to which the sum is exact (a few milliseconds)."""
+_LINKED = 0.005  # probability from which on a word and a type belong to one cluster
+
+
+@dataclass(frozen=True)
+class Marginals:
+    """What an assignment's distribution says of single words and types.
+
+    Attributes:
+        word: (W, T) probability that word w names type t; rows sum to 1.
+        taken: (T,) probability that some word names t.
+        sweeps: of belief propagation; 0 where the sum was exact.
+    """
+
+    word: Matrix
+    taken: Vector
+    sweeps: int = 0
+
+
+def marginals(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> Marginals:
+    """The marginals: exact where that is cheap, otherwise propagated, and exact within small clusters.
+
+    Raises:
+        ValueError: `repeat` outside [0, 1], or shapes that don't fit.
+    """
+    _check(psi, repeat, free)
+    if _cheap(len(psi), int(free.sum())):
+        return exact(psi, repeat, free)
+    found = propagate(psi, repeat, free)
+    for words, types in _clusters(found.word > _LINKED, free):
+        if len(types) > 1 and _cheap(len(words), len(types)):
+            columns = np.sort(np.concatenate([types, np.flatnonzero(~free)]))
+            block = np.ix_(words, columns)
+            summed = exact(np.maximum(psi[block], 1e-300), repeat, free[columns])
+            # what lies outside the cluster is little, and stays as propagated
+            found.word[block] = summed.word * found.word[block].sum(axis=1, keepdims=True)
+            found.taken[types] = np.maximum(summed.taken[np.isin(columns, types)], 0.0)
+    return found
+
+
+def _cheap(words: int, types: int) -> bool:
+    return types <= 16 and max(1, words) * max(1, types) * 2**types <= EXACT_COST
+
+
+def _clusters(linked: NDArray[np.bool_], free: NDArray[np.bool_]) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+    """Words and repelling types that hang together, as (indices of words, indices of types)."""
+    left = set(range(len(linked)))
+    found = []
+    while left:
+        words, types, fresh = set[int](), set[int](), {left.pop()}
+        while fresh:
+            words |= fresh
+            types |= {int(t) for w in fresh for t in np.flatnonzero(linked[w] & free)}
+            fresh = {int(w) for t in types for w in np.flatnonzero(linked[:, t])} - words
+        left -= words
+        found.append((np.array(sorted(words)), np.array(sorted(types), dtype=np.int64)))
+    return found
+
+
+def exact(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> Marginals:
+    """Forward and backward sums over (words so far, set of types taken): O(W T 2^T)."""
+    _check(psi, repeat, free)
+    psi = _scaled(psi)
+    columns = np.flatnonzero(free)
+    sets = np.arange(2 ** len(columns))
+    has = [(sets >> bit) & 1 == 1 for bit in range(len(columns))]
+    other = psi[:, ~free].sum(axis=1)
+    forward = np.zeros((len(psi) + 1, len(sets)))
+    forward[0, 0] = 1.0
+    for w, row in enumerate(psi):
+        before, after = forward[w], forward[w] * other[w]
+        for bit, t in enumerate(columns):
+            after[has[bit]] += row[t] * (repeat * before[has[bit]] + before[~has[bit]])
+        forward[w + 1] = after / after.sum()
+    backward = np.ones(len(sets))
+    word = np.zeros(psi.shape)
+    for w in range(len(psi) - 1, -1, -1):
+        row, before, after = psi[w], forward[w], backward
+        backward = after * other[w]
+        word[w, ~free] = row[~free] * (before @ after)
+        for bit, t in enumerate(columns):
+            then = after[has[bit]]  # the set with t in it, whether or not it was there before
+            word[w, t] = row[t] * ((repeat * before[has[bit]] + before[~has[bit]]) @ then)
+            backward[has[bit]] += row[t] * repeat * then
+            backward[~has[bit]] += row[t] * then
+        backward = backward / backward.max()
+        word[w] /= word[w].sum()
+    taken = np.zeros(psi.shape[1])
+    taken[columns] = [forward[-1][mask].sum() for mask in has]
+    return Marginals(word, taken)
+
+
+def propagate(
+    psi: Matrix, repeat: float, free: NDArray[np.bool_], *, tolerance: float = 1e-6, most: int = 500
+) -> Marginals:
+    """Loopy belief propagation, all messages at once.
+
+    With odds[w, t] the message "w names t" of a word to a type and P the product of (1 + repeat * odds) over the
+    other words, the type answers with the ratio repeat P / (repeat + P - 1), or 1 / (1 + sum of odds) at repeat 0.
+    """
+    _check(psi, repeat, free)
+    psi = _scaled(psi)
+    answer = np.ones(psi.shape)
+    sweeps = 0
+    odds = np.zeros(psi.shape)
+    while sweeps < most:
+        sweeps += 1
+        pull = psi * answer
+        odds = pull / np.maximum(pull.sum(axis=1, keepdims=True) - pull, 1e-300)
+        np.minimum(odds, 1e12, out=odds)
+        # half a step in the logarithm: the undamped recursion can swing where words are many and repel weakly
+        renewed = np.sqrt(answer * np.where(free, _answers(odds, repeat), 1.0))
+        change = float(np.abs(renewed - answer).max(initial=0.0))
+        answer = renewed
+        if change < tolerance:
+            break
+    pull = psi * answer
+    word = pull / pull.sum(axis=1, keepdims=True)
+    # Of each type the belief about "no word at all", from the same messages.
+    grown = np.exp(np.log1p(repeat * odds).sum(axis=0)) if repeat > 0 else None
+    some = odds.sum(axis=0) if grown is None else (grown - 1.0) / repeat
+    return Marginals(word, np.where(free, some / (1.0 + some), 0.0), sweeps)
+
+
+def _answers(odds: Matrix, repeat: float) -> Matrix:
+    """Of every type to every word: weight of "w too names t" over that of "w does not"."""
+    if repeat == 0.0:
+        return 1.0 / (1.0 + odds.sum(axis=0) - odds)
+    log_one = np.log1p(repeat * odds)
+    less = np.expm1(np.minimum(log_one.sum(axis=0) - log_one, 600.0))  # P - 1
+    return repeat * (1.0 + less) / (repeat + less)
+
+
+def _scaled(psi: Matrix) -> Matrix:
+    return psi / psi.max(axis=1, keepdims=True) if len(psi) else psi
+
+
+def _check(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> None:
+    if not 0.0 <= repeat <= 1.0:
+        raise ValueError(f"repeat is {repeat}; a factor for further words lies between 0 and 1")
+    if psi.ndim != 2 or free.shape != psi.shape[1:]:
+        raise ValueError(f"psi of shape {psi.shape} and free of shape {free.shape} don't fit")
+    if len(psi) and not (psi.max(axis=1, initial=0.0) > 0.0).all():
+        raise ValueError("a word has no type that it could name")
