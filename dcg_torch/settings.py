@@ -70,7 +70,11 @@ class OpenWorldSettings:
 
 @dataclass
 class ModelSettings:
-    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for."""
+    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
+
+    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial;
+    with `looks_round` it looks all round before it decides.
+    """
 
     name: str = "dcg_upup_away_color"
     groups: list[str] = field(default_factory=lambda: ["dcg", "unknown", "hypothetical", "color"])
@@ -81,6 +85,8 @@ class ModelSettings:
     l2: float = 0.05
     beam: int = 8
     synonyms: float | None = None
+    lessons: int = 0
+    looks_round: bool = False
     posterior: bool = False
     open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import json
 import math
@@ -27,10 +28,12 @@ from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError
 from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
 from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.store import save
+from dcg_torch.supervised import teach
 from dcg_torch.training import TrainingFileError, initial_training
+from dcg_torch.training.relations import relational_lessons
 from dcg_torch.trial.asking import Asking
 from dcg_torch.trial.command import Look
-from dcg_torch.trial.explore import Explorer, LookBefore, Worth
+from dcg_torch.trial.explore import Explorer, LookBefore, TurnInPlace, Worth
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands, trial_generators
 from dcg_torch.trial.robot import FakeRobot, Robot
@@ -133,6 +136,15 @@ def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look
     return watch
 
 
+@functools.cache
+def _taught(chosen: Variant, lessons: int) -> GroundingModel:
+    """A model after the initial training and so many generated lessons on relations: the same for every trial."""
+    model = GroundingModel.trained(_initial_training(), chosen)
+    if lessons:
+        teach(model, relational_lessons(lessons))
+    return model
+
+
 def untaught(settings: ModelSettings) -> GroundingModel:
     """The model of a configuration, trained on the initial examples alone.
 
@@ -140,7 +152,7 @@ def untaught(settings: ModelSettings) -> GroundingModel:
         SettingsError: a feature group that does not exist.
     """
     if not settings.posterior:
-        return GroundingModel.trained(_initial_training(), variant(settings))
+        return copy.deepcopy(_taught(variant(settings), settings.lessons))
     chosen = settings.open_world
     prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
     assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
@@ -151,7 +163,8 @@ def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explore
     """Looking before deciding, for the model that can tell what it is unsure of."""
     chosen = settings.model.open_world
     if not isinstance(model, OpenWorldModel):
-        return None
+        step = math.radians(settings.simulator.spin_step)
+        return functools.partial(TurnInPlace, step, always=True) if settings.model.looks_round else None
     sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
     worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
     return functools.partial(LookBefore, model.beliefs_of, worth)

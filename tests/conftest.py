@@ -46,3 +46,8 @@ def binary(training: TrainingSet) -> GroundingModel:
 @pytest.fixture(scope="session")
 def parser() -> Parser:
     return default_parser()
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """The fast ones first, so that most failures show at once."""
+    items.sort(key=lambda item: item.get_closest_marker("slow") is not None)

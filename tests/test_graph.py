@@ -249,6 +249,22 @@ class TestEqualScores:
             assert obj.id in taken or obj.id == next(o.id for o in world.objects if alike(o, obj) and o.id not in taken)
             taken.add(obj.id)
 
+    @pytest.mark.parametrize("count", [5, 13, 24])
+    def test_the_first_of_many_twins(self, count: int) -> None:
+        """The sums that decide are over the same numbers in another order; they must not differ in the last bit."""
+        tree = command_tree("cube", "red", preposition="to")
+        for seed in range(25):
+            pair = pair_of(VARIANTS["dcg_upup_away_color"], TERNARY, seed)
+            world = WorldModel(
+                tuple(Object(f"o{k}", "cube" if k % 3 else "cone", True, color="red") for k in range(count))
+            )
+            chosen = solve(pair, tree, world).best
+            assert chosen is not None
+            *above, noun = chosen.walk()
+            assert noun.child.grounding.object.id in ("o0", "o1")
+            for h in above:
+                assert h.child.grounding.object.id in ("o0", "o1", "o2", "o3")
+
     @given(tree=trees, count=st.integers(1, 30), beam=st.integers(1, 9))
     def test_without_any_preference_the_first(self, tree: ParseTree, count: int, beam: int) -> None:
         pair = pair_of(VARIANTS["dcg_upup_away_color"], TERNARY, 0)

@@ -288,6 +288,19 @@ class TestLines17And18:
     def test_line_17_a_hypothetical_grounding_teaches_no_symbol(self, trained: GroundingModel, about: str) -> None:
         assert self.lesson(trained, "gizmo", about) is None
 
+    @pytest.mark.parametrize(
+        ("about", "synonyms", "learned"),
+        [("0 red cube", 0.5, True), ("0 red cube", None, False), ("hypothetical cube", 0.5, False)],
+    )
+    def test_line_17_another_word_for_a_known_type(
+        self, trained: GroundingModel, about: str, synonyms: float | None, learned: bool
+    ) -> None:
+        """Beyond the paper, and only where it is asked for; never for what has not been seen."""
+        obj = next(o for o in saw(trained, "red cube").objects if o.id == about)
+        solution = trained.ground(command_tree("block"), WorldModel((obj,)))
+        symbol = new_symbol(solution, trained.features, synonyms=synonyms)
+        assert symbol == (Symbol("block", "cube", "red") if learned else None)
+
     def test_line_17_no_noun_no_symbol(self, trained: GroundingModel) -> None:
         assert self.lesson(trained, None, "1 blue drill") is None
 

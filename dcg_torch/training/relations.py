@@ -99,9 +99,9 @@ def _lesson(world: World, relation: str, rng: np.random.Generator) -> Lesson | N
 
 
 def _described(meant: Object, rng: np.random.Generator) -> tuple[str | None, str | None]:
-    """The noun and colour that a lesson says of the object meant; of an unknown type no noun is said."""
+    """The noun and colour that a lesson says of the object meant, or neither; of an unknown type no noun is said."""
     noun = meant.type if meant.known and rng.random() < 0.6 else None
-    return noun, meant.color if noun is None or rng.random() < 0.4 else None
+    return noun, meant.color if rng.random() < 0.5 else None
 
 
 def _told(world: WorldModel, noun: Phrase, modifiers: tuple[ParseTree, ...], value: Floats) -> Lesson | None:
