@@ -128,6 +128,12 @@ class SpyRobot(FakeRobot):
         return True
 
 
+def chosen(model: GroundingModel, tree: ParseTree, world: WorldModel) -> Object:
+    obj = model.ground(tree, world).object
+    assert obj is not None
+    return obj
+
+
 def log_psi(
     features: FeatureSet, model: LogLinearModel, phrase: Phrase, world: WorldModel, children: tuple[Child, ...] = ()
 ) -> torch.Tensor:

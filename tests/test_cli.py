@@ -13,7 +13,7 @@ import pytest
 
 from dcg_torch.__main__ import main
 from dcg_torch.console import make_console
-from dcg_torch.experiment import ITERATIONS, TIMINGS, part_of
+from dcg_torch.experiment import ITERATIONS, PARTS, TIMINGS, part_of
 from dcg_torch.report.__main__ import main as report
 
 QUICK = ("simulator=fake", "workers=1", "trials=2", "iterations=2", "speaker=canonical", "figures=false")
@@ -143,20 +143,14 @@ def test_the_ablation_compares_the_four_variants(tmp_path: Path, capsys: pytest.
     assert [line.split()[0] for line in compared.splitlines() if line.strip().startswith("dcg")] == variants
 
 
-def start(directory: Path, workers: int = 2) -> subprocess.Popen[str]:
+LONGER = ("simulator=fake", "trials=8", "iterations=4", "speaker=canonical", "figures=false", "tensorboard=false")
+
+
+def start(directory: Path) -> subprocess.Popen[str]:
     """An experiment in a process group of its own, which takes Ctrl-C as from a terminal."""
-    settings = ["simulator=fake", "trials=10", "iterations=6", "speaker=canonical", "figures=false"]
     return subprocess.Popen(
-        [
-            sys.executable,
-            "-m",
-            "dcg_torch",
-            *settings,
-            "tensorboard=false",
-            f"workers={workers}",
-            f"hydra.run.dir={directory}",
-        ],
-        stdout=subprocess.PIPE,
+        [sys.executable, "-m", "dcg_torch", *LONGER, "workers=2", f"hydra.run.dir={directory}"],
+        stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,
         start_new_session=True,
@@ -186,40 +180,39 @@ def alive(group: int) -> list[str]:
     return found
 
 
-@pytest.fixture(scope="module")
-def uninterrupted(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The run that interrupted ones are to equal, made by one worker."""
-    directory = tmp_path_factory.mktemp("uninterrupted")
-    process = start(directory, workers=1)
-    _, err = process.communicate(timeout=300)
-    assert process.returncode == 0, err
-    return directory
+def await_end(group: int, seconds: float = 20.0) -> None:
+    until = time.monotonic() + seconds
+    while alive(group):
+        assert time.monotonic() < until, "workers outlive the run"
+        time.sleep(0.05)
 
 
 @pytest.mark.slow
 @pytest.mark.skipif(not Path("/proc/self/stat").exists(), reason="looks for left-over processes in /proc")
-@pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL], ids=["Ctrl-C", "kill -9"])
-def test_an_interrupted_run_goes_on_to_the_same_bytes(how: signal.Signals, tmp_path: Path, uninterrupted: Path) -> None:
-    directory = tmp_path / "run"
-    process = start(directory)
-    await_rows(directory, 4, process)
-    if how is signal.SIGINT:
-        os.killpg(process.pid, how)
-    else:
-        process.kill()
-    _, err = process.communicate(timeout=60)
-    if how is signal.SIGINT:
-        assert process.returncode == 130
-        assert f"hydra.run.dir={directory} goes on" in err
-        assert "Traceback" not in err
-    until = time.monotonic() + 10
-    while alive(process.pid) and time.monotonic() < until:
-        time.sleep(0.1)
-    assert alive(process.pid) == []
-    assert (directory / ITERATIONS).read_bytes() != (uninterrupted / ITERATIONS).read_bytes()
+def test_a_run_killed_and_then_interrupted_goes_on_to_the_same_bytes(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    directory, whole = tmp_path / "run", tmp_path / "whole"
+    killed = start(directory)
+    await_rows(directory, 3, killed)
+    killed.kill()
+    killed.communicate(timeout=60)
+    await_end(killed.pid)
+    done = (directory / ITERATIONS).read_text().count("\n")
 
-    again = start(directory)
-    _, err = again.communicate(timeout=300)
-    assert again.returncode == 0, err
-    assert (directory / ITERATIONS).read_bytes() == (uninterrupted / ITERATIONS).read_bytes()
-    assert contents(directory / "model") == contents(uninterrupted / "model")
+    interrupted = start(directory)
+    await_rows(directory, done + 5, interrupted)
+    os.killpg(interrupted.pid, signal.SIGINT)
+    _, err = interrupted.communicate(timeout=60)
+    assert interrupted.returncode == 130
+    assert f"hydra.run.dir={directory} goes on" in err
+    assert "Traceback" not in err
+    await_end(interrupted.pid)
+
+    # In this process and one after another, where the others had two workers.
+    assert run(capsys, *LONGER, "workers=1", f"hydra.run.dir={whole}")[0] == 0
+    assert len(list((directory / PARTS).iterdir())) >= 2
+    assert contents(directory).get(ITERATIONS) != contents(whole)[ITERATIONS]
+    assert run(capsys, *LONGER, "workers=1", f"hydra.run.dir={directory}")[0] == 0
+    assert contents(directory)[ITERATIONS] == contents(whole)[ITERATIONS]
+    assert contents(directory / "model") == contents(whole / "model")

@@ -258,7 +258,7 @@ class TestEqualScores:
             world = WorldModel(
                 tuple(Object(f"o{k}", "cube" if k % 3 else "cone", True, color="red") for k in range(count))
             )
-            chosen = solve(pair, tree, world).best
+            chosen = solve(pair, tree, world, 8).best
             assert chosen is not None
             *above, noun = chosen.walk()
             assert noun.child.grounding.object.id in ("o0", "o1")

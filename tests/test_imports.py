@@ -17,12 +17,13 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 
 # Rooms from the lowest to the highest: a room imports rooms that stand in a line above its own.
 LAYERS = (
-    {"symbols", "settings", "resources", "records"},
+    {"symbols", "resources", "records"},
     {"space", "loglinear", "language", "world"},
-    {"features", "relational", "episodes", "console", "report", "simulator", "speaker"},
+    {"settings", "features", "meaning", "relational", "episodes", "console", "report", "simulator", "speaker"},
     {"graph", "baseline"},
     {"learning"},
     {"model"},
+    {"open_world"},
     {"store", "supervised", "explain", "explanation"},
     {"training", "trial"},
     {"watch", "evaluation", "experiment"},
