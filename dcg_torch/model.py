@@ -238,14 +238,13 @@ class GroundingModel:
 
 
 def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> list[Table]:
-    """The labelled factors of `examples` under the given columns, a table for each kind of phrase."""
+    """The labelled factors of `examples` under the given columns; rows of like width share a table."""
     encoder = _Encoder(features)
-    tables = []
-    for kind in PhraseKind:
-        of_kind = [e for e in examples if e.phrase.kind is kind]
-        if of_kind:
-            tables.append(_tabulate(of_kind, encoder, model))
-    return tables
+    alike: dict[int, list[tuple[Example, Bag]]] = {}
+    for example in examples:
+        bag = encoder.bag(example)
+        alike.setdefault(max(3, bag.shape[1].bit_length()), []).append((example, bag))
+    return [_tabulate(members, features, model) for members in alike.values()]
 
 
 def example_bag(example: Example, features: FeatureSet) -> Bag:
@@ -287,23 +286,23 @@ class _Encoder:
         return self._things[key]
 
 
-def _tabulate(examples: Sequence[Example], encoder: _Encoder, model: LogLinearModel) -> Table:
+def _tabulate(encoded: Sequence[tuple[Example, Bag]], features: FeatureSet, model: LogLinearModel) -> Table:
     bags, phrases, labels, weights = [], [], [], []
-    for k, example in enumerate(examples):
+    for k, (example, bag) in enumerate(encoded):
         labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
-        bags.append(encoder.bag(example)[labelled])
+        bags.append(bag[labelled])
         phrases += [k] * len(labelled)
         labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
         own = example.weights or (1.0,) * len(example.correspondences)
         weights += [example.weight * own[j] for j in labelled]
     width = max(b.shape[1] for b in bags)
     return tabulate(
-        encoder.features.encode_phrases([e.phrase for e in examples]),
+        features.encode_phrases([example.phrase for example, _ in encoded]),
         np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in bags]),
         np.array(phrases, dtype=np.int64),
         np.array(labels, dtype=np.int64),
         np.array(weights),
-        (len(model.correspondences), *encoder.features.shape),
+        (len(model.correspondences), *features.shape),
     )
 
 
