@@ -198,6 +198,12 @@ class FeatureSet:
         rows = [[f in PAIRS[name.partition(":")[0]] for f in families] for name in self.language]
         return np.array(rows, dtype=np.bool_).reshape(self.shape)
 
+    @property
+    def nouns(self) -> frozenset[str]:
+        """The nouns that have a column."""
+        found = (name.removeprefix("noun: ") for name in self.language if name.startswith("noun: "))
+        return frozenset(found) - {"(unheard)"}
+
     def knows_noun(self, noun: str) -> bool:
         """Has this noun ever been grounded to a known type (Section III-A)?"""
         return f"noun: {noun}" in self.language

@@ -222,6 +222,7 @@ class OpenWorldModel(GroundingModel):
             unseen,
             looked=LOOKED,
             strength=self.mind.assumed.strength,
+            forgotten=sorted(self.features.nouns - set(self.beliefs.posterior.words)),
         )
         tables = encode([*self.examples, *soft], self.features, self.loglinear)
         # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds

@@ -16,7 +16,7 @@ each type, each colour word with each colour, and the hypothetical objects once.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,6 +57,7 @@ def soft_examples(
     *,
     looked: frozenset[str],
     strength: float = 5.0,
+    forgotten: Collection[str] = (),
 ) -> list[Example]:
     """Equation (2) as examples.
 
@@ -66,17 +67,21 @@ def soft_examples(
         unseen: rates of what may be there unseen.
         looked: the attributes of hypothetical objects once the robot has looked round.
         strength: curvature of each pair's likelihood, in examples.
+        forgotten: nouns that have columns and no meaning any more: they are as if never heard.
     """
-    pairs = [*_nouns(nouns), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
+    pairs = [*_nouns(nouns, forgotten), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
     return list(_examples(pairs, strength))
 
 
-def _nouns(nouns: Beliefs) -> Iterator[_Pair]:
+def _nouns(nouns: Beliefs, forgotten: Collection[str]) -> Iterator[_Pair]:
     """Every noun with a perceived object of every type, no colour said."""
     table, new = nouns.said_of()
-    for word, row in zip((*nouns.posterior.words, NEVER_HEARD), (*table, new), strict=True):
-        for type_, odds in zip(nouns.posterior.types, row, strict=True):
-            yield _Pair(_phrase(word), _object(type_), float(odds))
+    things = [_object(type_) for type_ in nouns.posterior.types]
+    unheard = (NEVER_HEARD, *forgotten)
+    for word, row in zip((*nouns.posterior.words, *unheard), (*table, *([new] * len(unheard))), strict=True):
+        phrase = _phrase(word)
+        for thing, odds in zip(things, row.tolist(), strict=True):
+            yield _Pair(phrase, thing, odds)
 
 
 def _colors(nouns: Beliefs, colors: Beliefs) -> Iterator[_Pair]:
@@ -122,10 +127,12 @@ def _object(
 def _examples(pairs: Iterable[_Pair], strength: float) -> Iterator[Example]:
     """A soft label a pair, as two examples a phrase: its objects ACTIVE, and the same INACTIVE."""
     by_phrase: dict[Phrase, list[_Pair]] = {}
+    worlds: dict[tuple[str, ...], WorldModel] = {}  # shared, so that each is encoded once
     for pair in pairs:
         by_phrase.setdefault(pair.phrase, []).append(pair)
     for phrase, of_phrase in by_phrase.items():
-        world = WorldModel(tuple(pair.object for pair in of_phrase))
+        objects = tuple(pair.object for pair in of_phrase)
+        world = worlds.setdefault(tuple(o.id for o in objects), WorldModel(objects))
         odds = np.clip([pair.odds for pair in of_phrase], 1e-6, 1e6)
         # weights a and b with a / b = odds and a b / (a + b) = strength
         for label, amounts in ((Correspondence.ACTIVE, 1.0 + odds), (Correspondence.INACTIVE, 1.0 + 1.0 / odds)):
