@@ -18,6 +18,9 @@ reproduce: $(VENV)/installed ## Run the paper's experiment (written, then canoni
 	$(RUN) experiment=paper hydra.run.dir=runs/paper
 	$(RUN) experiment=paper speaker=canonical hydra.run.dir=runs/paper_canonical
 	$(RUN) experiment=ablation hydra.sweep.dir=runs/ablation
+	@$(BIN)/python -m dcg_torch.report runs/paper runs/paper_canonical
+	@$(BIN)/python -m dcg_torch.report runs/paper
+	@echo "pictures: runs/paper/figures, runs/paper_canonical/figures, runs/ablation/comparison.png; curves: make board"
 
 test: $(VENV)/installed-dev ## Run the tests, the fast ones first
 	$(BIN)/python -m pytest

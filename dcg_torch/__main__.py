@@ -28,9 +28,11 @@ _STARTED = time.perf_counter()
 
 def _application(config: DictConfig) -> None:
     """One experiment, in the folder that Hydra chose."""
-    from dcg_torch.experiment import check_folder, run, user_errors
+    from dcg_torch.experiment import WorkerKilledError, check_folder, run, user_errors
 
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
+    sweep = HydraConfig.get().mode == RunMode.MULTIRUN
+    began = time.perf_counter() if sweep else _STARTED
     try:
         settings = settings_of(config)
         check_folder(settings, directory)
@@ -40,28 +42,33 @@ def _application(config: DictConfig) -> None:
             f"model {escape(settings.model.name)}, in {escape(str(directory))}"
         )
         with CommandBar(settings.trials * settings.iterations, console) as bar:
-            run(settings, directory, bar)
-        _report(settings, directory, console)
+            ran = run(settings, directory, bar)
+        _report(settings, directory, console, began if ran else None)
     except CONFIG_ERRORS as error:
         sys.exit(refuse(explain(error), directory))
     except KeyboardInterrupt:
-        sweep = HydraConfig.get().mode == RunMode.MULTIRUN
         where = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
         print(f"dcg_torch: interrupted; the same command with {where} goes on from here", file=sys.stderr)
         sys.exit(130)
+    except WorkerKilledError as error:
+        print(f"dcg_torch: {error}", file=sys.stderr)
+        sys.exit(1)
     except Exception as error:
         if not isinstance(error, user_errors()):
             raise
         sys.exit(refuse(str(error), directory))
 
 
-def _report(settings: Settings, directory: Path, console: Console) -> None:
-    """Measures, tables, figures, TensorBoard and summary of the run in `directory`."""
+def _report(settings: Settings, directory: Path, console: Console, began: float | None) -> None:
+    """Measures, tables, figures, TensorBoard and summary of the run in `directory`.
+
+    Its wall time counts from `began`; None for a run that was finished before, whose wall time stays.
+    """
     from dcg_torch.experiment import lexicon_of, read_run
     from dcg_torch.report import tables
     from dcg_torch.report.measures import measure
     from dcg_torch.report.seconds import summarise_seconds
-    from dcg_torch.report.summary import write_summary
+    from dcg_torch.report.summary import ReportError, read_summary, write_summary
 
     rows, timings = read_run(directory)
     measures = measure(rows)
@@ -79,8 +86,13 @@ def _report(settings: Settings, directory: Path, console: Console) -> None:
         from dcg_torch.report.board import write_board
 
         write_board(directory, rows, timings, asdict(settings), figures)
-    seconds["wall"] = time.perf_counter() - _STARTED
-    write_summary(directory / "summary.json", directory.name, asdict(settings), measures, seconds)
+    summary = directory / "summary.json"
+    if began is not None:
+        seconds["wall"] = time.perf_counter() - began
+    else:
+        with contextlib.suppress(ReportError):  # there may be none yet, if it was interrupted after its last trial
+            seconds["wall"] = read_summary(summary).seconds["wall"]
+    write_summary(summary, directory.name, asdict(settings), measures, seconds)
     tables.print_paper_table(measures, console, seconds)
     tables.print_iterations(measures, console)
     tables.print_errors(measures, console)

@@ -15,6 +15,7 @@ import json
 import os
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
 from pathlib import Path
 
@@ -33,6 +34,10 @@ _FREE = ("name", "trials", "workers", "animate", "figures", "tensorboard", "scre
 
 class RunFolderError(ValueError):
     """A run folder that cannot be gone on with; the message is one line."""
+
+
+class WorkerKilledError(RuntimeError):
+    """A process that ran trials was killed from outside; the message is one line."""
 
 
 def user_errors() -> tuple[type[Exception], ...]:
@@ -169,8 +174,8 @@ def prepare(settings: Settings, directory: Path) -> list[int]:
     return open_trials
 
 
-def run(settings: Settings, directory: Path, progress: Callable[[Sequence[Iteration]], None]) -> None:
-    """Run the trials that are not finished yet, each over the cores.
+def run(settings: Settings, directory: Path, progress: Callable[[Sequence[Iteration]], None]) -> int:
+    """Run the trials that are not finished yet, each over the cores; how many these were.
 
     Args:
         settings: checked ones.
@@ -180,6 +185,7 @@ def run(settings: Settings, directory: Path, progress: Callable[[Sequence[Iterat
     Raises:
         RunFolderError: the folder holds another experiment.
         WorldFileError, SpeakerError: there is not what the settings ask for; found before anything runs.
+        WorkerKilledError: a worker was killed from outside.
     """
     check_folder(settings, directory)
     open_trials = prepare(settings, directory)
@@ -190,8 +196,15 @@ def run(settings: Settings, directory: Path, progress: Callable[[Sequence[Iterat
         workers = 1  # one window to look at
     with _ticking(lambda: progress(journal.advance())):
         jobs = (delayed(_run_trial)(settings, trial, directory, os.getpid()) for trial in open_trials)
-        for _ in Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)(jobs):
-            pass
+        try:
+            for _ in Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)(jobs):
+                pass
+        except BrokenProcessPool:
+            raise WorkerKilledError(
+                "a worker process was killed, perhaps for want of memory (then try workers=1); "
+                f"the same command with hydra.run.dir={directory} goes on from here"
+            ) from None
+    return len(open_trials)
 
 
 def _run_trial(settings: Settings, trial: int, directory: Path, parent: int) -> None:

@@ -7,6 +7,8 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
+from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
@@ -115,6 +117,36 @@ def test_a_line_cut_short_is_done_again(tmp_path: Path, capsys: pytest.CaptureFi
     assert (cut / ITERATIONS).read_bytes() == rows
     assert len((cut / TIMINGS).read_text().splitlines()) == len(rows.splitlines())
     assert contents(cut / "model") == contents(whole / "model")
+
+
+def test_a_finished_run_is_reported_again_with_its_own_wall_time(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    tables = []
+    for _ in range(2):
+        status, out, _ = run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")
+        assert status == 0
+        tables.append(out[out.index("The paper's figures") :])
+    before = contents(tmp_path)
+    assert tables[0] == tables[1]
+    assert run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")[0] == 0
+    assert contents(tmp_path) == before
+
+
+def test_a_worker_that_is_killed_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def killed(**_: object) -> Callable[[object], object]:
+        def call(_: object) -> object:
+            raise BrokenProcessPool("exit codes {SIGKILL(-9)}")
+
+        return call
+
+    monkeypatch.setattr("dcg_torch.experiment.Parallel", killed)
+    status, _, err = run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")
+    assert status == 1
+    assert err.count("\n") == 1
+    assert f"hydra.run.dir={tmp_path} goes on" in err
 
 
 @pytest.mark.slow
