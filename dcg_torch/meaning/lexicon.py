@@ -64,8 +64,6 @@ def save_lexicon(entries: Iterable[Entry], path: Path) -> None:
 def load_lexicon(path: Path) -> list[Entry]:
     """What `save_lexicon` wrote."""
     return [
-        Entry(
-            e["word"], tuple((t, p) for t, p in e["types"]), e["commands"], tuple(e["sources"]), e["settled"]
-        )
+        Entry(e["word"], tuple((t, p) for t, p in e["types"]), e["commands"], tuple(e["sources"]), e["settled"])
         for e in json.loads(path.read_text(encoding="utf-8"))
     ]

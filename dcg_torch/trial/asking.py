@@ -96,9 +96,7 @@ def question(ids: Sequence[str], percepts: Sequence[Percept], start: Pose, names
     return Question(f"Do you mean {listed}?", tuple(ids))
 
 
-def describe(
-    thing: Percept, percepts: Sequence[Percept], start: Pose, names: Mapping[str, str]
-) -> tuple[str, str]:
+def describe(thing: Percept, percepts: Sequence[Percept], start: Pose, names: Mapping[str, str]) -> tuple[str, str]:
     """What an object is and, if that fits others as well, where it is: ("the blue thing", "on my left")."""
     name = names.get(thing.type)
     base = " ".join(filter(None, ("the", thing.color, name or "thing")))

@@ -85,7 +85,12 @@ class Worth:
 class LookBefore:
     """Look round while more than one thing may be meant; then drive to where unseen ground is.
 
-    `meanings` gives type -> probability for a noun. A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
+    A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
+
+    Attributes:
+        meanings: gives type -> probability for a noun.
+        worth: when to go on.
+        places: where it has looked all round.
     """
 
     meanings: Callable[[str], Mapping[str, float]]
@@ -196,9 +201,7 @@ def next_place(here: Point, places: Sequence[Point], percepts: Sequence[Percept]
     return (float(stands[best, 0]), float(stands[best, 1])) if score[best] > 0.0 else None
 
 
-def in_sight(
-    places: NDArray[np.float64], cells: NDArray[np.float64], discs: NDArray[np.float64]
-) -> NDArray[np.bool_]:
+def in_sight(places: NDArray[np.float64], cells: NDArray[np.float64], discs: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(places, cells): is the line between them free of discs? Cells on a disc count by what is before it."""
     free = np.ones((len(places), len(cells)), dtype=np.bool_)
     along = cells[None] - places[:, None]
