@@ -1,1 +1,91 @@
-"""x"""
+"""Grounding commands to known, unknown and unseen objects, and learning new words from the outcome.
+
+A reimplementation of DCG-UPUP-Away (Tucker, Aksaray, Paul, Roy: "DCG-UPUP-Away: Automatic Symbol Learning through
+Grounding to Unknowns") on PyTorch, with an experiment around it in PyBullet, and what goes beyond the paper.
+
+How the paper is read here:
+
+* Eq. 4 normalises over {-1, 0, 1}, eqs. 6, 8 and 9 over {0, 1}. Both are one setting (`Variant.ternary`), and
+  INVERTED is really trained: "stay away from the cube".
+* Eq. 6 as printed leaves the sum over F_U outside exp; eq. 8 shows what is meant. F_BCG there is F_DCG.
+* A command means one thing: phi* is sought among the configurations in which each phrase corresponds to exactly one
+  grounding (`graph`).
+* "Known" is a fact about the training set, so an example recorded while "cone" was unknown changes its meaning when
+  the word is learned; `learning.replace_unknown` covers its negatives too. The hand-made examples that teach
+  "unknown" use invented nouns, which no later lesson can make known.
+* M.train takes all of M.Gamma: beside the object that was meant, training sees one of every other known type
+  (`learning.contrast`).
+* While the grounding is hypothetical the robot turns and grounds anew with what it has seen; lines 16 to 25 follow once
+  a command, from the last grounding.
+
+The names below are what most users import; each is loaded when it is first used.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from dcg_torch.explanation import explain
+    from dcg_torch.features import Group
+    from dcg_torch.graph import FactorGraph, Solution
+    from dcg_torch.language import Parse, Parser
+    from dcg_torch.language import parse_command as parse
+    from dcg_torch.loglinear import FitResult, LogLinearModel
+    from dcg_torch.model import GroundingModel, TrainingSet, Variant
+    from dcg_torch.store import load, save
+    from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
+    from dcg_torch.training import initial_training, read_training
+
+__version__ = "0.1.0"
+
+_WHERE = {
+    "explanation": "explain",
+    "features": "Group",
+    "graph": "FactorGraph Solution",
+    "language": "Parse Parser",
+    "loglinear": "FitResult LogLinearModel",
+    "model": "GroundingModel TrainingSet Variant",
+    "store": "load save",
+    "symbols": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
+    "training": "initial_training read_training",
+}
+_MODULES = {name: module for module, names in _WHERE.items() for name in names.split()}
+
+__all__ = [
+    "Correspondence",
+    "Example",
+    "FactorGraph",
+    "FitResult",
+    "GroundingModel",
+    "Group",
+    "LogLinearModel",
+    "Object",
+    "Parse",
+    "ParseTree",
+    "Parser",
+    "Percept",
+    "Phrase",
+    "Pose",
+    "Solution",
+    "Symbol",
+    "TrainingSet",
+    "Variant",
+    "WorldModel",
+    "explain",
+    "initial_training",
+    "load",
+    "parse",
+    "read_training",
+    "save",
+]
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name from its room."""
+    if name == "parse":
+        return importlib.import_module("dcg_torch.language").parse_command
+    if name not in _MODULES:
+        raise AttributeError(f"module 'dcg_torch' has no attribute {name!r}")
+    return getattr(importlib.import_module(f"dcg_torch.{_MODULES[name]}"), name)

@@ -45,7 +45,8 @@ class EpisodeObject(_Record):
 class Episode(_Record):
     """One command in one scene; further keys are ignored.
 
-    `target` lists the ids of the objects meant, `holding` is the object in the gripper.
+    `target` lists the ids of the objects meant, `holding` is the object in the gripper. Episodes of one `group`
+    show the same scene and its changes.
     """
 
     id: str
@@ -55,6 +56,7 @@ class Episode(_Record):
     robot: _Robot | None = None
     speaker: _Point | None = None
     holding: str | None = None
+    group: str | None = None
 
     @property
     def pose(self) -> Pose | None:
@@ -135,3 +137,19 @@ def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> tu
     points = space.seen_from(robot or Pose(0.0, 0.0), np.array([p[:2] for p in positions], dtype=np.float64))
     low, high = points.min(axis=0), points.max(axis=0)
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+
+
+def split_folds(episodes: Sequence[Episode], folds: int, rng: np.random.Generator) -> list[list[Episode]]:
+    """Parts of about equal size, in which no group is in two; an episode without a group is one of its own.
+
+    Raises:
+        EpisodeError: there are fewer groups than parts.
+    """
+    groups: dict[str, list[Episode]] = {}
+    for episode in episodes:
+        groups.setdefault(episode.group or f"episode {episode.id}", []).append(episode)
+    if len(groups) < folds:
+        raise EpisodeError(f"folds={folds}, but the episodes are of {len(groups)} groups; ask for fewer")
+    names = sorted(groups)
+    order = rng.permutation(len(names))
+    return [[e for k in order[fold::folds] for e in groups[names[k]]] for fold in range(folds)]

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import hydra
+import numpy as np
 import torch
 from hydra.core.hydra_config import HydraConfig
 from omegaconf import DictConfig, OmegaConf
@@ -21,9 +22,9 @@ from dcg_torch.__main__ import refuse, run_application
 from dcg_torch.config import CONFIG_ERRORS, save_composed
 from dcg_torch.config import explain as explain_error
 from dcg_torch.console import make_console
-from dcg_torch.episodes import EpisodeError, read_episodes
+from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
 from dcg_torch.evaluation import CAUSES, Answer, Evaluation, summarise
-from dcg_torch.explain import explain
+from dcg_torch.explanation import explain
 from dcg_torch.language import default_parser
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
@@ -42,37 +43,59 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
         SettingsError: a setting makes no sense.
     """
     torch.set_num_threads(1)
-    train, test = (read_episodes(Path(name).expanduser()) for name in (settings.train, settings.test))
-    ids = {e.id for e in test}
-    if settings.explain is not None and settings.explain not in ids:
-        raise SettingsError(f"explain={settings.explain}: no episode of {settings.test} has this id")
-    console.print(f"training on {len(train)} episodes, {settings.rounds} rounds")
-    evaluation = Evaluation(
-        train,
-        initial_training(),
-        variant(settings.model),
-        default_parser().parse,
-        known_types=settings.known_types,
-        rounds=settings.rounds,
-        progress=lambda number: console.print(f"round {number + 1} done"),
-    )
+    pairs = _pairs(settings)
+    if settings.explain is not None and not any(e.id == settings.explain for _, test in pairs for e in test):
+        raise SettingsError(f"explain={settings.explain}: no test episode has this id")
     answers: list[Answer] = []
+    train_seconds, baseline = 0.0, []
     part = directory / f"{PREDICTIONS}.part"
     directory.mkdir(parents=True, exist_ok=True)
     with part.open("w", encoding="utf-8") as file:
-        for answer in track(
-            evaluation.answers(test, learn=settings.learn), "grounding", total=len(test), console=console
-        ):
-            answers.append(answer)
-            file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
-            if answer.episode.id == settings.explain and answer.solution is not None:
-                _print_reasons(evaluation, answer, console)
+        for train, test in pairs:
+            console.print(f"training on {len(train)} episodes, {settings.rounds} rounds")
+            evaluation = Evaluation(
+                train,
+                initial_training(),
+                variant(settings.model),
+                default_parser().parse,
+                known_types=settings.known_types,
+                rounds=settings.rounds,
+                progress=lambda number: console.print(f"round {number + 1} done"),
+            )
+            train_seconds += evaluation.train_seconds
+            found = evaluation.answers(test, learn=settings.learn)
+            for answer in track(found, "grounding", total=len(test), console=console):
+                answers.append(answer)
+                file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
+                if answer.episode.id == settings.explain and answer.solution is not None:
+                    _print_reasons(evaluation, answer, console)
+            if settings.learn:
+                words = {s.word: s.type for s in evaluation.model.symbols.values()}
+                console.print("words known at the end: " + ", ".join(f"{w} = {t}" for w, t in words.items()))
+            if settings.baseline:
+                from dcg_torch.baseline import bag_of_words
+
+                baseline += bag_of_words(train, test)
     os.replace(part, directory / PREDICTIONS)
     _print_errors(answers, console)
-    if settings.learn:
-        words = {s.word: s.type for s in evaluation.model.symbols.values()}
-        console.print("words known at the end: " + ", ".join(f"{w} = {t}" for w, t in words.items()))
-    return summarise(answers, evaluation.train_seconds)
+    figures = summarise(answers, train_seconds)
+    if settings.baseline:
+        figures["baseline_accuracy"] = sum(baseline) / len(baseline)
+        console.print(f"logistic regression on words x object features: {figures['baseline_accuracy']:.4f}")
+    return figures
+
+
+def _pairs(settings: EvaluateSettings) -> list[tuple[list[Episode], list[Episode]]]:
+    """The training and test episodes, of each fold if there are folds."""
+    train = read_episodes(Path(settings.train).expanduser())
+    if settings.folds:
+        if settings.test is not None or settings.folds < 2:
+            raise SettingsError(f"folds={settings.folds}: give at least 2, and no test file")
+        parts = split_folds(train, settings.folds, np.random.default_rng(0))
+        return [([e for other in parts if other is not part for e in other], part) for part in parts]
+    if settings.test is None:
+        raise SettingsError("test: no file given; write test=FILE, or folds=5 to cross-validate the training file")
+    return [(train, read_episodes(Path(settings.test).expanduser()))]
 
 
 def _print_errors(answers: Sequence[Answer], console: Console) -> None:

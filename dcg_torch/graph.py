@@ -104,7 +104,7 @@ class Solution:
 
     @property
     def inverted(self) -> bool:
-        """Does the command ask to keep away from the object?  Two inversions cancel ("do not avoid ...")."""
+        """Does the command ask to keep away from the object?  Two inversions cancel ("do not stay away from ...")."""
         if self.best is None:
             return False
         signs = [h.child.correspondence for h in self.best.walk() if h.tree.phrase.kind is not PhraseKind.NOUN]

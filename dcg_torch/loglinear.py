@@ -91,7 +91,10 @@ class LogLinearModel:
         columns = torch.from_numpy(np.where(grounding < 0, self.weight.shape[2], grounding))
         offset = torch.from_numpy(phrase * (self.weight.shape[2] + 1))[:, None]
         scores = _bag_sum(flat, columns + offset, dim=1)  # (P, n)
-        return torch.log_softmax(scores, dim=0).T
+        # Padded to whole vector registers: torch rounds what is left over in another way, and equal factors must have
+        # equal bits wherever they stand, or a tie between two objects would not be one.
+        whole = torch.nn.functional.pad(scores, (0, -scores.shape[1] % 32))
+        return torch.log_softmax(whole, dim=0)[:, : scores.shape[1]].T
 
 
 def _distinct(bag: Bag) -> Bag:

@@ -65,6 +65,19 @@ class TrainingSet:
     examples: tuple[Example, ...]
 
 
+_BATCH = 256
+"""Examples that are encoded together once there are as many, and then not again until the columns change."""
+
+
+@dataclass(frozen=True)
+class _Encoded:
+    """Tables that hold for as long as the columns do: the corpus's, and those of whole batches of T."""
+
+    features: FeatureSet
+    corpus: list[Table]
+    batches: list[list[Table]]
+
+
 @dataclass(frozen=True)
 class Scene:
     """What the robot saw and was told while it carried a command out.
@@ -111,7 +124,7 @@ class GroundingModel:
         self.features = features
         self.loglinear = loglinear
         self.fitted: FitResult | None = None
-        self._corpus_tables: tuple[FeatureSet, list[Table]] | None = None
+        self._encoded: _Encoded | None = None
 
     @classmethod
     def trained(cls, training: TrainingSet, variant: Variant | None = None) -> GroundingModel:
@@ -135,7 +148,7 @@ class GroundingModel:
 
     @corpus.setter
     def corpus(self, examples: Iterable[Example]) -> None:
-        self._corpus, self._corpus_tables = list(examples), None
+        self._corpus, self._encoded = list(examples), None
 
     @property
     def known_types(self) -> tuple[str, ...]:
@@ -210,22 +223,28 @@ class GroundingModel:
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
-        tables = encode([contrast(e, self.symbols) for e in self.examples], self.features, self.loglinear)
-        if self._corpus_tables is None or self._corpus_tables[0] is not self.features:
-            self._corpus_tables = self.features, encode(self.corpus, self.features, self.loglinear)
-        self.fitted = fit(self.loglinear, [*tables, *self._corpus_tables[1]], l2=self.variant.l2, max_steps=max_steps)
+        if self._encoded is None or self._encoded.features is not self.features:
+            self._encoded = _Encoded(self.features, encode(self.corpus, self.features, self.loglinear), [])
+        batches = self._encoded.batches
+        while (len(batches) + 1) * _BATCH <= len(self.examples):
+            batches.append(self._tables(self.examples[len(batches) * _BATCH : (len(batches) + 1) * _BATCH]))
+        rest = self._tables(self.examples[len(batches) * _BATCH :])
+        tables = [*rest, *(table for batch in batches for table in batch), *self._encoded.corpus]
+        self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, max_steps=max_steps)
         return self.fitted
+
+    def _tables(self, examples: Sequence[Example]) -> list[Table]:
+        return encode([contrast(e, self.symbols) for e in examples], self.features, self.loglinear)
 
 
 def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> list[Table]:
-    """The labelled factors of `examples` under the given columns, a table for each kind of phrase."""
+    """The labelled factors of `examples` under the given columns; rows of like width share a table."""
     encoder = _Encoder(features)
-    tables = []
-    for kind in PhraseKind:
-        of_kind = [e for e in examples if e.phrase.kind is kind]
-        if of_kind:
-            tables.append(_tabulate(of_kind, encoder, model))
-    return tables
+    alike: dict[int, list[tuple[Example, Bag]]] = {}
+    for example in examples:
+        bag = encoder.bag(example)
+        alike.setdefault(max(3, bag.shape[1].bit_length()), []).append((example, bag))
+    return [_tabulate(members, features, model) for members in alike.values()]
 
 
 def example_bag(example: Example, features: FeatureSet) -> Bag:
@@ -267,23 +286,23 @@ class _Encoder:
         return self._things[key]
 
 
-def _tabulate(examples: Sequence[Example], encoder: _Encoder, model: LogLinearModel) -> Table:
+def _tabulate(encoded: Sequence[tuple[Example, Bag]], features: FeatureSet, model: LogLinearModel) -> Table:
     bags, phrases, labels, weights = [], [], [], []
-    for k, example in enumerate(examples):
+    for k, (example, bag) in enumerate(encoded):
         labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
-        bags.append(encoder.bag(example)[labelled])
+        bags.append(bag[labelled])
         phrases += [k] * len(labelled)
         labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
         own = example.weights or (1.0,) * len(example.correspondences)
         weights += [example.weight * own[j] for j in labelled]
     width = max(b.shape[1] for b in bags)
     return tabulate(
-        encoder.features.encode_phrases([e.phrase for e in examples]),
+        features.encode_phrases([example.phrase for example, _ in encoded]),
         np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in bags]),
         np.array(phrases, dtype=np.int64),
         np.array(labels, dtype=np.int64),
         np.array(weights),
-        (len(model.correspondences), *encoder.features.shape),
+        (len(model.correspondences), *features.shape),
     )
 
 

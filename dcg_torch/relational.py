@@ -30,6 +30,8 @@ _PLACE_WORDS = {
     "myself": ("speaker", None),
     "speaker": ("speaker", None),
 }
+_ANYTHING = frozenset({"thing", "object", "item", "one"})
+"""Nouns that may be said of every object."""
 _SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
 _SIDE_WORDS |= {
     "bottom": "near side",
@@ -109,7 +111,8 @@ def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
 
 
 def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
-    of = compared(tree.phrase)
+    phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in _ANYTHING else tree.phrase
+    of = compared(phrase)
     modifiers = [
         ParseTree(
             Phrase(PhraseKind.MODIFIER, child.phrase.text, child.phrase.words, context=(of, *_landmark_context(child))),
@@ -118,4 +121,4 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
         for child in tree.children
         if child.phrase.kind is PhraseKind.PREPOSITION and child.children
     ]
-    return ParseTree(replace(tree.phrase, context=context), tuple(modifiers))
+    return ParseTree(replace(phrase, context=context), tuple(modifiers))

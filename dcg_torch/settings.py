@@ -18,6 +18,7 @@ class Speaker(enum.StrEnum):
 
     canonical = "canonical"
     written = "written"
+    relational = "relational"
     human = "human"
 
 
@@ -69,7 +70,11 @@ class OpenWorldSettings:
 
 @dataclass
 class ModelSettings:
-    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for."""
+    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
+
+    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial;
+    with `looks_round` it looks all round before it decides.
+    """
 
     name: str = "dcg_upup_away_color"
     groups: list[str] = field(default_factory=lambda: ["dcg", "unknown", "hypothetical", "color"])
@@ -80,6 +85,8 @@ class ModelSettings:
     l2: float = 0.05
     beam: int = 8
     synonyms: float | None = None
+    lessons: int = 0
+    looks_round: bool = False
     posterior: bool = False
     open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 
@@ -157,15 +164,19 @@ class EvaluateSettings:
         learn: learn after each test command, in file order, without seeing its target.
         explain: id of a test episode whose grounding is to be explained.
         rounds: of expectation-maximisation over the landmarks.
+        folds: instead of `test`, cross-validate `train` in so many parts; episodes of one `group` stay together.
+        baseline: also fit scikit-learn's logistic regression, on words x object features, to the same episodes.
     """
 
     train: str = "???"  # Hydra's mark of what must be given
-    test: str = "???"
+    test: str | None = None
     model: ModelSettings = field(default_factory=ModelSettings)
     known_types: list[str] | None = None
     learn: bool = False
     explain: str | None = None
     rounds: int = 4
+    folds: int = 0
+    baseline: bool = False
 
 
 def check(settings: Settings) -> None:

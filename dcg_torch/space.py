@@ -34,8 +34,8 @@ _TIE = 1e-6
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """Metres: the bounds of the distance features."""
-SETS = ("kind", "type", "all")
-AXES = ("left", "right", "far", "near", "high", "low", "big", "small", "middle", "robot", "speaker")
+SETS = ("kind", "type", "color", "all")
+AXES = ("left", "right", "far", "near", "high", "low", "big", "small", "middle", "robot", "remote", "speaker")
 
 VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
 SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
@@ -73,7 +73,7 @@ class Layout:
     Attributes:
         position: (n, 3) metres; NaN for what has none.
         half: (n, 2) half extents in x and y of what is no point (an edge), metres.
-        kind, type: (n,) equal numbers for things of one type and colour, of one type.
+        kind, type, color: (n,) equal numbers for things of one type and colour, of one type, of one colour.
         place: (n,) is it a place rather than an object?
         over: (n, n) does i rest on j?
         speaker: (2,) where the speaker is, or None.
@@ -83,6 +83,7 @@ class Layout:
     half: Floats
     kind: Ints
     type: Ints
+    color: Ints
     place: NDArray[np.bool_]
     over: NDArray[np.bool_]
     speaker: Floats | None
@@ -106,8 +107,9 @@ def layout(world: WorldModel) -> Layout:
         apart = np.hypot(*(position[:, None, :2] - position[None, :, :2]).transpose(2, 0, 1))
         up = position[:, None, 2] - position[None, :, 2]
         over = (apart < SAME_SPOT) & (up > 0.01) & (up <= ONE_LEVEL) & ~place[:, None] & ~place[None, :]
+    color = np.array([kinds.setdefault(("color", o.color), len(kinds)) for o in things], dtype=np.int64)
     speaker = None if world.speaker is None else seen_from(robot, np.array([[world.speaker.x, world.speaker.y]]))[0]
-    return Layout(position, half, kind, type_, place, over, speaker)
+    return Layout(position, half, kind, type_, color, place, over, speaker)
 
 
 def seen_from(robot: Pose, points: Floats) -> Floats:
@@ -153,7 +155,7 @@ def ranks(things: Sequence[Object], where: Layout) -> list[list[str]]:
     to_middle = np.hypot(x - middle[0], y - middle[1])
     to_robot = np.hypot(x, y)
     to_speaker = np.full(len(x), math.nan) if where.speaker is None else np.hypot(*(position[:, :2] - where.speaker).T)
-    values = np.stack([-y, y, -x, x, -z, z, -volume, volume, to_middle, to_robot, to_speaker])
+    values = np.stack([-y, y, -x, x, -z, z, -volume, volume, to_middle, to_robot, -to_robot, to_speaker])
     out: list[list[str]] = [[] for _ in things]
     for which, alike in zip(SETS, _alike(where), strict=True):
         with np.errstate(invalid="ignore"):
@@ -171,6 +173,7 @@ def _alike(where: Layout) -> list[NDArray[np.bool_]]:
     return [
         objects & (where.kind[:, None] == where.kind[None, :]),
         objects & (where.type[:, None] == where.type[None, :]),
+        objects & (where.color[:, None] == where.color[None, :]),
         objects,
     ]
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import functools
 import json
 import math
@@ -25,15 +26,19 @@ from dcg_torch.open_world import OpenWorld, OpenWorldModel
 from dcg_torch.settings import Asking as WhenToAsk
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
-from dcg_torch.speaker import SpeakerError
+from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.store import save
+from dcg_torch.supervised import teach
 from dcg_torch.training import TrainingFileError, initial_training
+from dcg_torch.training.relations import relational_lessons
 from dcg_torch.trial.asking import Asking
-from dcg_torch.trial.explore import Explorer, LookBefore, Worth
+from dcg_torch.trial.command import Look
+from dcg_torch.trial.explore import Explorer, LookBefore, TurnInPlace, Worth
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands, trial_generators
 from dcg_torch.trial.robot import FakeRobot, Robot
 from dcg_torch.watch.recording import Recorder
+from dcg_torch.watch.wording import meant
 from dcg_torch.world.files import WorldFileError
 from dcg_torch.world.names import MORE_TYPES
 
@@ -97,7 +102,7 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
         spin_step=math.radians(settings.simulator.spin_step),
         explorer=_explorer(settings, model),
         asking=_asking(settings),
-        watch=recorder.look if recorder else None,
+        watch=_watcher(robot, recorder),
     )
     part = part_of(directory, trial)
     with part.open("w", encoding="utf-8") as file:
@@ -117,6 +122,29 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     return model
 
 
+def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look], None] | None:
+    """Who is told of every look: the recorder, and the window."""
+    if recorder is None and not (isinstance(robot, SimulatedRobot) and robot.client.gui):
+        return None
+
+    def watch(command: Command, look: Look) -> None:
+        if recorder:
+            recorder.look(command, look)
+        if isinstance(robot, SimulatedRobot):
+            robot.say(f"{command.text}: {meant(look.solution)}")
+
+    return watch
+
+
+@functools.cache
+def _taught(chosen: Variant, lessons: int) -> GroundingModel:
+    """A model after the initial training and so many generated lessons on relations: the same for every trial."""
+    model = GroundingModel.trained(_initial_training(), chosen)
+    if lessons:
+        teach(model, relational_lessons(lessons))
+    return model
+
+
 def untaught(settings: ModelSettings) -> GroundingModel:
     """The model of a configuration, trained on the initial examples alone.
 
@@ -124,7 +152,7 @@ def untaught(settings: ModelSettings) -> GroundingModel:
         SettingsError: a feature group that does not exist.
     """
     if not settings.posterior:
-        return GroundingModel.trained(_initial_training(), variant(settings))
+        return copy.deepcopy(_taught(variant(settings), settings.lessons))
     chosen = settings.open_world
     prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
     assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
@@ -135,7 +163,8 @@ def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explore
     """Looking before deciding, for the model that can tell what it is unsure of."""
     chosen = settings.model.open_world
     if not isinstance(model, OpenWorldModel):
-        return None
+        step = math.radians(settings.simulator.spin_step)
+        return functools.partial(TurnInPlace, step, always=True) if settings.model.looks_round else None
     sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
     worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
     return functools.partial(LookBefore, model.beliefs_of, worth)

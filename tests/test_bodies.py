@@ -14,6 +14,7 @@ from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, ball, box, extruded, lathed, merged, rod, rounded_rectangle
 from dcg_torch.world import generator
 
+MODELLED = (*TYPES, "crate")
 HUES = {"red": 0.0, "green": 1 / 3, "blue": 2 / 3}
 SIDES = [k * math.pi / 4 for k in range(8)]
 
@@ -52,7 +53,7 @@ def test_the_eight_types_are_the_generators() -> None:
     assert TYPES == generator.TYPES
 
 
-@pytest.mark.parametrize("type", TYPES)
+@pytest.mark.parametrize("type", MODELLED)
 def test_every_type_is_one_static_body_with_one_id_in_the_mask(client: int, type: str) -> None:
     other = add_object(client, "cube", "red", (5.0, 5.0))
     body = add_object(client, type, "blue", (0.0, 0.0))
@@ -64,7 +65,7 @@ def test_every_type_is_one_static_body_with_one_id_in_the_mask(client: int, type
         assert set(np.unique(mask)) - {-1, other} == {body}
 
 
-@pytest.mark.parametrize("type", TYPES)
+@pytest.mark.parametrize("type", MODELLED)
 def test_drawn_size_is_the_stated_one_and_suits_the_robot(client: int, type: str) -> None:
     add_object(client, type, "green", (0.0, 0.0))
     above = silhouette(client, [0.0, 0.0, 40.4], [0.0, 1.0, 0.0])
@@ -78,7 +79,7 @@ def test_drawn_size_is_the_stated_one_and_suits_the_robot(client: int, type: str
     assert np.hypot(*above.T).max() <= footprint(type) + 0.008
 
 
-@pytest.mark.parametrize("type", TYPES)
+@pytest.mark.parametrize("type", MODELLED)
 def test_nothing_drawn_sticks_out_of_the_collision_hull(client: int, type: str) -> None:
     body = add_object(client, type, "green", (0.0, 0.0))
     low, high = np.array(pybullet.getAABB(body, physicsClientId=client))
@@ -171,7 +172,7 @@ def assert_sound(mesh: Mesh) -> None:
     assert all(edges.get((b, a), 0) == count for (a, b), count in edges.items())
 
 
-@pytest.mark.parametrize("type", TYPES)
+@pytest.mark.parametrize("type", MODELLED)
 def test_meshes_of_the_types_are_sound(type: str) -> None:
     for part in model(type).parts:
         assert_sound(part.mesh)

@@ -10,7 +10,8 @@ from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 from PIL import Image
 
-from dcg_torch.simulator.screenshot import HIGHLIGHT, _fitting_view, save_pair_screenshots, world_screenshot
+from dcg_torch.simulator.screenshot import HIGHLIGHT, save_pair_screenshots, world_screenshot
+from dcg_torch.simulator.view import fitting_view
 from dcg_torch.world.files import World, load_worlds
 
 SIZE = (320, 240)
@@ -47,7 +48,7 @@ def test_the_camera_has_all_points_in_the_picture_and_is_no_further_than_needed(
     points: NDArray[np.float64], yaw: float, down: float, fov: float
 ) -> None:
     forward = np.array([math.cos(down) * math.cos(yaw), math.cos(down) * math.sin(yaw), -math.sin(down)])
-    view = _fitting_view(points, forward, fov, SIZE)
+    view = fitting_view(points, forward, fov, SIZE)
     from_middle = abs(view.project(points) / SIZE - 0.5) / 0.5
     depth = ((points - view.eye) @ forward).min()
     assert from_middle.max() <= 0.86 + 1e-6

@@ -389,7 +389,7 @@ def test_nothing_works_before_a_world_is_loaded() -> None:
 
 
 def test_an_unknown_type_is_refused_by_name(shared: SimulatedRobot) -> None:
-    with pytest.raises(ValueError, match="unicorn"):
+    with pytest.raises(SimulatorError, match="world test: a: no body for object type"):
         shared.load(world(("a", "unicorn", 2.0, 0.0)))
 
 

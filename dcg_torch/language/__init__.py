@@ -7,6 +7,6 @@ The root of a tree is a verb phrase (empty for a bare "the red cube"). Its first
 a noun phrase ("find the cone") or a preposition with one ("to the cone"); `target_phrase` returns that noun phrase.
 """
 
-from dcg_torch.language.parser import Parse, Parser, default_parser, target_phrase
+from dcg_torch.language.parser import Parse, Parser, default_parser, parse_command, target_phrase
 
-__all__ = ["Parse", "Parser", "default_parser", "target_phrase"]
+__all__ = ["Parse", "Parser", "default_parser", "parse_command", "target_phrase"]

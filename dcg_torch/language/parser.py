@@ -101,3 +101,8 @@ def default_parser() -> Parser:
     gc.collect()
     gc.freeze()
     return parser
+
+
+def parse_command(text: str, vocabulary: Collection[str] = ()) -> Parse:
+    """`Parser.parse` of the process's parser."""
+    return default_parser().parse(text, vocabulary)

@@ -32,21 +32,20 @@ class Client:
     Args:
         gui: open PyBullet's window (needs a screen); otherwise nothing is shown.
         pace: with a window, how many times faster than real time it may run.
+        options: of the window, as PyBullet takes them.
 
     Raises:
         SimulatorError: `gui` was asked for and there is no display.
     """
 
-    def __init__(self, *, gui: bool = False, pace: float = 3.0) -> None:
+    def __init__(self, *, gui: bool = False, pace: float = 3.0, options: str = "") -> None:
         if gui:
             require_display()
         self.gui = gui
         self._pace = pace
-        self.id: int = pybullet.connect(pybullet.GUI if gui else pybullet.DIRECT)
+        self.id: int = pybullet.connect(pybullet.GUI, options=options) if gui else pybullet.connect(pybullet.DIRECT)
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
-        if gui:
-            pybullet.configureDebugVisualizer(pybullet.COV_ENABLE_GUI, 0, physicsClientId=self.id)
         self.floor = -1
         self.empty()
 
@@ -88,6 +87,7 @@ class Client:
                 halfExtents=[_FLOOR_HALF, _FLOOR_HALF, thickness],
                 visualFramePosition=[0.0, 0.0, -thickness],
                 rgbaColor=[*_FLOOR_COLOR, 1.0],
+                specularColor=[0.0, 0.0, 0.0],
                 physicsClientId=self.id,
             ),
             physicsClientId=self.id,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -16,6 +17,7 @@ from dcg_torch.simulator.bodies import add_object, extent, footprint
 from dcg_torch.simulator.camera import Camera, Recogniser, bearing, view_from
 from dcg_torch.simulator.client import Client, SimulatorError
 from dcg_torch.simulator.navigation import Circle, Points, Track
+from dcg_torch.simulator.window import OPTIONS, Window
 from dcg_torch.symbols import Percept, Pose
 from dcg_torch.world.files import World
 
@@ -75,7 +77,8 @@ class SimulatedRobot:
             raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
         self._rng = rng or np.random.default_rng(0)
         self.on_tick = on_tick
-        self.client = Client(gui=gui)
+        self.client = Client(gui=gui, options=OPTIONS)
+        self._window = Window(self.client.id) if gui else None
         self._loaded: tuple[World, Base] | None = None
         self._by_body: dict[int, _Placed] = {}
         self._noticed: dict[str, Percept] = {}
@@ -99,16 +102,23 @@ class SimulatedRobot:
         draws the recogniser's mistakes; give another `rng` to be free of that too.
 
         Raises:
-            ValueError: an object of a type or colour that the simulator doesn't have.
-            SimulatorError: an object stands where the robot starts.
+            SimulatorError: an object of a type or colour that the simulator doesn't have, or one that stands where
+                the robot starts.
         """
+        with self._window.still() if self._window else contextlib.nullcontext():
+            self._load(world, self._rng if rng is None else rng)
+
+    def _load(self, world: World, rng: np.random.Generator) -> None:
         self._loaded = None
         self.client.empty()
         base = Base(self.client, world.start)
-        labels = self.recogniser.labels([o.type for o in world.objects], self._rng if rng is None else rng)
+        labels = self.recogniser.labels([o.type for o in world.objects], rng)
         self._by_body, self._noticed = {}, {}
         for item, label in zip(world.objects, labels, strict=True):
-            body = add_object(self.client.id, item.type, item.color, item.position, item.yaw)
+            try:
+                body = add_object(self.client.id, item.type, item.color, item.position, item.yaw)
+            except ValueError as error:
+                raise SimulatorError(f"world {world.name}: {item.id}: {error}") from None
             percept = Percept(item.id, item.type, item.color, (*item.position, 0.0), extent(item.type))
             recognised = None if label is None else Percept(item.id, label, item.color, percept.position, percept.size)
             radius = footprint(item.type)
@@ -116,6 +126,13 @@ class SimulatedRobot:
                 raise SimulatorError(f"world {world.name}: {item.id} stands where the robot starts; move one of them")
             self._by_body[body] = _Placed(percept, recognised, radius)
         self._loaded = world, base
+        if self._window:
+            self._window.show(world, base.body, self.camera)
+
+    def say(self, text: str) -> None:
+        """Write a line into the window, if there is one."""
+        if self._window:
+            self._window.say(text)
 
     @property
     def world(self) -> World:

@@ -57,6 +57,14 @@ class WrittenSpeaker:
         return [Command(world, c.text, c.noun, c.color, c.target) for c in world.commands]
 
 
+class RelationalSpeaker:
+    """Gives the commands of the world files that need a relation to be understood; some worlds have none."""
+
+    def commands(self, world: World, rng: np.random.Generator) -> list[Command]:
+        """The relational commands of the world file, in its order."""
+        return [Command(world, c.text, c.noun, c.color, c.target) for c in world.relational]
+
+
 CANONICAL_FORMS = (
     "go to the {thing}",
     "move to the {thing}",
@@ -114,6 +122,7 @@ def make_speaker(kind: str, color_rate: float) -> Speaker:
     makers: dict[str, Callable[[], Speaker]] = {
         "canonical": lambda: GeneratingSpeaker(color_rate),
         "written": WrittenSpeaker,
+        "relational": RelationalSpeaker,
         "human": lambda: GeneratingSpeaker(color_rate, human_names()),
     }
     if kind not in makers:

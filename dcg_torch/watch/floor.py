@@ -137,7 +137,7 @@ class FloorPanel:
             text, seen = label(item, look)
             lines = text.splitlines()
             rim = self._view.project(circle(item.position, footprint(item.type) + 0.2)) / _OVERSAMPLING
-            foot, below = float(rim[:, 0].mean()), min(float(rim[:, 1].max()), image.height - 15 * len(lines) - 2)
+            foot, below = float(rim[:, 0].mean()), min(float(rim[:, 1].max()), image.height - 15 * len(lines) - 7)
             for k, line in enumerate(lines):
                 half = letters.getlength(line) / 2 + 4
                 x = min(max(foot, half), image.width - half)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from dcg_torch.graph import Solution
 from dcg_torch.symbols import Object
 from dcg_torch.trial.command import Look
 from dcg_torch.watch.recording import Episode
@@ -28,6 +29,13 @@ def name_of(thing: Object) -> str:
         return f"unseen {thing.type if thing.known else 'unknown thing'}"
     name = " ".join(part for part in (thing.color, thing.type) if part)
     return name if thing.known else f"{name} (unknown)"
+
+
+def meant(solution: Solution) -> str:
+    """What a command is taken to mean, in a few words, as in "unseen cube (98 %)"."""
+    if solution.object is None or solution.probability is None:
+        return "nothing here"
+    return f"{name_of(solution.object)} ({100 * solution.probability:.0f} %)"
 
 
 def bars(episode: Episode, looks: int, most: int) -> list[Bar]:
@@ -90,7 +98,10 @@ def ending(episode: Episode) -> str:
 def lesson(episode: Episode, before: Mapping[str, str]) -> str:
     """What it learned from this command, or nothing."""
     new = [(word, type_) for word, type_ in episode.row.symbols.items() if before.get(word) != type_]
-    return "  ".join(f"It now knows the word “{word}”: {_article(type_)} {type_}." for word, type_ in new)
+    return "  ".join(
+        f"It now knows the word “{word}”." if word == type_ else f"It now knows that “{word}” means {type_}."
+        for word, type_ in new
+    )
 
 
 def words(symbols: Mapping[str, str]) -> list[str]:

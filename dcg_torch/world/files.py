@@ -46,19 +46,23 @@ class RobotStart(_Strict):
 
 
 class World(_Strict):
-    """A world file. Ids are unique and every command's target exists."""
+    """A world file. Ids are unique and every command's target exists.
+
+    `relational` are commands in which noun and colour alone do not say what is meant.
+    """
 
     name: str = Field(min_length=1)
     robot: RobotStart = RobotStart()
     objects: Annotated[tuple[WorldObject, ...], Field(min_length=1)]
     commands: tuple[WrittenCommand, ...] = ()
+    relational: tuple[WrittenCommand, ...] = ()
 
     @model_validator(mode="after")
     def _consistent(self) -> World:
         ids = [o.id for o in self.objects]
         if len(set(ids)) != len(ids):
             raise ValueError(f"object ids repeat: {sorted({i for i in ids if ids.count(i) > 1})}")
-        for command in self.commands:
+        for command in (*self.commands, *self.relational):
             if command.target not in ids:
                 raise ValueError(f"command {command.text!r} means {command.target!r}, which is no object of this world")
         return self

