@@ -5,10 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from report_rows import row
 
 from dcg_torch.report.measures import measure
 from dcg_torch.report.trade_off import draw_trade_off, main
-from report_rows import row
 
 
 def test_a_point_for_every_threshold() -> None:
