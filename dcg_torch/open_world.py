@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
 from dcg_torch.graph import Solution
@@ -76,8 +76,8 @@ class OpenWorld:
         strength: see `soft.soft_examples`.
     """
 
-    nouns: Prior = Prior()
-    colors: Prior = Prior(synonym=0.05, unmet=1.0, slip=0.005)
+    nouns: Prior = field(default_factory=Prior)
+    colors: Prior = field(default_factory=lambda: Prior(slip=0.005))
     hidden: float = 0.01
     strength: float = 5.0
 
@@ -186,7 +186,7 @@ class OpenWorldModel(GroundingModel):
         unseen = LOOKED if looked else frozenset()
         return world_model(percepts, self.known_types, robot=robot, speaker=speaker, unseen=unseen)
 
-    def learn(self, solution: Solution, scene: Scene | None = None) -> Symbol | None:
+    def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Weigh a command's evidence and train on the posterior that follows.
 
         What the robot chose to do is no evidence, so it doesn't enter.
@@ -203,7 +203,7 @@ class OpenWorldModel(GroundingModel):
         self._meet(scene)
         before = self.symbols.get(phrase.noun)
         self._hear(phrase.noun, phrase.color, scene)
-        self._renew()
+        self._renew(max_steps)
         now = self.symbols.get(phrase.noun)
         return now if now != before else None
 
@@ -281,7 +281,7 @@ class OpenWorldModel(GroundingModel):
             colors = colors.weigh(Evidence(color, by_color, unseen, scene.source))
         self.mind = replace(self.mind, beliefs=beliefs, color_beliefs=colors)
 
-    def _renew(self) -> None:
+    def _renew(self, max_steps: int = 500) -> None:
         """Columns for what is new, the symbols held, and a fit."""
         self.features = self.features.include(
             nouns=self.beliefs.posterior.words,
@@ -291,7 +291,7 @@ class OpenWorldModel(GroundingModel):
         self.loglinear.grow(self.features.pairs)
         best = {w: self.beliefs.posterior.best(w) for w in self.beliefs.posterior.words}
         self.symbols = {w: Symbol(w, t) for w, (t, p) in best.items() if p >= HELD and t != UNMET}
-        self.train()
+        self.train(max_steps=max_steps)
 
 
 _UNSEEN = 1.0 - 57.0 / 360.0

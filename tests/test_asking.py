@@ -60,11 +60,16 @@ def test_a_landmark_is_named() -> None:
 def test_every_description_fits_one_object_alone(seed: int, count: int) -> None:
     rng = np.random.default_rng(seed)
     world = [
-        thing(str(k), str(rng.choice(["cube", "sphere", "drill"])), str(rng.choice(["red", "blue"])), *rng.uniform(-4, 4, 2))
+        thing(
+            str(k),
+            str(rng.choice(["cube", "sphere", "drill"])),
+            str(rng.choice(["red", "blue"])),
+            *rng.uniform(-4, 4, 2),
+        )
         for k in range(count)
     ]
     texts = [describe(p, world, START, NAMES) for p in world]
-    for p, (base, where) in zip(world, texts, strict=True):
+    for p, (_, where) in zip(world, texts, strict=True):
         alike = [o for o in world if o.color == p.color and NAMES.get(p.type) in (None, NAMES.get(o.type))]
         if not where:
             assert alike == [p]

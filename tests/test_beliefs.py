@@ -96,7 +96,7 @@ def test_the_only_thing_there_gains_belief(history: list[Evidence], type_: str) 
 def test_a_wrong_belief_is_revised() -> None:
     misleading = [Evidence("zorp", {"drill": 1.0})] * 2
     beliefs = after(misleading)
-    assert beliefs.posterior.best("zorp") == ("drill", pytest.approx(0.99, abs=0.02))
+    assert beliefs.posterior.of("zorp")["drill"] > 0.95
     for _ in range(4):
         beliefs = beliefs.weigh(Evidence("zorp", {"cone": 1.0, "cube": 1.0}))
     assert beliefs.posterior.best("zorp")[0] == "cone"

@@ -36,7 +36,7 @@ def test_an_object_of_another_colour_is_not_in_view() -> None:
 
 def test_the_turns_cover_the_circle() -> None:
     assert LookBefore.STEP < FIELD_OF_VIEW
-    assert LookBefore.TURNS * LookBefore.STEP + FIELD_OF_VIEW > math.tau
+    assert math.tau < LookBefore.TURNS * LookBefore.STEP + FIELD_OF_VIEW
 
 
 def test_seeing_all_round_sees_everything() -> None:

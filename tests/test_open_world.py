@@ -26,7 +26,6 @@ from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.robot import FakeRobot
 from dcg_torch.world.generator import COLORS, generate_world
 
-
 torch.set_num_threads(1)  # the problems are small; more threads only wait for one another
 
 
@@ -55,7 +54,9 @@ def thing(id_: str, type_: str, color: str = "red") -> Percept:
 WORLD = (thing("a", "drill"), thing("b", "mailbox"), thing("c", "mailbox", "blue"), thing("d", "cube", "blue"))
 
 
-def say(model: GroundingModel, text: str, percepts: tuple[Percept, ...] = WORLD, learn: bool = True) -> dict[str, float]:
+def say(
+    model: GroundingModel, text: str, percepts: tuple[Percept, ...] = WORLD, learn: bool = True
+) -> dict[str, float]:
     """Ground a command after a look all round, and learn; the probabilities of what was seen, among themselves."""
     tree = read(text).tree
     assert tree is not None
@@ -225,4 +226,6 @@ def test_the_paper_s_model_has_no_beliefs_and_asks_nothing() -> None:
         assert row.dialogue is None
         assert not {"beliefs", "dialogue"} & json.loads(row.model_dump_json()).keys()
         assert Iteration.model_validate_json(row.model_dump_json()) == row
-    assert not any(name.startswith(("noun: (", "type: (")) for name in (*model.features.language, *model.features.grounding))
+    assert not any(
+        name.startswith(("noun: (", "type: (")) for name in (*model.features.language, *model.features.grounding)
+    )

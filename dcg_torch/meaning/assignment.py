@@ -154,10 +154,10 @@ def propagate(
 def _answers(odds: Matrix, repeat: float) -> Matrix:
     """Of every type to every word: weight of "w too names t" over that of "w does not"."""
     if repeat == 0.0:
-        return 1.0 / (1.0 + odds.sum(axis=0) - odds)
+        return np.asarray(1.0 / (1.0 + odds.sum(axis=0) - odds))
     log_one = np.log1p(repeat * odds)
     less = np.expm1(np.minimum(log_one.sum(axis=0) - log_one, 600.0))  # P - 1
-    return repeat * (1.0 + less) / (repeat + less)
+    return np.asarray(repeat * (1.0 + less) / (repeat + less))
 
 
 def _scaled(psi: Matrix) -> Matrix:

@@ -88,7 +88,12 @@ class Worth:
 class LookBefore:
     """Look round while more than one thing may be meant; then drive to where unseen ground is.
 
-    `meanings` gives type -> probability for a noun. A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
+    A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
+
+    Attributes:
+        meanings: gives type -> probability for a noun.
+        worth: when to go on.
+        places: where it has looked all round.
     """
 
     meanings: Callable[[str], Mapping[str, float]]
