@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from report_rows import row
 
@@ -17,8 +18,8 @@ def test_a_point_for_every_threshold() -> None:
         0.75: measure([row(0, asked=1), row(1)]),
     }
     line = draw_trade_off(runs).axes[0].get_lines()[0]
-    assert list(line.get_xdata()) == [0.0, 0.5]
-    assert list(line.get_ydata()) == [0.5, 1.0]
+    assert np.asarray(line.get_xdata()).tolist() == [0.0, 0.5]
+    assert np.asarray(line.get_ydata()).tolist() == [0.5, 1.0]
 
 
 def test_nothing_to_draw_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
