@@ -171,13 +171,15 @@ def bench_fit(count: int, repeats: int) -> Iterator[Result]:
     try:
         from scipy.sparse import csr_array
         from sklearn.linear_model import LogisticRegression
+        from threadpoolctl import threadpool_limits
     except ImportError:
         return
     columns = (rows.language[rows.phrase][:, :, None] * rows.shape[2] + rows.grounding[:, None, :]).reshape(count, -1)
     starts = np.arange(0, columns.size + 1, columns.shape[1])
     design = csr_array((np.ones(columns.size), columns.reshape(-1), starts), (count, rows.shape[1] * rows.shape[2]))
     other = LogisticRegression(C=1 / _L2, fit_intercept=False, solver="lbfgs", tol=_TOLERANCE, max_iter=2000)
-    theirs = _repeated(f"scikit-learn's fit, {count:,} rows", lambda: other.fit(design, rows.label), repeats)
+    with threadpool_limits(1):
+        theirs = _repeated(f"scikit-learn's fit, {count:,} rows", lambda: other.fit(design, rows.label), repeats)
     yield theirs
     table = tabulate(rows.language, rows.grounding, rows.phrase, rows.label, np.ones(count), rows.shape)
     values = [
@@ -235,8 +237,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with console.status("running the benchmarks"):
         results = list(run_benchmarks())
     console.print(_grid(results))
+    load, cpus = os.getloadavg()[0], os.cpu_count() or 1
+    if load > cpus:
+        console.print(
+            f"Others are busy here (load {load:.1f} on {cpus} CPUs): the times are higher than on a quiet machine."
+        )
     if options.json is not None:
-        machine = {"python": platform.python_version(), "torch": torch.__version__, "cpus": os.cpu_count()}
+        machine = {"python": platform.python_version(), "torch": torch.__version__, "cpus": cpus, "load": load}
         options.json.parent.mkdir(parents=True, exist_ok=True)
         options.json.write_text(
             json.dumps({"machine": machine, "benchmarks": [asdict(r) for r in results]}, indent=1) + "\n", "utf-8"
