@@ -148,7 +148,7 @@ def test_explanations_add_up(taught: GroundingModel) -> None:
 
 
 def test_a_plural_means_a_set(taught: GroundingModel) -> None:
-    world = cubes(("red", "cube", 2, 0), ("red", "cube", 2, 2), ("blue", "sphere", 3, 3))
+    world = cubes(("red", "cube", 2, 0), ("red", "cube", 2, 2), ("blue", "sphere", 6, -5))
     two = ParseTree(Phrase(PhraseKind.NOUN, "two red cubes", noun="cube", color="red", plural=True, count=2))
     every = ParseTree(Phrase(PhraseKind.NOUN, "the red cubes", noun="cube", color="red", plural=True))
     for phrase in (two, every):
