@@ -59,7 +59,7 @@ LOOKED_ROUND = "looked round"
 # The family of a feature is what stands before the colon of its name. A language family meets these grounding
 # families; all other pairs are no features and keep a weight of zero.
 PAIRS: dict[str, frozenset[str]] = {
-    "kind": frozenset({"kind", "known", "hypothetical", "has color", "child"}),
+    "kind": frozenset({"kind", "known", "hypothetical", "child"}),
     "verb": frozenset({"kind", "child"}),
     "preposition": frozenset({"kind", "child"}),
     "modifier": frozenset({"kind", "relation"}),
