@@ -73,11 +73,7 @@ PAIRS: dict[str, frozenset[str]] = {
     "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
 }
 
-FEW = {
-    family: f"relation: {family.split()[0]} few of {family.split()[-1]}"
-    for family in space.RELATIONS
-    if family.startswith(("closest", "farthest"))
-}
+FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
 """Family of ranks by distance -> the name of the feature of the first few, as many as the phrase counts."""
 _ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
@@ -305,28 +301,28 @@ class FeatureSet:
         bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
         if ranking is None or Group.RELATION not in self.groups:
             return bag
-        ordinal, count = ranking
-        return np.hstack([bag, self._ranks[space.ranks(where, ordinal=ordinal, count=count)]])
+        found = space.ranks(where, ranking.among, ordinal=ranking.ordinal, count=ranking.count)
+        return np.hstack([bag, self._ranks[found]])
 
     def encode_placed(
-        self, where: space.Layout, landmarks: Sequence[Sequence[int]], count: int | None = None
+        self, where: space.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None
     ) -> NDArray[np.int64]:
         """Grounding columns of a modifier's groundings: how every thing stands to every tuple of landmarks.
 
         Args:
             landmarks: c tuples of thing numbers.
-            count: how many things the phrase means that the modifier describes.
+            ranking: what the phrase counts that the modifier describes.
 
         Returns:
             (c, things, k) bag.
         """
-        n = len(where.things)
+        n, ranking = len(where.things), ranking or Ranking("all")
         columns = [np.full((len(landmarks), n, 1), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)]
         if Group.RELATION in self.groups:
-            found = space.relations(where, landmarks)
+            found = space.relations(where, landmarks, ranking.among)
             columns.append(self._relations[found])
-            if count is not None and count > 1:
-                columns.append(np.where(self._rank_of[found] < count, self._few[found], -1))
+            if ranking.count is not None and ranking.count > 1:
+                columns.append(np.where(self._rank_of[found] < ranking.count, self._few[found], -1))
         return np.concatenate(columns, axis=2)
 
     @cached_property
@@ -360,15 +356,21 @@ class FeatureSet:
         return [names[column] for column in row if column >= 0]
 
 
-Ranking = tuple[int | None, int | None]
-"""Which one, and how many, a phrase asks for: its ordinal and its count."""
+@dataclass(frozen=True, slots=True)
+class Ranking:
+    """What a phrase counts: the nth (`ordinal`) or the first few (`count`) among those that it speaks of (`among`)."""
+
+    among: str
+    ordinal: int | None = None
+    count: int | None = None
 
 
 def ranking(phrase: Phrase) -> Ranking | None:
-    """What a noun phrase counts; None if it has no word that could mean a rank."""
-    if not phrase.words:
+    """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
+    if phrase.kind is PhraseKind.NOUN and not phrase.words:
         return None
-    return next((_ORDINALS[word] for word in phrase.words if word in _ORDINALS), None), phrase.count
+    ordinal = next((_ORDINALS[word] for word in phrase.words if word in _ORDINALS), None)
+    return Ranking(phrase.among or "all", ordinal, phrase.count)
 
 
 def _word_features(phrase: Phrase) -> Iterator[Feature]:

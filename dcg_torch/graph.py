@@ -305,7 +305,7 @@ class FactorGraph:
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(self.world.things)}
             landmarks = [[index[h.child.grounding.object.id] for h in combo] for combo in combos]
-            return features.encode_placed(self.layout, landmarks, tree.phrase.count)
+            return features.encode_placed(self.layout, landmarks, ranking(tree.phrase))
         return features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:

@@ -288,7 +288,7 @@ class _Encoder:
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
             landmarks = [index[c.grounding.object.id] for c in example.children]
-            hypotheses = self.features.encode_placed(space.layout(world), [landmarks], example.phrase.count)
+            hypotheses = self.features.encode_placed(space.layout(world), [landmarks], ranking(example.phrase))
         else:
             hypotheses = self.features.encode_groundings(kind, world, [example.children])
         return hypotheses.reshape(hypotheses.shape[1:])

@@ -76,6 +76,9 @@ _SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
+_EITHER_END = frozenset({"back", "front"})
+"""Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
+_AMBIGUOUS = 0.05
 _GROUP_WEIGHT = 0.5
 _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
@@ -115,7 +118,7 @@ def place_examples() -> list[Example]:
                 Correspondence.ACTIVE if o.type in kinds and sides <= o.attributes else Correspondence.INACTIVE
                 for o in world.things
             ),
-            weight=_PLACE_WEIGHT,
+            weight=_PLACE_WEIGHT * (_AMBIGUOUS if {phrase.noun, *phrase.words} & _EITHER_END else 1.0),
         )
         for phrase, kinds, sides in phrases
     ] + _group_examples()
@@ -193,8 +196,8 @@ def relational(tree: ParseTree) -> ParseTree:
     """The path to the object meant, with everything that describes the object.
 
     A preposition below a noun phrase becomes a MODIFIER, and phrases get their context: a noun phrase what is done
-    with its object ("object of take") or that it is a landmark and of what; a modifier and a describing word, what
-    the object is compared with ("of kind": type and colour are said; "of type"; "of color"; "of all").
+    with its object ("object of take") or that it is a landmark and of what; a modifier what its landmark is. Both are
+    told what "the closest" is one of.
     """
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
@@ -210,11 +213,11 @@ def relational(tree: ParseTree) -> ParseTree:
     return replace(tree, children=(child,))
 
 
-def compared(phrase: Phrase) -> str:
+def among(phrase: Phrase) -> str:
     """What a noun phrase's object is one of: of those of its kind, type or colour, or of all."""
     if phrase.noun is not None:
-        return "of kind" if phrase.color is not None else "of type"
-    return "of color" if phrase.color is not None else "of all"
+        return "kind" if phrase.color is not None else "type"
+    return "color" if phrase.color is not None else "all"
 
 
 def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
@@ -232,7 +235,7 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
         described = [child for child in described if not _is_bare(child)]
         phrase = replace(phrase, words=(*phrase.words, _BARE))
     modifiers = tuple(_modifier(child, phrase) for child in described)
-    return ParseTree(replace(phrase, context=context), modifiers)
+    return ParseTree(replace(phrase, context=context, among=among(phrase)), modifiers)
 
 
 _BARE = "nothing on it"
@@ -252,6 +255,12 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None
-    context = (compared(head), *_landmark_context(tree))
-    phrase = Phrase(PhraseKind.MODIFIER, tree.phrase.text, words, count=several, context=context)
+    phrase = Phrase(
+        PhraseKind.MODIFIER,
+        tree.phrase.text,
+        words,
+        count=several,
+        context=_landmark_context(tree),
+        among=among(head),
+    )
     return ParseTree(phrase, tuple(landmarks))

@@ -50,7 +50,8 @@ class Phrase:
     word of a preposition). A noun phrase has its head in `noun` (singular, "fire hydrant" is one noun, None
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
     `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
-    of its meaning ("object of take").
+    of its meaning ("object of take"), and `among` what "the closest" is the closest of: things of one "kind", "type"
+    or "color", or "all".
     """
 
     kind: PhraseKind
@@ -61,6 +62,7 @@ class Phrase:
     plural: bool = False
     count: int | None = None
     context: tuple[str, ...] = ()
+    among: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,8 +29,9 @@ NEAREST = 3
 """Ranks that are told apart by their number."""
 TIE = 1e-6
 
-SETS = ("kind", "type", "color", "all", "row")
-"""What a thing is compared with: those of its type and colour, of its type, of its colour, all, its row or stack."""
+SETS = ("kind", "type", "color", "all")
+"""What a thing may be compared with: those of its type and colour, of its type, of its colour, or all. Which, depends
+on what the phrase says of it."""
 
 DIRECTION = "direction"
 """Type of the places that are no point but a way to look: "on your left"."""
@@ -53,9 +54,10 @@ class Layout:
         member: (n, n) is j a member of the group i?
         over: (n, n) does i rest on j?
         alike: `SETS` -> (n, n) is j one of those that i is compared with?
+        mates: (n, n) is j in the same row or stack as i?
         middle: (2,) the middle of the objects.
         speaker: (2,) where the speaker is, or None.
-        rows: what `relations` has computed, by the numbers of the landmarks.
+        rows: what `relations` has computed, by the set compared with and the numbers of the landmarks.
     """
 
     things: tuple[Object, ...]
@@ -70,9 +72,10 @@ class Layout:
     member: Bools
     over: Bools
     alike: dict[str, Bools]
+    mates: Bools
     middle: Floats
     speaker: Floats | None
-    rows: dict[tuple[int, ...], NDArray[np.int16]] = field(default_factory=dict, compare=False)
+    rows: dict[tuple[str, tuple[int, ...]], NDArray[np.int16]] = field(default_factory=dict, compare=False)
 
     @property
     def solid(self) -> Bools:
@@ -138,7 +141,8 @@ def layout(world: WorldModel) -> Layout:
         np.array([t in ("edge", "corner") for t in types], dtype=np.bool_) & place,
         member,
         over,
-        _alike(things, solid, group, member),
+        _alike(things, solid, group),
+        _mates(member),
         middle,
         None
         if world.speaker is None
@@ -162,7 +166,7 @@ def _headings(things: tuple[Object, ...], position: Floats, middle: Floats) -> F
     return out
 
 
-def _alike(things: tuple[Object, ...], solid: Bools, group: Bools, member: Bools) -> dict[str, Bools]:
+def _alike(things: tuple[Object, ...], solid: Bools, group: Bools) -> dict[str, Bools]:
     numbers: dict[object, int] = {}
 
     def same(keys: list[object]) -> Bools:
@@ -172,16 +176,20 @@ def _alike(things: tuple[Object, ...], solid: Bools, group: Bools, member: Bools
 
     of_type, of_color = same([o.type for o in things]), same([("color", o.color) for o in things])
     objects, groups = solid[:, None] & solid[None, :], group[:, None] & group[None, :] & of_type
-    mates = np.zeros_like(objects)
-    longest = np.zeros(len(things), dtype=np.int64)
-    for i in np.flatnonzero(group):  # the longest group that a thing is in is its row
-        inside = member[i] & (member[i].sum() > longest)
-        longest[inside] = member[i].sum()
-        mates[inside] = member[i]
     return {
         "kind": (objects & of_type & of_color) | (groups & of_color),
         "type": (objects & of_type) | groups,
         "color": (objects & of_color) | (groups & of_color),
         "all": objects | groups,
-        "row": mates,
     }
+
+
+def _mates(member: Bools) -> Bools:
+    """The longest group that a thing is in is its row."""
+    mates = np.zeros_like(member)
+    longest = np.zeros(len(member), dtype=np.int64)
+    for inside in member[member.any(axis=1)]:
+        better = inside & (inside.sum() > longest)
+        longest[better] = inside.sum()
+        mates[better] = inside
+    return mates

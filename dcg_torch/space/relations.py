@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.space.layout import NEAREST, ONE_LEVEL, SAME_SPOT, SETS, TIE, Bools, Floats, Ints, Layout
+from dcg_torch.space.layout import NEAREST, ONE_LEVEL, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """The bounds of the distance features, in units of the world."""
@@ -27,9 +27,8 @@ def _names() -> dict[str, list[str]]:
     bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for which in SETS:
-        for order in _ORDERS:
-            families[f"{order} of {which}"] = [f"{order} {k} of {which}" for k in range(1, NEAREST + 1)]
+    for order in _ORDERS:
+        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
     families["direction"] = ["along", "rather along", "aslant", "against"]
@@ -46,19 +45,20 @@ RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _START = dict(zip(RELATIONS, np.cumsum([0, *map(len, RELATIONS.values())]).tolist(), strict=False))
 
 
-def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int16]:
+def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> NDArray[np.int16]:
     """The relation features of every thing to every tuple of landmarks.
 
     Args:
         landmarks: c tuples of thing numbers; all but "between" is to the first of each.
+        among: which of `SETS` "the closest" is one of.
 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
-    keys = [tuple(of) for of in landmarks]
+    keys = [(among, tuple(of)) for of in landmarks]
     new = [key for key in dict.fromkeys(keys) if key not in where.rows]
     if new:
-        found = _families(where, new)
+        found = _families(where, [of for _, of in new], where.alike[among])
         columns = [
             np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((len(new), 1), -1)
             for f in RELATIONS
@@ -69,7 +69,7 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.i
     return np.stack([where.rows[key] for key in keys])
 
 
-def _families(where: Layout, landmarks: Sequence[tuple[int, ...]]) -> dict[str, Ints]:
+def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools) -> dict[str, Ints]:
     """family -> (c, n) number of the value that fires, -1 for none; a family that fires nowhere may be missing."""
     first = np.array([of[0] for of in landmarks], dtype=np.int64)
     position = where.position
@@ -89,7 +89,7 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]]) -> dict[str, 
         "vertical": _vertical(where, first, distance, offset[..., 2], exists),
     }
     found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
-    found |= _orders(where, first, distance, exists)
+    found |= _orders(where, first, distance, exists, alike)
     if where.place[first].any():
         found |= _headed(where, first, exists)
     if where.group[first].any():
@@ -142,7 +142,7 @@ def _sector(angle: Floats) -> Ints:
     return np.round(np.nan_to_num(angle) / (math.pi / 4)).astype(np.int64) % 8
 
 
-def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools) -> dict[str, Ints]:
+def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Bools) -> dict[str, Ints]:
     """The closest and the farthest of those alike; in a direction, the one that is farthest that way."""
     heading = np.nan_to_num(where.heading[first])
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
@@ -152,10 +152,9 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools) -> dict
     for order, sign in zip(_ORDERS, (1.0, -1.0), strict=True):
         signed = np.where(exists, sign * value, math.inf)
         less = signed[:, None, :] < signed[:, :, None] - TIE
-        for which, alike in where.alike.items():
-            before = (less & alike[None]).sum(axis=2)
-            compared = exists & alike.any(axis=1, keepdims=True).T & (before < NEAREST)
-            found[f"{order} of {which}"] = np.where(compared, before, -1)
+        before = (less & alike[None]).sum(axis=2)
+        compared = exists & alike.any(axis=1, keepdims=True).T & (before < NEAREST)
+        found[order] = np.where(compared, before, -1)
     return found
 
 

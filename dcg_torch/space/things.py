@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dcg_torch.space.layout import NEAREST, NEXT, SAME_SPOT, SETS, TIE, Floats, Ints, Layout
+from dcg_torch.space.layout import NEAREST, NEXT, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
@@ -21,7 +21,7 @@ STATES = [
 """The states that are always features; further attributes of objects become features as they are met."""
 
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
-RANKS = [f"rank: {axis} {k} of {which}" for which in SETS for axis in AXES for k in (*_NUMBERED, "nth", "first")]
+RANKS = [f"rank: {axis} {k}{row}" for row in ("", " of its row") for axis in AXES for k in (*_NUMBERED, "nth", "first")]
 """By number, and by what the phrase asks for: the nth of a row, one of the first few."""
 
 
@@ -56,10 +56,11 @@ def _colors(where: Layout, of: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> li
     return sorted({c for j in np.flatnonzero(of) if (c := where.things[j].color) is not None})
 
 
-def ranks(where: Layout, *, ordinal: int | None = None, count: int | None = None) -> Ints:
-    """The rank features of every thing: its place among those alike along every axis.
+def ranks(where: Layout, among: str, *, ordinal: int | None = None, count: int | None = None) -> Ints:
+    """The rank features of every thing: its place along every axis, among those alike and in its row.
 
     Args:
+        among: which of `SETS` it is compared with.
         ordinal: what the phrase counts to: 2 for "the second cone".
         count: how many the phrase means: 2 for "the two cones on the right".
 
@@ -68,10 +69,8 @@ def ranks(where: Layout, *, ordinal: int | None = None, count: int | None = None
     """
     values = _values(where)
     out = []
-    for s, which in enumerate(SETS):
-        alike = where.alike[which]
-        if which == "row":
-            values[AXES.index("middle")] = _from_middle_of_row(where)
+    for s, alike in enumerate((where.alike[among], where.mates)):
+        values[AXES.index("middle")] = _from_middle(where, alike)
         with np.errstate(invalid="ignore"):
             less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
         before = (less & alike[None]).sum(axis=2)  # (axes, n)
@@ -94,17 +93,15 @@ def _values(where: Layout) -> Floats:
     volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
     nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
-        to_middle = np.hypot(*(where.position[:, :2] - where.middle).T)
         to_robot = np.hypot(x, y)
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
-    return np.stack([*along, to_middle, to_robot, -to_robot, to_speaker])
+    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker])
 
 
-def _from_middle_of_row(where: Layout) -> Floats:
-    """(n,) distance of every thing to the middle of its row; NaN where it is in none."""
-    mates = where.alike["row"]
+def _from_middle(where: Layout, alike: Bools) -> Floats:
+    """(n,) distance of every thing to the middle of those alike; NaN where there are none."""
     with np.errstate(invalid="ignore", divide="ignore"):
-        middle = (mates @ np.nan_to_num(where.position)) / mates.sum(axis=1)[:, None]
+        middle = (alike @ np.nan_to_num(where.position)) / alike.sum(axis=1)[:, None]
         distance: Floats = np.linalg.norm(where.position - middle, axis=1)
     return distance
