@@ -116,7 +116,7 @@ def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: 
     )
     on_ground = np.where(where.over.any(axis=1), VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
     value = np.where(where.ground[first][:, None], on_ground, value)
-    out: Ints = np.where(exists & (~where.place | where.ground)[first][:, None], value, -1)
+    out: Ints = np.where(exists & (where.solid | where.ground)[first][:, None], value, -1)
     return out
 
 
