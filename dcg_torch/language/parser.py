@@ -8,8 +8,9 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
-from dcg_torch.language.attachment import build, split
+from dcg_torch.language.attachment import build
 from dcg_torch.language.chunks import items
+from dcg_torch.language.clauses import split
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.reader import Reader
 from dcg_torch.language.target import root

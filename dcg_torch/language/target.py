@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
-from dcg_torch.language.attachment import Clause, main_object
+from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
 
