@@ -5,12 +5,13 @@ thing among others with no verb at all. `DEVELOPMENT` was looked at while the ro
 committed before its first run, and nothing is changed for it since.
 """
 
-from typing import NamedTuple
+from dataclasses import dataclass
 
 Relations = tuple[tuple[str, str | None], ...]
 
 
-class Description(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Description:
     """A command, and of the object meant: noun, colour, relations (preposition, noun of the landmark), other words,
     count, plural; `also` has the nouns of what is meant beside it."""
 

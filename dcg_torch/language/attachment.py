@@ -31,39 +31,87 @@ class _Builder:
         self.preposition: Item | None = None  # still waits for its noun phrase
         self.forced = False  # the next preposition tells the last noun phrase apart
         self.joined = False  # "and" or a comma stands before
+        self.and_joined = False  # the last of these was "and"
         self.relative = False
         self.copula = False
+        self.denied = False  # "not" stands before what is said next of a noun phrase
+        self.excluded = False  # "not" stands before a noun phrase: "not the cube"
 
     def run(self, supplied: bool) -> Clause:
         for k, item in enumerate(self.items):
             after = self.items[k + 1] if k + 1 < len(self.items) else None
             if item.kind is Kind.NEGATION:
-                self.clause.negated = self.clause.negated or self.clause.verb is None or not self.copula
+                self.negation(after)
             elif item.kind is Kind.RELATIVE:
                 self.relative = self.forced = True
             elif item.kind in {Kind.AND, Kind.COMMA}:
-                self.joined, self.relative, self.forced = True, False, False
+                self.joined, self.relative, self.forced, self.denied = True, False, False, False
+                self.and_joined = item.kind is Kind.AND
             elif item.kind is Kind.VERB:
                 self.verb(item, after)
             elif item.kind is Kind.PREPOSITION:
-                # "the cube closest to ..." can't be where the cube goes.
-                extreme = item.words[0] in lx.EXTREMES and bool(self.nouns)
-                self.preposition = item
-                self.pending.append(Pending(item, list(self.nouns), self.forced or extreme, self.joined))
-                self.forced = self.joined = False
+                self.place(item)
             elif item.kind is Kind.ADVERB:
-                predicate = self.copula and item.words[0] in lx.MODIFIERS  # "the cube that is biggest"
-                if self.preposition is None and self.nouns and (predicate or item.words[0] in {"ahead", *lx.SIDES}):
-                    self.nouns[-1].words += (lx.NORMAL_WORDS.get(item.words[0], item.words[0]),)
+                self.adverb(item)
             elif item.kind is Kind.NOUN and not self.is_subject(item, after):
                 self.noun(item)
-                self.joined = self.forced = False
+                self.joined = self.forced = self.excluded = False
         settle(self.clause, self.pending, self.words, supplied)
+        for noun in self.nouns:
+            _nothing_there(noun)
         return self.clause
+
+    def negation(self, after: Item | None) -> None:
+        """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
+        if self.forced and self.nouns:
+            self.denied = True  # "the cube that is not ..."
+        elif after is not None and after.kind is Kind.PREPOSITION and self.nouns:
+            self.denied = True  # "the cube not on the table"
+        elif after is not None and after.kind is Kind.NOUN and after.noun not in {"you", "me"}:
+            self.excluded = True  # "the cube, not the sphere"
+        elif after is not None and after.kind is Kind.ADVERB and self.nouns:
+            self.denied = True
+        else:
+            self.clause.negated = True
+
+    def place(self, item: Item) -> None:
+        # "the cube closest to ..." can't be where the cube goes, nor can "the cube not on ...".
+        forced = self.forced or self.denied or (item.words[0] in lx.EXTREMES and bool(self.nouns))
+        if self.denied:
+            item.words, self.denied = (f"not {item.words[0]}",), False
+        self.preposition = item
+        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.forced = self.joined = False
+
+    def adverb(self, item: Item) -> None:
+        name = item.words[0]
+        if not self.nouns or self.preposition is not None:
+            return
+        bare = self.joined or self.clause.verb is None
+        # "the cube that is biggest", "the cube, big"
+        predicate = self.forced or self.copula or (bare and name in lx.ADJECTIVES)
+        predicate = name == "alone" or (predicate and name in lx.MODIFIERS)
+        if predicate or name.startswith("facing ") or (name in {"ahead", *lx.SIDES} and self.says_where()):
+            self.say(_last_thing(self.nouns), (name,))
+
+    def says_where(self) -> bool:
+        """Whether a bare "left" tells where a thing is: "move the cube left" tells where it goes."""
+        return self.clause.verb is None or self.forced or self.clause.verb.words[0] not in lx.PUT
+
+    def say(self, noun: Item, words: Sequence[str]) -> None:
+        """Add words to what is said of a noun phrase, or that they don't hold."""
+        normal = [lx.NORMAL_WORDS.get(word, word) for word in words]
+        noun.words += tuple(f"not {word}" if self.denied else word for word in normal if word not in noun.words)
+        self.denied = False
 
     def is_subject(self, item: Item, after: Item | None) -> bool:
         """The "you" of "the block that you hold", with and without "that"."""
-        if item.noun not in {"you", "me"} or self.preposition is not None:
+        if self.preposition is not None:
+            return False
+        if item.text in {"it", "they"} and self.nouns and after is not None and after.kind is Kind.VERB:
+            self.relative = self.relative or after.words[0] == "be"
+            return self.relative
+        if item.noun not in {"you", "me"}:
             return False
         if self.nouns and not self.joined and after is not None and after.kind is Kind.VERB:
             self.relative = True
@@ -80,19 +128,32 @@ class _Builder:
             if self.clause.verb is None and not self.relative:
                 self.clause.statement = True
         elif name == "hold" and self.nouns and not direct:
-            things = [noun for noun in self.nouns if noun.noun not in {"you", "me"}] or self.nouns
-            things[-1].words += ("held",)  # "the block you are holding"
+            self.say(_last_thing(self.nouns), ("held",))  # "the block you are holding"
             self.forced = False
+        elif name in {"color", "colour", "paint"} and self.nouns:
+            self.copula = self.forced = True  # "the ball coloured dark blue"
         else:
             self.forced = True
             if direct:  # "the cube that has a cone on it", "the box facing the wall"
                 name = {"have": "with"}.get(name, name)
+                name = {"not with": "without"}.get(f"not {name}", f"not {name}") if self.denied else name
+                self.denied = False
                 self.preposition = Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, (name,))
                 self.pending.append(Pending(self.preposition, list(self.nouns), True, False))
 
     def noun(self, item: Item) -> None:
         place = self.preposition
+        if item.noun in _ASPECTS and (self.relative or (place is not None and place.words[0] == "in")):
+            if place is not None and not place.children:  # "blue in color"
+                self.pending.pop()
+                self.preposition = None
+            return  # "whose color is blue"
+        if item.words == ("each other",) and self.nouns:
+            other = _last_thing(self.nouns)
+            item.noun, item.color = other.noun, other.color
         if place is not None and not place.children:
+            if item.negative or item.noun == "nothing":
+                place.words = ({"with": "without"}.get(place.words[0], place.words[0]),)
             if place.words[0] == "from" and self.nouns and _edge_of(self.nouns[-1], item):
                 article = "the " if item.noun in lx.SIDES else ""
                 self.nouns[-1].words += (f"from {article}{item.noun}",)  # "the second from the left"
@@ -106,32 +167,90 @@ class _Builder:
             place.children.append(item)  # between this "and" that
             self.nouns.append(item)
             self.preposition = None
-        elif self.copula and self.nouns and self.forced:
-            _merge(self.nouns[-1], item)
-        elif self.joined and self.nouns and _only_color(item) and not self.nouns[-1].color:
-            _merge(self.nouns[-1], item)  # "the drill, yellow, behind you"
-        elif self.joined and self.nouns and self.clause.verb is not None:
+        elif self.excluded:
+            self.nouns.append(item)  # what is said of it goes with it
+        elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
+            self.merge(self.nouns[-1], item)
+        elif self.nouns and _is_side(item) and self.says_where():
+            within = self.nouns[-1].noun in lx.PLACES and self.nouns[-1].stop == item.start  # "the table center"
+            self.side(self.nouns[-1] if within else _last_thing(self.nouns), item)
+        elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
+            item.beside = True
             _conjunct(item, self.nouns, self.pending, self.clause, self.words)
         elif item.noun not in lx.MEASURES:
+            self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)
 
+    def leading_place(self, item: Item) -> None:
+        """ "Top left corner, red cube": the place named first is where the thing is."""
+        objects = self.clause.objects
+        if self.clause.verb is None and len(objects) == 1 and objects[0].noun in lx.PLACES and item.noun is not None:
+            where = objects.pop()
+            place = Item(Kind.PREPOSITION, where.start, where.stop, where.head, where.text, ("in",), children=[where])
+            item.children.append(place)
 
-def _only_color(item: Item) -> bool:
-    return item.pronoun and item.color is not None and not item.determined
+    def repeats(self, item: Item) -> bool:
+        """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
+        last = self.nouns[-1]
+        if not self.joined or not item.pronoun or (item.color and last.color) or last.pronoun:
+            return False
+        if not item.determined:
+            return item.color is not None or bool(item.words)
+        return not self.and_joined and last.noun not in lx.PLACES and bool(item.color or item.words)
+
+    def merge(self, noun: Item, predicate: Item) -> None:
+        """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
+        if self.denied:
+            things = () if predicate.pronoun or predicate.noun is None else (predicate.noun,)
+            self.say(noun, (*(() if predicate.color is None else (predicate.color,)), *predicate.words, *things))
+            return
+        noun.color = noun.color or predicate.color
+        self.say(noun, predicate.words)
+        if noun.noun in {None, *_ANYTHING} and predicate.noun is not None:
+            noun.noun, noun.pronoun = predicate.noun, False
+
+    def side(self, noun: Item, item: Item) -> None:
+        """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it."""
+        if not item.determined and item.noun is not None:
+            self.say(noun, (*item.words, item.noun))
+            return
+        place = Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("on",), children=[item])
+        noun.children.append(place)
+
+
+_ANYTHING = frozenset({"thing", "object", "item", "target", "goal", "destination"})
+_ASPECTS = frozenset({"color", "colour", "size", "shape"})
+
+
+def _last_thing(nouns: Sequence[Item]) -> Item:
+    """The last noun phrase that words can describe: no person and no side."""
+    return next((noun for noun in reversed(nouns) if noun.noun not in {"you", "me"} | lx.PLACES), nouns[-1])
+
+
+def _is_side(item: Item) -> bool:
+    """Whether a noun phrase is but a side: "left", "far right", "my left"."""
+    owned = "my" in item.words or "your" in item.words
+    if item.noun not in lx.SIDES or item.color is not None or item.plural:
+        return False
+    return owned or (not item.determined and all(word in lx.SIDES | {"very"} for word in item.words))
+
+
+def _nothing_there(noun: Item) -> None:
+    """ "with nothing on top of it" becomes the word "nothing on" of the noun phrase, "nothing behind it" another."""
+    for without in [child for child in noun.children if child.words == ("without",)]:
+        thing = without.children[0]
+        if thing.noun not in {"anything", "nothing", "thing"} or len(thing.children) != 1:
+            continue
+        (where,) = thing.children
+        if where.children[0].noun in {None, "top"}:
+            noun.words += (f"nothing {({'on top of': 'on', 'at': 'on'}).get(where.words[0], where.words[0])}",)
+            noun.children.remove(without)
 
 
 def _edge_of(noun: Item, edge: Item) -> bool:
     ordered = any(word in lx.ORDINALS or word.endswith("est") for word in noun.words)
     return ordered and edge.noun in {"left", "right", "front", "back", "top", "bottom", "end", "me", "you"}
-
-
-def _merge(noun: Item, predicate: Item) -> None:
-    """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
-    noun.color = noun.color or predicate.color
-    noun.words += tuple(word for word in predicate.words if word not in noun.words)
-    if noun.noun is None and predicate.noun is not None:
-        noun.noun, noun.pronoun = predicate.noun, False
 
 
 def _conjunct(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause, words: Sequence[Word]) -> None:

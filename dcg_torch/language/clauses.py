@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.items import Item, Kind
@@ -37,7 +37,10 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
         before = items[k - 1] if k else None
         if item.kind is Kind.STOP:
             relative = False
-            clauses.append([])
+            if _is_fragment(items[k + 1 :]) and clauses[-1]:
+                clauses[-1].append(replace(item, kind=Kind.COMMA))
+            else:
+                clauses.append([])
             continue
         if item.kind is Kind.RELATIVE:
             relative = True
@@ -57,6 +60,20 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
     return [clause for clause in clauses if clause]
 
 
+def _is_fragment(after: Sequence[Item]) -> bool:
+    """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
+    first = next((item for item in after if item.kind is not Kind.COMMA), None)
+    for item in after:
+        if item.kind is Kind.STOP:
+            break
+        if item.kind in {Kind.VERB, Kind.RELATIVE, Kind.NEGATION}:
+            return False
+    if first is None:
+        return False
+    described = first.kind is Kind.NOUN and first.pronoun and (first.color or first.words) and not first.determined
+    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or bool(described)
+
+
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
     """ "The cone is behind the cube": the copula says something of the noun phrase before it."""
     if items[k].words[0] != "be" or any(item.kind is Kind.VERB for item in clause):
@@ -70,6 +87,8 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     after = items[k + 1] if k + 1 < len(items) else None
     if after is None or after.kind is not Kind.VERB or items[k - 1].stop != items[k].start:
         return False
+    if items[k].text in {"it", "they"}:
+        return after.words[0] == "be"  # "the ball it is on the cube"
     return items[k].noun in {"you", "me"} and items[k - 1].noun not in lx.ROBOT
 
 

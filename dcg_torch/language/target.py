@@ -91,7 +91,11 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
 def _beside(chosen: Choice) -> list[Item]:
     objects = chosen.clause.objects
     at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
-    return [noun for noun in objects[at + 1 :] if not noun.pronoun and chosen.clause.verb is not None]
+    later = objects[at + 1 :]
+    if chosen.clause.verb is None:
+        later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
+    named = [noun for noun in later if not noun.pronoun or noun.color is not None or noun.words]
+    return [noun for noun in named if noun.noun not in lx.DIRECTIONS or noun.children]
 
 
 def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
