@@ -17,7 +17,7 @@ from dcg_torch.language.target import root
 from dcg_torch.symbols import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 400
-MAX_WORDS = 80
+MAX_WORDS = 64  # twice the longest of two thousand human commands; the time goes with the number of words
 
 
 @dataclass(frozen=True, slots=True)

@@ -20,6 +20,7 @@ _OPENER = "please"  # put before each sentence, so that the tagger sees an imper
 _FARTHEST = re.compile(
     r"\b(?:fur|far)thest (?:over )?(?:(?:to|on|in|at|towards?) the )?(left|right|front|back|top|bottom)\b(?! of)"
 )
+_OPENERS = 8  # at most: beyond that many sentences it is no command, and each costs time
 _SENTENCE_END = frozenset({".", "!", "?", ";", ":"})
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -121,7 +122,8 @@ class Reader:
             padded: list[str] = []
             places: dict[int, int] = {}  # index in `padded` -> index in `tokens`
             for i, token in enumerate(tokens):
-                if i == 0 or (tokens[i - 1] in _SENTENCE_END and token not in _SENTENCE_END):
+                opens = i == 0 or (tokens[i - 1] in _SENTENCE_END and token not in _SENTENCE_END)
+                if opens and len(padded) - i < _OPENERS:
                     padded.append(_OPENER)
                 places[len(padded)] = i
                 padded.append(token)
