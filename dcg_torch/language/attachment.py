@@ -41,9 +41,11 @@ class _Builder:
         for k, item in enumerate(self.items):
             after = self.items[k + 1] if k + 1 < len(self.items) else None
             if item.kind is Kind.NEGATION:
-                self.negation(after)
+                self.negation(item, after)
             elif item.kind is Kind.RELATIVE:
                 self.relative = self.forced = True
+            elif self.is_exception(item, after):
+                self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("instead of",)))
             elif item.kind in {Kind.AND, Kind.COMMA}:
                 self.joined, self.relative, self.forced, self.denied = True, False, False, False
                 self.and_joined = item.kind is Kind.AND
@@ -52,19 +54,26 @@ class _Builder:
             elif item.kind is Kind.PREPOSITION:
                 self.place(item)
             elif item.kind is Kind.ADVERB:
-                self.adverb(item)
+                self.adverb(item, after)
             elif item.kind is Kind.NOUN and not self.is_subject(item, after):
                 self.noun(item)
                 self.joined = self.forced = self.excluded = False
         settle(self.clause, self.pending, self.words, supplied)
         for noun in self.nouns:
             _nothing_there(noun)
+            noun.noun = "thing" if noun.noun in {"anything", "nothing"} else noun.noun
         return self.clause
 
-    def negation(self, after: Item | None) -> None:
+    def is_exception(self, item: Item, after: Item | None) -> bool:
+        """The "but" of "all cubes but the red one"."""
+        if item.text != "but" or after is None or after.kind is not Kind.NOUN or not self.nouns:
+            return False
+        return not {"all", "every", "any", "each"}.isdisjoint(self.nouns[-1].words)
+
+    def negation(self, item: Item, after: Item | None) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
-        if self.forced and self.nouns:
-            self.denied = True  # "the cube that is not ..."
+        if self.nouns and (self.forced or item.text == "nor"):
+            self.denied = self.forced = True  # "the cube that is not ...", "neither red nor blue"
         elif after is not None and after.kind is Kind.PREPOSITION and self.nouns:
             self.denied = True  # "the cube not on the table"
         elif after is not None and after.kind is Kind.NOUN and after.noun not in {"you", "me"}:
@@ -77,13 +86,17 @@ class _Builder:
     def place(self, item: Item) -> None:
         # "the cube closest to ..." can't be where the cube goes, nor can "the cube not on ...".
         forced = self.forced or self.denied or (item.words[0] in lx.EXTREMES and bool(self.nouns))
+        extreme = next((word for word in ("closest", "farthest") if self.nouns and word in self.nouns[-1].words), None)
+        if extreme and item.words[0] in {"to", "from"}:  # "the closest cone to you"
+            self.nouns[-1].words = tuple(word for word in self.nouns[-1].words if word != extreme)
+            item.words, forced = (f"{extreme} {item.words[0]}",), True
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
         self.preposition = item
         self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
         self.forced = self.joined = False
 
-    def adverb(self, item: Item) -> None:
+    def adverb(self, item: Item, after: Item | None) -> None:
         name = item.words[0]
         if not self.nouns or self.preposition is not None:
             return
@@ -91,6 +104,8 @@ class _Builder:
         # "the cube that is biggest", "the cube, big"
         predicate = self.forced or self.copula or (bare and name in lx.ADJECTIVES)
         predicate = name == "alone" or (predicate and name in lx.MODIFIERS)
+        if name in lx.ORDINALS and after is not None and after.words == ("from",):
+            predicate = True  # "the cone second from the left"
         if predicate or name.startswith("facing ") or (name in {"ahead", *lx.SIDES} and self.says_where()):
             self.say(_last_thing(self.nouns), (name,))
 
@@ -151,6 +166,11 @@ class _Builder:
         if item.words == ("each other",) and self.nouns:
             other = _last_thing(self.nouns)
             item.noun, item.color = other.noun, other.color
+        if self.nouns and place is not None and place.words[0] in {"in", "of"} and _only_color(item):
+            self.pending.pop()  # "the cube in red"
+            self.preposition = None
+            self.merge(self.nouns[-1], item)
+            return
         if place is not None and not place.children:
             if item.negative or item.noun == "nothing":
                 place.words = ({"with": "without"}.get(place.words[0], place.words[0]),)
@@ -164,14 +184,20 @@ class _Builder:
             if place.words[0] != "between":
                 self.preposition = None
         elif place is not None and self.joined:
+            _share_noun(place.children[-1], item)
             place.children.append(item)  # between this "and" that
             self.nouns.append(item)
             self.preposition = None
         elif self.excluded:
             self.nouns.append(item)  # what is said of it goes with it
+        elif self.is_inverted(item):
+            self.clause.objects.append(item)
+            self.nouns.append(item)
+            for pending in self.pending:
+                pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
             self.merge(self.nouns[-1], item)
-        elif self.nouns and _is_side(item) and self.says_where():
+        elif self.nouns and _is_side(item) and self.says_where() and not self.joins_sides():
             within = self.nouns[-1].noun in lx.PLACES and self.nouns[-1].stop == item.start  # "the table center"
             self.side(self.nouns[-1] if within else _last_thing(self.nouns), item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
@@ -182,10 +208,25 @@ class _Builder:
             self.clause.objects.append(item)
             self.nouns.append(item)
 
+    def is_inverted(self, item: Item) -> bool:
+        """The cone of "behind the cube is a cone"."""
+        landmarks = [child for pending in self.pending for child in pending.item.children]
+        starts = bool(landmarks) and not self.clause.objects and all(noun in landmarks for noun in self.nouns)
+        return starts and self.copula and not self.relative and item.noun is not None
+
+    def joins_sides(self) -> bool:
+        """ "on the left and right"."""
+        return self.joined and self.and_joined and self.nouns[-1].noun in lx.SIDES
+
     def leading_place(self, item: Item) -> None:
         """ "Top left corner, red cube": the place named first is where the thing is."""
         objects = self.clause.objects
-        if self.clause.verb is None and len(objects) == 1 and objects[0].noun in lx.PLACES and item.noun is not None:
+        if (
+            self.clause.verb is None
+            and len(objects) == 1
+            and objects[0].noun in lx.PLACES
+            and (item.noun or item.words)
+        ):
             where = objects.pop()
             place = Item(Kind.PREPOSITION, where.start, where.stop, where.head, where.text, ("in",), children=[where])
             item.children.append(place)
@@ -193,11 +234,14 @@ class _Builder:
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
         last = self.nouns[-1]
-        if not self.joined or not item.pronoun or (item.color and last.color) or last.pronoun:
+        ordered = not lx.ORDINALS.isdisjoint(item.words) and last.stop == item.start  # "the cone second from ..."
+        if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
+            return False
+        if last.noun in lx.PLACES or (last.pronoun and not ordered):
             return False
         if not item.determined:
             return item.color is not None or bool(item.words)
-        return not self.and_joined and last.noun not in lx.PLACES and bool(item.color or item.words)
+        return not self.and_joined and bool(item.color or item.words)
 
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
@@ -221,6 +265,16 @@ class _Builder:
 
 _ANYTHING = frozenset({"thing", "object", "item", "target", "goal", "destination"})
 _ASPECTS = frozenset({"color", "colour", "size", "shape"})
+
+
+def _only_color(item: Item) -> bool:
+    return item.pronoun and item.color is not None and not item.determined
+
+
+def _share_noun(first: Item, second: Item) -> None:
+    """ "the red and the blue cube": the noun stands but once."""
+    if first.noun is None and first.color is not None and not first.text.endswith(("one", "ones")):
+        first.noun, first.pronoun = second.noun, second.noun is None
 
 
 def _last_thing(nouns: Sequence[Item]) -> Item:
@@ -257,6 +311,9 @@ def _conjunct(item: Item, nouns: list[Item], pending: list[Pending], clause: Cla
     """ "the cube and the cone": the second noun phrase stands beside the one that spaCy joins it to."""
     head = words[item.head].head
     partner = next((noun for noun in nouns if noun.start <= head < noun.stop), nouns[-1])
+    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
+        partner = _last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
+    _share_noun(partner, item)
     for place in reversed(pending):
         if any(child is partner for child in place.item.children):
             place.item.children.append(item)

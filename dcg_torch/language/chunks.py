@@ -59,12 +59,19 @@ class _Chunker(NounPhrases):
             return None
         verb, way, stop = match["verb"], match["way"], i + match.group().count(" ") + 1
         before = {Kind.RELATIVE}  # "go to the cone face left" is two commands
+        if self.in_relative():
+            before.add(Kind.NEGATION)
         if verb.endswith(("ing", "ed", "s")):
             before |= {Kind.NOUN, Kind.VERB, Kind.COMMA, Kind.AND, Kind.NEGATION}
         if self.previous() not in before or (self.in_phrase(stop) and match_color(self.texts, stop) is None):
             return None
         self.add(Kind.ADVERB, i, stop, words=(f"facing {lx.NORMAL_WORDS.get(way, way)}",))
         return stop
+
+    def in_relative(self) -> bool:
+        """Whether a relative pronoun stands behind the last noun phrase."""
+        kinds = [item.kind for item in reversed(self.out)]
+        return Kind.RELATIVE in kinds[: kinds.index(Kind.NOUN) if Kind.NOUN in kinds else 0]
 
     def alone(self, i: int) -> int | None:
         """ "(the cone) by itself"."""

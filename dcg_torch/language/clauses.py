@@ -46,7 +46,12 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
             relative = True
         elif item.kind is Kind.COMMA and relative:
             relative = False
-        elif item.kind is Kind.VERB and _is_main(items, k, relative) and not _is_statement(clauses[-1], items, k):
+        elif (
+            item.kind is Kind.VERB
+            and _is_main(items, k, relative)
+            and not _is_statement(clauses[-1], items, k)
+            and not _is_inverted(clauses[-1], item)
+        ):
             relative = False
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
@@ -81,6 +86,12 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     after = items[k + 1] if k + 1 < len(items) else None
     named = after is not None and after.kind is Kind.NOUN and after.noun is not None
     return not named and any(item.kind is Kind.NOUN and item.noun not in {"you", "me"} for item in clause)
+
+
+def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
+    """ "Behind the cube is a cone": what follows the copula is where the beginning says."""
+    kinds = [item.kind for item in clause if item.kind not in {Kind.COMMA, Kind.ADVERB, Kind.AND}]
+    return verb.words[0] == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
 
 
 def _subject(items: Sequence[Item], k: int) -> bool:

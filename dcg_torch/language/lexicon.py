@@ -48,7 +48,7 @@ SHUN = frozenset(["avoid", "dodge", "evade", "leave", "pass", "circle"])
 COMMANDS = PUT | TAKE | GO | REACH | LOOK
 COPULAS = word_set("be is are 's 're was were being am 'm lie lies re")
 # Tagged as nouns often; a verb of these stands at the start of a clause.
-NEGATIONS = frozenset({"not", "n't", "never", "nt", "dont", "don't"})
+NEGATIONS = frozenset({"neither", "nor", "not", "n't", "never", "nt", "dont", "don't"})
 
 # Words of noun phrases that are never part of the noun.
 ORDINALS = word_set(
@@ -75,7 +75,7 @@ SIZED = {f"{size}{ending}": size for size in SIZES for ending in ("ish", "-sized
     "largish": "large", "biggish": "big", "widish": "wide",
 }  # fmt: skip
 MODIFIERS = ORDINALS | SIDES | ADJECTIVES | SIZED.keys()
-QUANTIFIERS = frozenset(["all", "every", "each", "both", "any", "some", "several"])
+QUANTIFIERS = frozenset(["all", "either", "every", "each", "both", "any", "some", "several"])
 NUMBERS = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10}
 GROUPS = word_set(
     """
@@ -145,6 +145,9 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (rf"(?:in|at|to|into) {_THE}(?:middle|cent(?:er|re)) (?:of|between)", "in the middle of"),
     (r"all the way(?= )|(?:way|right|just|directly|immediately) (?=(?:over|on|at|in|to|behind|next|under|above) )", ""),
     (r"(?:facing|pointing) (?:to|at|towards?)|(?:facing|pointing)(?= away from )", "facing"),
+    (r"(?:of |with )?the same colou?r as", "same color as"),
+    (r"(?:of |with )?the same size as", "same size as"),
+    (r"(?:of |with )?the same (?:shape|kind|type) as", "same shape as"),
     (r"in between|inbetween|between", "between"),
     (r"in the midst of|among(?:st)?", "among"),
     (r"(?:the )?(?:closest|nearest|near most) (?:to|from|by)", "closest to"),

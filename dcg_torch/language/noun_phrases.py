@@ -33,9 +33,10 @@ class NounPhrases(Quantities):
                 if self.texts[draft.at] in DEMONSTRATIVES and draft.at == i:
                     return self._pronoun(draft)
                 break
-        if not (draft.nouns or draft.color or draft.pronoun or "one of" in draft.modifiers) and not (
-            draft.determined and draft.modifiers
-        ):
+        named = draft.nouns or draft.color or draft.pronoun or "one of" in draft.modifiers
+        picked = draft.determined and (draft.modifiers or draft.count is not None)  # "the biggest", "those two"
+        picked = picked or (draft.modifiers and draft.modifiers[-1] in lx.ORDINALS and self.text(draft.at) == "from")
+        if not named and not picked:
             # Anything that an article leads is a noun for want of better.
             if not (draft.determined and draft.at > i and self.is_noun(draft.at, loose=True)):
                 return None
@@ -149,6 +150,9 @@ class NounPhrases(Quantities):
             nouns, color = [draft.at - 1], None  # "the orange" is a colour unless oranges are known
         head = nouns[-1] if nouns else draft.at - 1
         noun = self._name(draft, nouns, head) if nouns else None
+        if "both" in draft.modifiers and noun is not None and not draft.plural and self.text(draft.at) == "and":
+            draft.modifiers.remove("both")  # "both the cube and the cone"
+            draft.count = None
         item = self.add(
             Kind.NOUN,
             draft.start,

@@ -96,7 +96,7 @@ class Quantities(Words):
             return False
         if self.texts[i - 1] == "one" and not (draft.determined or draft.modifiers):
             draft.modifiers.append("one of")
-        if self.texts[i - 1] == "one" or self.texts[i - 1] in lx.MODIFIERS:
+        if self.texts[i - 1] in {"one", "either"} or self.texts[i - 1] in lx.MODIFIERS:
             draft.count = 1
         draft.picked = True
         if self.text(i + 1) in _GROUP_PRONOUNS and not self.in_phrase(i + 2):

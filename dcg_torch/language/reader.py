@@ -116,8 +116,8 @@ class Reader:
             tokens = _tokens(self._nlp, text)
             if len(tokens) > limit:
                 return None
-            if not tokens:
-                return []
+            if not any(token.isascii() and token.isalpha() for token in tokens):
+                return []  # nothing that could be a noun: not worth spaCy's time
             tokens = self._spelled(tokens, vocabulary)
             padded: list[str] = []
             places: dict[int, int] = {}  # index in `padded` -> index in `tokens`

@@ -25,7 +25,17 @@ STOPS = frozenset({".", "!", "?", ";", ":"})
 _RELATIVES = frozenset({"which", "that", "who", "whose", "wich", "whom"})
 
 _PREMODIFIERS = lx.MODIFIERS - lx.ADVERBS - lx.SIDES
-_NEVER_NOUNS = (lx.ADVERBS - lx.DIRECTIONS - {"right"}) | {"which", "that", "please", "hey", "hi", "hello"}
+_NEVER_NOUNS = (lx.ADVERBS - lx.DIRECTIONS - {"right"}) | {
+    "which",
+    "that",
+    "please",
+    "hey",
+    "hi",
+    "hello",
+    "no",
+    "yes",
+    "ok",
+}
 
 
 class Words:
@@ -169,7 +179,12 @@ class Words:
     def picks(self, i: int) -> bool:
         """Whether the word at `i`, before "of", picks some of several: "one of the cubes", "the leftmost of them"."""
         text = self.text(i)
-        chosen = text in lx.QUANTIFIERS or text in lx.NUMBERS or text in lx.ORDINALS or text.endswith("most")
+        chosen = (
+            text in lx.QUANTIFIERS | {"middle", "center"}
+            or text in lx.NUMBERS
+            or text in lx.ORDINALS
+            or text.endswith("most")
+        )
         compared = text in lx.MODIFIERS and (text.endswith("est") or f"{text[:-2]}est" in lx.MODIFIERS)
         if self.text(i + 1) != "of" or not (chosen or compared):
             return False
@@ -178,7 +193,9 @@ class Words:
             from_what += 1
         if self.text(from_what) in lx.GROUPS and self.text(from_what + 1) != "of":
             return False  # "the last of the row": the row is no such thing
-        return self.starts_phrase(i + 2) or self.text(i + 2) in {"them", "these", "those"}
+        if text in {"middle", "center"}:  # "the middle of the three cones", but "the middle of the table"
+            return self.text(from_what) in lx.NUMBERS
+        return self.starts_phrase(i + 2) or self.text(i + 2) in {"them", "these", "those", "all"}
 
     def ends_phrase(self, i: int) -> bool:
         """Whether a noun phrase can't go on at word `i`."""
