@@ -6,6 +6,7 @@ This is the one place that decides which phrase belongs to which; `places` has i
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause
@@ -106,6 +107,9 @@ class _Builder:
         predicate = name == "alone" or (predicate and name in lx.MODIFIERS)
         if name in lx.ORDINALS and after is not None and after.words == ("from",):
             predicate = True  # "the cone second from the left"
+            if self.joined and self.nouns[-1].noun in lx.PLACES:  # "top row, second from the left"
+                self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
+                return
         if predicate or name.startswith("facing ") or (name in {"ahead", *lx.SIDES} and self.says_where()):
             self.say(_last_thing(self.nouns), (name,))
 

@@ -150,9 +150,9 @@ class NounPhrases(Quantities):
             nouns, color = [draft.at - 1], None  # "the orange" is a colour unless oranges are known
         head = nouns[-1] if nouns else draft.at - 1
         noun = self._name(draft, nouns, head) if nouns else None
-        if "both" in draft.modifiers and noun is not None and not draft.plural and self.text(draft.at) == "and":
+        if "both" in draft.modifiers and nouns and noun == self.texts[head] and self.text(draft.at) == "and":
             draft.modifiers.remove("both")  # "both the cube and the cone"
-            draft.count = None
+            draft.count, draft.plural = None, False
         item = self.add(
             Kind.NOUN,
             draft.start,

@@ -82,6 +82,8 @@ def _about_noun(place: Pending) -> bool:
 
 def _below(owner: Item, place: Item) -> None:
     child = place.children[0]
+    if place.words == ("of",) and child.pronoun and not (child.color or child.children or owner.pronoun):
+        return  # "the bigger cube of the two"
     if place.words[0] in {"to", "at", "in"} and child.noun in {"left", "right"}:
         place.words = ("on",)
     owner.children.append(place)

@@ -134,9 +134,10 @@ class Quantities(Words):
         i = draft.at
         text = self.texts[i]
         if text in lx.QUANTIFIERS and not draft.nouns:
-            draft.plural = draft.plural or text in {"all", "both", "several", "each", "every"}
+            draft.plural = draft.plural or (not draft.picked and text in {"all", "both", "several", "each", "every"})
             draft.count = 2 if text == "both" else draft.count
-            draft.modifiers.append(text)
+            if not draft.picked:  # "the biggest of all the cubes"
+                draft.modifiers.append(text)
             return draft.take(i + 1)
         if text not in lx.NUMBERS and not (self.tag(i) == "CD" and text.isascii() and text.isdigit()):
             return False
