@@ -72,6 +72,10 @@ class Reader:
         """Whether the dictionary has a form of `word` as a verb, or does not have it at all."""
         return self._lemma(word, "verb") in self._index["verb"] or word not in self.english
 
+    def is_english(self, word: str) -> bool:
+        """Whether the dictionary has `word`, or spaCy's model has seen it."""
+        return word in self.english
+
     def is_adjective(self, word: str) -> bool:
         """Whether the dictionary has `word` as an adjective."""
         return word in self._index["adj"]

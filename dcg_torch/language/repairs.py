@@ -102,7 +102,7 @@ class Words:
         if self.texts[i] == "please":
             return True
         after = self.text(i + 1)
-        if self.tag(i + 1) != "VB" or not self.out:
+        if self.tag(i + 1) != "VB" or not self.out or match_color(self.texts, i + 1) is not None:
             return False
         if self.reader.verb(after) in lx.COMMANDS and after not in self.known:
             return True
@@ -211,7 +211,7 @@ class Words:
         return (
             self.text(i) in {"and", ",", "&"}
             and match_color(self.texts, i + 1) is not None
-            and (self.in_phrase(i + 2) or self.text(i + 2) in {"and", "one", ","})
+            and (self.in_phrase(i + 2) or self.is_noun(i + 2) or self.text(i + 2) in {"and", "one", ","})
         )
 
     def is_adjective(self, i: int) -> bool:
@@ -256,7 +256,8 @@ class Words:
         ):
             return False
         if tag in {"VBN", "VBD"}:
-            return False
+            described = normal_color(self.text(i - 1)) in single_colors() or self.text(i - 1) in _PREMODIFIERS
+            return described and not self.reader.is_english(text)  # "the red parallelepiped"
         if tag in {"VB", "VBP", "VBZ", "VBG"} and not loose:
             before = self.text(i - 1)
             return not self.is_verb(i) and (self.reader.is_noun(self.reader.singular(text)) or before in DETERMINERS)
