@@ -75,7 +75,7 @@ class _Builder:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
         if self.nouns and (self.forced or item.text == "nor"):
             self.denied = self.forced = True  # "the cube that is not ...", "neither red nor blue"
-        elif after is not None and after.kind is Kind.PREPOSITION and self.nouns:
+        elif after is not None and after.kind is Kind.PREPOSITION and (self.nouns or self.contrasts()):
             self.denied = True  # "the cube not on the table"
         elif after is not None and after.kind is Kind.NOUN and after.noun not in {"you", "me"}:
             self.excluded = True  # "the cube, not the sphere"
@@ -84,7 +84,14 @@ class _Builder:
         else:
             self.clause.negated = True
 
+    def contrasts(self) -> bool:
+        """ "Go not to the cube but to the cone"."""
+        return any(item.kind is Kind.AND and item.text == "but" for item in self.items)
+
     def place(self, item: Item) -> None:
+        if self.denied and item.words[0] in lx.STRONG:
+            self.denied, self.excluded, self.preposition = False, True, None
+            return
         # "the cube closest to ..." can't be where the cube goes, nor can "the cube not on ...".
         forced = self.forced or self.denied or (item.words[0] in lx.EXTREMES and bool(self.nouns))
         extreme = next((word for word in ("closest", "farthest") if self.nouns and word in self.nouns[-1].words), None)
@@ -201,7 +208,10 @@ class _Builder:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
             self.merge(self.nouns[-1], item)
-        elif self.nouns and _is_side(item) and self.says_where() and not self.joins_sides():
+        elif self.nouns and _is_side(item) and not self.says_where():
+            where = Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("to",), children=[item])
+            self.pending.append(Pending(where, list(self.nouns), False, False))  # "move the cube left"
+        elif self.nouns and _is_side(item) and not self.joins_sides():
             within = self.nouns[-1].noun in lx.PLACES and self.nouns[-1].stop == item.start  # "the table center"
             self.side(self.nouns[-1] if within else _last_thing(self.nouns), item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
@@ -241,7 +251,7 @@ class _Builder:
         ordered = not lx.ORDINALS.isdisjoint(item.words) and last.stop == item.start  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
-        if last.noun in lx.PLACES or (last.pronoun and not ordered):
+        if last.noun in lx.PLACES | lx.ROBOT or (last.pronoun and not ordered):
             return False
         if not item.determined:
             return item.color is not None or bool(item.words)

@@ -116,6 +116,7 @@ ADVERBS = word_set(
     """
 )
 
+OPENINGS = word_set("ok okay alright hey hi hello yes yeah yep no nope so")  # said before the command begins
 FILLERS = word_set("um uh uhm umm uhh er erm hm hmm hmmm ah oh eh")
 WAYS = word_set("left right forward forwards backward backwards front back away up down sideways")
 ALONE_RE = re.compile(r"(?:all )?(?:alone|by (?:itself|themselves)|on its own)(?= |$)")

@@ -101,7 +101,7 @@ class NounPhrases(Quantities):
             return draft.close()
         if not known and not self.is_adjective(i):
             return False
-        if after_noun and self.tag(i) in {"VBN", "VBG"}:
+        if after_noun and (self.tag(i) in {"VBN", "VBG"} or text in {"touching", "facing"}):
             return draft.close()  # "the ball touching ..."
         last = self.ends_phrase(i + 1) and not (self.text(i + 1) == "of" and self.picks(i))
         rare = text not in lx.MODIFIERS - {"square"} and self.reader.is_noun(text)

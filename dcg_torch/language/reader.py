@@ -190,7 +190,7 @@ def _tokens(nlp: Any, text: str) -> list[str]:
             merged[-1] += token
         elif token in {"sized", "size"} and last in lexicon.SIZES:
             merged[-1] += "-sized"
-        elif token not in lexicon.FILLERS:
+        elif token not in lexicon.FILLERS and (merged or token not in lexicon.OPENINGS | {","}):
             merged.append(token)
     return merged
 

@@ -102,7 +102,7 @@ class Words:
         if self.texts[i] == "please":
             return True
         after = self.text(i + 1)
-        if self.tag(i + 1) != "VB" or not self.out or match_color(self.texts, i + 1) is not None:
+        if self.tag(i + 1) != "VB" or not self.out or after in lx.PLACES or match_color(self.texts, i + 1):
             return False
         if self.reader.verb(after) in lx.COMMANDS and after not in self.known:
             return True
@@ -128,7 +128,9 @@ class Words:
             return self.previous() is not Kind.PREPOSITION
         if tag not in _VERB_TAGS or match_color(self.texts, i) or text in lx.SIDES:
             return False
-        if not command and tag not in {"VBN", "VBG"} and (text in lx.MODIFIERS or self.heads_title(i)):
+        if not command and text in lx.MODIFIERS and (tag not in {"VBN", "VBG"} or self.in_phrase(i + 1)):
+            return False
+        if not command and tag not in {"VBN", "VBG"} and self.heads_title(i):
             return False
         if tag in {"VBN", "VBG"} and self.words[i].dep in {"amod", "compound"} and self.in_phrase(i + 1):
             if self.out and self.out[-1].kind is Kind.NOUN and self.out[-1].stop == i:
