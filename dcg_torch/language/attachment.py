@@ -12,6 +12,16 @@ from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.places import Pending, settle
+from dcg_torch.language.predicates import (
+    ANYTHING,
+    ASPECTS,
+    is_edge_of,
+    is_side,
+    last_thing,
+    only_color,
+    settle_nothing,
+    share_noun,
+)
 from dcg_torch.language.reader import Word
 
 
@@ -61,7 +71,7 @@ class _Builder:
                 self.joined = self.forced = self.excluded = False
         settle(self.clause, self.pending, self.words, supplied)
         for noun in self.nouns:
-            _nothing_there(noun)
+            settle_nothing(noun)
             noun.noun = "thing" if noun.noun in {"anything", "nothing"} else noun.noun
         return self.clause
 
@@ -118,7 +128,7 @@ class _Builder:
                 self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
                 return
         if predicate or name.startswith("facing ") or (name in {"ahead", *lx.SIDES} and self.says_where()):
-            self.say(_last_thing(self.nouns), (name,))
+            self.say(last_thing(self.nouns), (name,))
 
     def says_where(self) -> bool:
         """Whether a bare "left" tells where a thing is: "move the cube left" tells where it goes."""
@@ -154,7 +164,7 @@ class _Builder:
             if self.clause.verb is None and not self.relative:
                 self.clause.statement = True
         elif name == "hold" and self.nouns and not direct:
-            self.say(_last_thing(self.nouns), ("held",))  # "the block you are holding"
+            self.say(last_thing(self.nouns), ("held",))  # "the block you are holding"
             self.forced = False
         elif name in {"color", "colour", "paint"} and self.nouns:
             self.copula = self.forced = True  # "the ball coloured dark blue"
@@ -169,36 +179,13 @@ class _Builder:
 
     def noun(self, item: Item) -> None:
         place = self.preposition
-        if item.noun in _ASPECTS and (self.relative or (place is not None and place.words[0] == "in")):
-            if place is not None and not place.children:  # "blue in color"
-                self.pending.pop()
-                self.preposition = None
-            return  # "whose color is blue"
         if item.words == ("each other",) and self.nouns:
-            other = _last_thing(self.nouns)
+            other = last_thing(self.nouns)
             item.noun, item.color = other.noun, other.color
-        if self.nouns and place is not None and place.words[0] in {"in", "of"} and _only_color(item):
-            self.pending.pop()  # "the cube in red"
-            self.preposition = None
-            self.merge(self.nouns[-1], item)
+        if self.is_about_color(item, place):
             return
-        if place is not None and not place.children:
-            if item.negative or item.noun == "nothing":
-                place.words = ({"with": "without"}.get(place.words[0], place.words[0]),)
-            if place.words[0] == "from" and self.nouns and _edge_of(self.nouns[-1], item):
-                article = "the " if item.noun in lx.SIDES else ""
-                self.nouns[-1].words += (f"from {article}{item.noun}",)  # "the second from the left"
-                self.pending.pop()
-            else:
-                place.children.append(item)
-                self.nouns.append(item)
-            if place.words[0] != "between":
-                self.preposition = None
-        elif place is not None and self.joined:
-            _share_noun(place.children[-1], item)
-            place.children.append(item)  # between this "and" that
-            self.nouns.append(item)
-            self.preposition = None
+        if place is not None and (self.joined or not place.children):
+            self.landmark(item, place)
         elif self.excluded:
             self.nouns.append(item)  # what is said of it goes with it
         elif self.is_inverted(item):
@@ -208,19 +195,46 @@ class _Builder:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
             self.merge(self.nouns[-1], item)
-        elif self.nouns and _is_side(item) and not self.says_where():
-            where = Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("to",), children=[item])
-            self.pending.append(Pending(where, list(self.nouns), False, False))  # "move the cube left"
-        elif self.nouns and _is_side(item) and not self.joins_sides():
-            within = self.nouns[-1].noun in lx.PLACES and self.nouns[-1].stop == item.start  # "the table center"
-            self.side(self.nouns[-1] if within else _last_thing(self.nouns), item)
+        elif self.nouns and is_side(item) and not self.joins_sides():
+            self.side(item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
-            _conjunct(item, self.nouns, self.pending, self.clause, self.words)
+            _conjoin(item, self.nouns, self.pending, self.clause, self.words)
         elif item.noun not in lx.MEASURES:
             self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)
+
+    def is_about_color(self, item: Item, place: Item | None) -> bool:
+        """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
+        inside = place is not None and not place.children and place.words[0] in {"in", "of"}
+        if item.noun in ASPECTS and (inside or self.relative):
+            pass  # "blue in color"
+        elif inside and self.nouns and only_color(item):
+            self.merge(self.nouns[-1], item)
+        else:
+            return False
+        if inside:
+            self.pending.pop()
+            self.preposition = None
+        return True
+
+    def landmark(self, item: Item, place: Item) -> None:
+        """What a preposition is about; the second thing that it is between."""
+        if item.negative or item.noun == "nothing":
+            place.words = ({"with": "without"}.get(place.words[0], place.words[0]),)
+        if place.children:
+            share_noun(place.children[-1], item)
+        elif place.words[0] == "from" and self.nouns and is_edge_of(self.nouns[-1], item):
+            article = "the " if item.noun in lx.SIDES else ""
+            self.nouns[-1].words += (f"from {article}{item.noun}",)  # "the second from the left"
+            self.pending.pop()
+            self.preposition = None
+            return
+        if place.children or place.words[0] != "between":
+            self.preposition = None
+        place.children.append(item)
+        self.nouns.append(item)
 
     def is_inverted(self, item: Item) -> bool:
         """The cone of "behind the cube is a cone"."""
@@ -265,69 +279,30 @@ class _Builder:
             return
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
-        if noun.noun in {None, *_ANYTHING} and predicate.noun is not None:
+        if noun.noun in {None, *ANYTHING} and predicate.noun is not None:
             noun.noun, noun.pronoun = predicate.noun, False
 
-    def side(self, noun: Item, item: Item) -> None:
-        """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it."""
-        if not item.determined and item.noun is not None:
-            self.say(noun, (*item.words, item.noun))
-            return
+    def side(self, item: Item) -> None:
+        """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it; "move it left" too."""
         place = Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("on",), children=[item])
-        noun.children.append(place)
+        within = self.nouns[-1].noun in lx.PLACES and self.nouns[-1].stop == item.start  # "the table center"
+        noun = self.nouns[-1] if within else last_thing(self.nouns)
+        if not self.says_where():
+            place.words = ("to",)
+            self.pending.append(Pending(place, list(self.nouns), False, False))
+        elif item.determined or item.noun is None:
+            noun.children.append(place)
+        else:
+            self.say(noun, (*item.words, item.noun))
 
 
-_ANYTHING = frozenset({"thing", "object", "item", "target", "goal", "destination"})
-_ASPECTS = frozenset({"color", "colour", "size", "shape"})
-
-
-def _only_color(item: Item) -> bool:
-    return item.pronoun and item.color is not None and not item.determined
-
-
-def _share_noun(first: Item, second: Item) -> None:
-    """ "the red and the blue cube": the noun stands but once."""
-    if first.noun is None and first.color is not None and not first.text.endswith(("one", "ones")):
-        first.noun, first.pronoun = second.noun, second.noun is None
-
-
-def _last_thing(nouns: Sequence[Item]) -> Item:
-    """The last noun phrase that words can describe: no person and no side."""
-    return next((noun for noun in reversed(nouns) if noun.noun not in {"you", "me"} | lx.PLACES), nouns[-1])
-
-
-def _is_side(item: Item) -> bool:
-    """Whether a noun phrase is but a side: "left", "far right", "my left"."""
-    owned = "my" in item.words or "your" in item.words
-    if item.noun not in lx.SIDES or item.color is not None or item.plural:
-        return False
-    return owned or (not item.determined and all(word in lx.SIDES | {"very"} for word in item.words))
-
-
-def _nothing_there(noun: Item) -> None:
-    """ "with nothing on top of it" becomes the word "nothing on" of the noun phrase, "nothing behind it" another."""
-    for without in [child for child in noun.children if child.words == ("without",)]:
-        thing = without.children[0]
-        if thing.noun not in {"anything", "nothing", "thing"} or len(thing.children) != 1:
-            continue
-        (where,) = thing.children
-        if where.children[0].noun in {None, "top"}:
-            noun.words += (f"nothing {({'on top of': 'on', 'at': 'on'}).get(where.words[0], where.words[0])}",)
-            noun.children.remove(without)
-
-
-def _edge_of(noun: Item, edge: Item) -> bool:
-    ordered = any(word in lx.ORDINALS or word.endswith("est") for word in noun.words)
-    return ordered and edge.noun in {"left", "right", "front", "back", "top", "bottom", "end", "me", "you"}
-
-
-def _conjunct(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause, words: Sequence[Word]) -> None:
+def _conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause, words: Sequence[Word]) -> None:
     """ "the cube and the cone": the second noun phrase stands beside the one that spaCy joins it to."""
     head = words[item.head].head
     partner = next((noun for noun in nouns if noun.start <= head < noun.stop), nouns[-1])
     if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
-        partner = _last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
-    _share_noun(partner, item)
+        partner = last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
+    share_noun(partner, item)
     for place in reversed(pending):
         if any(child is partner for child in place.item.children):
             place.item.children.append(item)

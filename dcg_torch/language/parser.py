@@ -42,6 +42,8 @@ class Parse:
 def target_phrase(tree: ParseTree) -> ParseTree:
     """The noun phrase that the root's action is about: the first below the root, depth first.
 
+    Objects named beside it ("the cube and the cone") are the noun phrases that follow it among its parent's children.
+
     Raises ValueError if the tree has no noun phrase.
     """
     for node in tree.walk():
