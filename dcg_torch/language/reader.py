@@ -88,6 +88,9 @@ class Reader:
 
     def singular(self, word: str) -> str:
         """The singular of a noun, known or unknown ("boxes" -> "box", "zorps" -> "zorp", "bus" -> "bus")."""
+        irregular = self._exceptions["noun"].get(word, [word])[0]
+        if irregular != word and not word.endswith("s"):
+            return str(irregular)  # "men"
         if (word in self._index["noun"] and not word.endswith("s")) or word.endswith(("ss", "us")):
             return word
         if len(word) > 3 and word.endswith("s") and word[:-1] in self._index["noun"]:
@@ -179,6 +182,7 @@ def _tokens(nlp: Any, text: str) -> list[str]:
     text = re.sub(r"\b([a-z]+)-ish\b", r"\1ish", text)
     text = re.sub(r"\b([a-z]+)-([a-z]+)\b", _swap, text)
     text = re.sub(r"(?<=[\w])-(?=[a-z])| - |/", " ", text)
+    text = re.sub(r"\b(that|there|what|here)s\b", r"\1 is", text)
     text = re.sub(r"\b(go|on|next|close)(to)\b", r"\1 \2", text)
     text = _FARTHEST.sub(r"\1most", text)
     text = re.sub(r"([.!?;:,])(?=[^\W\d])", r"\1 ", text)
