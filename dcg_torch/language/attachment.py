@@ -46,6 +46,7 @@ class _Builder:
         self.relative = False
         self.copula = False
         self.denied = False  # "not" stands before what is said next of a noun phrase
+        self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
 
     def run(self, supplied: bool) -> Clause:
@@ -58,7 +59,8 @@ class _Builder:
             elif self.is_exception(item, after):
                 self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.head, item.text, ("instead of",)))
             elif item.kind in {Kind.AND, Kind.COMMA}:
-                self.joined, self.relative, self.forced, self.denied = True, False, False, False
+                still = item.text == "or" and self.was_denied  # "that aren't red or blue"
+                self.joined, self.relative, self.forced, self.denied = True, False, still, still
                 self.and_joined = item.kind is Kind.AND
             elif item.kind is Kind.VERB:
                 self.verb(item, after)
@@ -138,7 +140,7 @@ class _Builder:
         """Add words to what is said of a noun phrase, or that they don't hold."""
         normal = [lx.NORMAL_WORDS.get(word, word) for word in words]
         noun.words += tuple(f"not {word}" if self.denied else word for word in normal if word not in noun.words)
-        self.denied = False
+        self.was_denied, self.denied = self.denied, False
 
     def is_subject(self, item: Item, after: Item | None) -> bool:
         """The "you" of "the block that you hold", with and without "that"."""
@@ -147,6 +149,8 @@ class _Builder:
         if item.text in {"it", "they"} and self.nouns and after is not None and after.kind is Kind.VERB:
             self.relative = self.relative or after.words[0] == "be"
             return self.relative
+        if item.noun in lx.HOLDERS and self.relative and self.forced and after is not None and after.kind is Kind.VERB:
+            return True  # "the block that the arm is holding"
         if item.noun not in {"you", "me"}:
             return False
         if self.nouns and not self.joined and after is not None and after.kind is Kind.VERB:
@@ -302,6 +306,10 @@ def _conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Clau
     partner = next((noun for noun in nouns if noun.start <= head < noun.stop), nouns[-1])
     if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
         partner = last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
+    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
+        clause.objects.append(item)  # "On the left, the red cone"
+        nouns.append(item)
+        return
     share_noun(partner, item)
     for place in reversed(pending):
         if any(child is partner for child in place.item.children):

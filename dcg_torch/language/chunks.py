@@ -62,7 +62,7 @@ class _Chunker(NounPhrases):
         if self.in_relative():
             before.add(Kind.NEGATION)
         if verb.endswith(("ing", "ed", "s")):
-            before |= {Kind.NOUN, Kind.VERB, Kind.COMMA, Kind.AND, Kind.NEGATION}
+            before |= {Kind.NOUN, Kind.ADVERB, Kind.VERB, Kind.COMMA, Kind.AND, Kind.NEGATION}
         if self.previous() not in before or (self.in_phrase(stop) and match_color(self.texts, stop) is None):
             return None
         self.add(Kind.ADVERB, i, stop, words=(f"facing {lx.NORMAL_WORDS.get(way, way)}",))

@@ -103,10 +103,18 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     return items[k].noun in {"you", "me"} and items[k - 1].noun not in lx.ROBOT
 
 
+_PEOPLE = frozenset({"i", "you", "we", "they", "he", "she", "it", "me"})
+
+
 def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
     item = items[k]
     before = items[k - 1] if k else None
     lemma = item.words[0].split()[0]
+    if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
+        # "the block being held", "the cube is placed on ...", but "you are looking for"
+        subject = items[k - 2]
+        if subject.kind is Kind.NOUN and subject.text not in _PEOPLE:
+            return False
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
         joined = before is not None and before.kind in {Kind.AND, Kind.COMMA}

@@ -97,6 +97,7 @@ DIRECTIONS = word_set(
     """
 )
 ROBOT = frozenset(["robot", "turtlebot", "bot", "yourself", "you", "machine", "rover"])
+HOLDERS = ROBOT | {"arm", "hand", "gripper", "claw"}
 PRONOUNS = {
     "me": "me", "myself": "me", "i": "me", "mine": "me", "us": "me", "you": "you", "yourself": "you",
     "yours": "you", "it": None, "itself": None, "them": None, "they": None, "this": None, "that": None, "these": None,
@@ -142,6 +143,7 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"right(?: hand)?(?: side)? of|right to(?= (?:the |a )?\w+ ?(?:\w+ )?)", "right of"),
     (rf"(?:in|at|to|on|into) {_THE}front(?: side)? of|infront(?: of)?|front of", "in front of"),
     (rf"(?:in|at|to|on) {_THE}(?:back|rear)(?: side)? of|in back of|back of", "behind"),
+    (rf"(?:in|at|to|on) {_THE}bottom of(?= (?:the |a )?(?:{'|'.join(sorted(GROUPS))})(?: |$))", "at the bottom of"),
     (rf"(?:in|at|to|on) {_THE}bottom of|underneath|beneath|under(?:neath)?|below", "under"),
     (rf"(?:in|at|to|into) {_THE}(?:middle|cent(?:er|re)) (?:of|between)", "in the middle of"),
     (r"all the way(?= )|(?:way|right|just|directly|immediately) (?=(?:over|on|at|in|to|behind|next|under|above) )", ""),
@@ -167,6 +169,7 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"(?:over|up|across|back|on|out|down) to(?= the)|up (?:un)?to|(?:over|back|down|across) to|unto", "to"),
     (r"to where|until|till", "to"),
     (r"ahead of", "ahead of"),
+    (r"diagonal(?:ly)? (?:to|from|across from)", "diagonal to"),
     (r"across from|opposite(?: to| of| from)?(?= (?:the|you|me|your) )", "opposite"),
     (r"on ?to", "onto"),
     (r"in ?to", "into"),

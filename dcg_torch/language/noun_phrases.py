@@ -23,6 +23,8 @@ class NounPhrases(Quantities):
         parts = (self._determiner, self._group, self._possessive, self._pick, self._one, self._number, self._denial,
                  self._facing, self._color, self._modifier, self._noun, self._joint)  # fmt: skip
         while draft.at < len(self.texts) and not draft.closed:
+            if draft.nouns and self.leads_on(draft.at):
+                break
             if self._is_pronoun(draft.at):
                 if draft.at == i or (draft.determined and not draft.nouns and not draft.color):
                     return self._pronoun(draft)
@@ -125,7 +127,7 @@ class NounPhrases(Quantities):
         i = draft.at
         if not self.is_noun(i):
             return False
-        if draft.nouns and (draft.nouns[-1] != i - 1 or lx.FACING_RE.match(self.joined, self.offsets[i])):
+        if draft.nouns and draft.nouns[-1] != i - 1:
             return draft.close()
         draft.nouns.append(i)
         return draft.take(i + 1)

@@ -31,6 +31,7 @@ def settle(clause: Clause, pending: list[Pending], words: Sequence[Word], suppli
     verb = clause.verb.words[0].split()[0] if clause.verb else ""
     full = [place for place in pending if place.item.children]
     target = main_object(clause)
+    supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
     if verb in lx.PUT and target is not None and not supplied:
         goal = _destination(full, verb)
     elif verb in lx.TAKE | lx.GO and target is not None and not supplied:

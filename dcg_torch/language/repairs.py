@@ -102,7 +102,9 @@ class Words:
         if self.texts[i] == "please":
             return True
         after = self.text(i + 1)
-        if self.tag(i + 1) != "VB" or not self.out or after in lx.PLACES or match_color(self.texts, i + 1):
+        if not self.out:
+            return self.reader.verb(after) == after and after in lx.COMMANDS - self.known
+        if self.tag(i + 1) != "VB" or after in lx.PLACES or match_color(self.texts, i + 1):
             return False
         if self.reader.verb(after) in lx.COMMANDS and after not in self.known:
             return True
@@ -208,11 +210,17 @@ class Words:
             self.in_phrase(i) or self.is_noun(i) or self.text(i) in lx.MODIFIERS | {"one", "ones"} or self.joins(i)
         )
 
+    def leads_on(self, i: int) -> bool:
+        """Whether the words at `i` say where a thing is or how it stands, whatever the tagger takes them for."""
+        at = self.offsets[i]
+        match = lx.PREPOSITION_RE.match(self.joined, at)
+        return (match is not None and " " in match.group()) or lx.FACING_RE.match(self.joined, at) is not None
+
     def joins(self, i: int) -> bool:
-        """Whether "and" or a comma at `i` stands between the colours of one thing."""
+        """Whether "and" or a comma at `i` stands between the colours or other words of one thing."""
         return (
             self.text(i) in {"and", ",", "&"}
-            and match_color(self.texts, i + 1) is not None
+            and (match_color(self.texts, i + 1) is not None or self.text(i + 1) in lx.MODIFIERS)
             and (self.in_phrase(i + 2) or self.is_noun(i + 2) or self.text(i + 2) in {"and", "one", ","})
         )
 
