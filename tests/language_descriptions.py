@@ -2,7 +2,9 @@
 
 They are of the kinds that people write to robots among cones and barrels, to arms over blocks, and to describe one
 thing among others with no verb at all. `DEVELOPMENT` was looked at while the room was mended. `HELD_OUT` was
-committed before its first run, and nothing is changed for it since.
+committed before its first run: of its 75, the room that had not been made for such sentences read 42 wholly right
+(67 nouns, 70 colours), and 73 once it was mended on `DEVELOPMENT` alone. `FRESH` was written after that: 35 of its 40
+on the first run, 38 nouns, 40 colours. Nothing is changed for either of them.
 """
 
 from dataclasses import dataclass
@@ -230,7 +232,8 @@ FRESH = (
     D("biggest green thing", "thing", "green", (), ("biggest",)),
     D("it is the one in the front left corner", None, None, (("in", "corner"),)),
     D("large ball partially behind the small cylinder", "ball", None, (("behind", "cylinder"),), ("large",)),
-    D("Small red cone sitting in front of large green sphere.", "cone", "red", (("in front of", "sphere"),), ("small",)),
+    D("Small red cone sitting in front of large green sphere.", "cone", "red", (("in front of", "sphere"),),
+      ("small",)),
     D("grey chair that is big and faces backward", "chair", "gray", (), ("big", "facing backward")),
     D("blue fan, top row", "fan", "blue", (("in", "row"),)),
     D("the leftmost desk on the bottom row", "desk", None, (("on", "row"),), ("leftmost",)),

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from language_descriptions import DEVELOPMENT, HELD_OUT, Description
+from language_descriptions import DEVELOPMENT, FRESH, HELD_OUT, Description
 
 from dcg_torch.bench import hostile
 from dcg_torch.language import Parser, default_parser, target_phrase
@@ -56,14 +56,16 @@ def test_description(parser: Parser, said: Description) -> None:
     assert read(parser, said.text) == said
 
 
-def test_held_out_descriptions(parser: Parser) -> None:
-    found = [read(parser, said.text) for said in HELD_OUT]
+@pytest.mark.parametrize(("sentences", "share"), [(HELD_OUT, 0.93), (FRESH, 0.82)], ids=["held out", "fresh"])
+def test_held_out_descriptions(parser: Parser, sentences: tuple[Description, ...], share: float) -> None:
+    found = [read(parser, said.text) for said in sentences]
     for field in FIELDS:
         right = sum(
             have is not None and getattr(have, field) == getattr(said, field)
-            for have, said in zip(found, HELD_OUT, strict=True)
+            for have, said in zip(found, sentences, strict=True)
         )
-        assert right / len(HELD_OUT) >= 0.9, field
+        assert right / len(sentences) >= 0.9, field
+    assert sum(have == said for have, said in zip(found, sentences, strict=True)) / len(sentences) >= share
 
 
 @pytest.mark.parametrize(
