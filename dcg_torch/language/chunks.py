@@ -40,7 +40,7 @@ class _Chunker(NounPhrases):
             return i + 1
         if tag == "MD" or (text in {"please", "to"} and self.wraps(i)):
             return i + 1
-        stop = self.facing(i) or self.alone(i) or self.preposition(i)
+        stop = self.facing(i) or self.alone(i) or self.view(i) or self.preposition(i)
         if stop:
             return stop
         if self.is_verb(i):
@@ -81,6 +81,14 @@ class _Chunker(NounPhrases):
         stop = i + match.group().count(" ") + 1
         self.add(Kind.ADVERB, i, stop, words=("alone",))
         return stop
+
+    def view(self, i: int) -> int | None:
+        """ "(on the left) from my point of view" is on my left."""
+        match = lx.VIEW_RE.match(self.joined, self.offsets[i])
+        if match is None or self.previous() is not Kind.NOUN:
+            return None
+        self.out[-1].words += (match["owner"],)
+        return i + match.group().count(" ") + 1
 
     def what(self, i: int) -> int | None:
         """ "(drop) what you are holding": a thing, and a relative clause about it."""

@@ -128,6 +128,10 @@ FACING_RE = re.compile(
     r"(?= (?!of |side )|$)"
 )
 
+_VIEW = r"(?:perspective|point of view|viewpoint|view|angle)"
+_NO_VIEW = rf"(?! (?:my|your) {_VIEW})"
+VIEW_RE = re.compile(rf"(?:from|in) (?P<owner>my|your) {_VIEW}(?= |$)")
+
 # Prepositions, read on the words of the command; the first pattern that fits wins. The normal form follows.
 _THE = r"(?:the |your |its |my |a )?"
 _AT = r"(?:to|on|at|in|from|towards?)"
@@ -137,8 +141,8 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"from (?=(?:above|behind|under|underneath|below|beside|near|between|next|in front|over|inside) )", ""),
     (r"(?:to |on |onto |on to |at |in |over )?(?:the )?top (?:side |part )?of", "on top of"),
     (r"(?:up )?on top(?= the )|atop(?: of)?|ontop(?: of)?", "on top of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where)", "left of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where)", "right of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "left of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "right of"),
     (r"left(?: hand)?(?: side)? of|left to(?= )", "left of"),
     (r"right(?: hand)?(?: side)? of|right to(?= (?:the |a )?\w+ ?(?:\w+ )?)", "right of"),
     (rf"(?:in|at|to|on|into) {_THE}front(?: side)? of|infront(?: of)?|front of", "in front of"),

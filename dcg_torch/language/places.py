@@ -12,7 +12,8 @@ from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause, main_object
-from dcg_torch.language.items import Item
+from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.predicates import is_side
 from dcg_torch.language.reader import Word
 
 
@@ -71,6 +72,21 @@ def settle(clause: Clause, pending: list[Pending], words: Sequence[Word], suppli
         else:
             _below(owner, place.item)
         last = owner
+    if clause.verb is None and target is None:
+        _unnamed(clause)
+
+
+def _unnamed(clause: Clause) -> None:
+    """ "closest to me", "in the corner", "my left": of the thing only the place is said."""
+    places = [p for p in clause.places if p.words[0] in lx.EXTREMES or p.children[0].noun in lx.PLACES | {"me", "you"}]
+    for side in clause.objects:
+        if is_side(side) and side.determined:
+            place = Item(Kind.PREPOSITION, side.start, side.stop, side.head, side.text, ("on",), children=[side])
+            places.append(place)
+    if places:
+        first = places[0]
+        clause.places = [place for place in clause.places if place not in places]
+        clause.objects = [Item(Kind.NOUN, first.start, first.start, first.head, "", pronoun=True, children=places)]
 
 
 def _about_noun(place: Pending) -> bool:

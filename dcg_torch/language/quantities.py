@@ -84,8 +84,11 @@ class Quantities(Words):
 
     def _possessive(self, draft: Draft) -> bool:
         """ "the robot's cube" is the cube."""
-        if self.tag(draft.at) != "POS" or not draft.nouns or not self.in_phrase(draft.at + 1):
+        side = self.text(draft.at + 1) in lx.SIDES
+        if self.tag(draft.at) != "POS" or not draft.nouns or not (side or self.in_phrase(draft.at + 1)):
             return False
+        if side and self.texts[draft.nouns[-1]] in lx.ROBOT:
+            draft.modifiers.append("your")  # "the robot's left"
         draft.nouns, draft.color = [], None
         return draft.take(draft.at + 1)
 
