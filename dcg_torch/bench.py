@@ -110,11 +110,12 @@ def bench_model() -> Iterator[Result]:
     yield _result("parsing a command", [_milliseconds(parse, text, model.symbols) for text in texts])
 
 
-_PIECES = (
-    "go to the of on and one that is you not red cube , . move left from it all 2 dark don't 's which behind pick "
-    "closest most held between same ' \" - ; DROP TABLE <b> {{7*7}} ../ %s \\ \U0001f916 куб 立方体 مكعب \u202e a\u0301 ½ "
-    "\x00 \ud800 \n \t ((( \"' row group facing without nothing each other"
-).split(" ")
+_SCRAPS = """
+go to the of on and one that is you not red cube , . move left from it all 2 dark don't 's which behind pick closest
+most held between same ' " - ; DROP TABLE <b> {{7*7}} ../ %s \\ ((( \U0001f916 куб 立方体 مكعب \u202e a\u0301 ½ row
+group facing without nothing each other
+"""
+_PIECES = [*_SCRAPS.split(), "\x00", "\ud800", "\n", "\t", ""]
 
 
 def hostile(rng: np.random.Generator) -> str:

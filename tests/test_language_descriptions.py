@@ -187,6 +187,50 @@ def test_how_a_thing_stands_is_a_word(parser: Parser, text: str) -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "preposition", "landmark", "words"),
+    [
+        ("the cone on your left", "on", "left", ("your",)),
+        ("the cone to my right", "on", "right", ("my",)),
+        ("the cone on my right hand side", "on", "right", ("my",)),
+        ("the cone to the robot's left", "on", "left", ("your",)),
+        ("the cone on the left from my point of view", "on", "left", ("my",)),
+        ("the cone on the left side of you", "left of", "you", ()),
+        ("the cone in front of me", "in front of", "me", ()),
+        ("the cone nearest you", "closest to", "you", ()),
+        ("the closest cone to me", "closest to", "me", ()),
+        ("on your left there is a cone", "on", "left", ("your",)),
+    ],
+)
+def test_places_beside_people(
+    parser: Parser, text: str, preposition: str, landmark: str, words: tuple[str, ...]
+) -> None:
+    meant = target_phrase(tree_of(parser, text))
+    assert (meant.phrase.noun, meant.phrase.words) == ("cone", ())
+    ((name, child),) = [(place.phrase.words[0], place.children[0].phrase) for place in meant.children]
+    assert (name, child.noun, child.words) == (preposition, landmark, words)
+
+
+@pytest.mark.parametrize("text", ["closest to me", "nearest you", "my left", "in the corner"])
+def test_a_place_alone_is_of_a_thing_unnamed(parser: Parser, text: str) -> None:
+    meant = target_phrase(tree_of(parser, text))
+    assert (meant.phrase.noun, meant.phrase.color, len(meant.children)) == (None, None, 1)
+
+
+@pytest.mark.parametrize(
+    ("text", "preposition"),
+    [
+        ("there are three cones on your right, go to the middle one", "on"),
+        ("in the row of five cones, go to the middle one", "in"),
+        ("out of the three cones near the wall pick the middle one", "near"),
+    ],
+)
+def test_one_of_several_that_were_named_before(parser: Parser, text: str, preposition: str) -> None:
+    meant = target_phrase(tree_of(parser, text))
+    assert (meant.phrase.noun, meant.phrase.words) == ("cone", ("middle",))
+    assert [place.phrase.words for place in meant.children] == [(preposition,)]
+
+
+@pytest.mark.parametrize(
     ("text", "word"),
     [
         ("the bigger of the two cubes", "bigger"), ("the largest of the cubes", "largest"),

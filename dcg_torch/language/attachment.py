@@ -11,7 +11,7 @@ from dataclasses import replace
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.places import Pending, settle
+from dcg_torch.language.places import Pending, conjoin, settle
 from dcg_torch.language.predicates import (
     ANYTHING,
     ASPECTS,
@@ -203,7 +203,7 @@ class _Builder:
             self.side(item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
-            _conjoin(item, self.nouns, self.pending, self.clause, self.words)
+            conjoin(item, self.nouns, self.pending, self.clause, self.words)
         elif item.noun not in lx.MEASURES:
             self.leading_place(item)
             self.clause.objects.append(item)
@@ -298,23 +298,3 @@ class _Builder:
             noun.children.append(place)
         else:
             self.say(noun, (*item.words, item.noun))
-
-
-def _conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause, words: Sequence[Word]) -> None:
-    """ "the cube and the cone": the second noun phrase stands beside the one that spaCy joins it to."""
-    head = words[item.head].head
-    partner = next((noun for noun in nouns if noun.start <= head < noun.stop), nouns[-1])
-    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
-        partner = last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
-    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
-        clause.objects.append(item)  # "On the left, the red cone"
-        nouns.append(item)
-        return
-    share_noun(partner, item)
-    for place in reversed(pending):
-        if any(child is partner for child in place.item.children):
-            place.item.children.append(item)
-            nouns.append(item)
-            return
-    clause.objects.append(item)
-    nouns.append(item)

@@ -1,4 +1,4 @@
-"""Prepositional phrases -> what they belong to: a noun phrase that they describe, or the verb.
+"""Prepositional phrases -> what they belong to: a noun phrase that they describe, or the verb; and conjuncts.
 
 spaCy's heads are right for most commands but weak for the ones that name two places ("place the red pyramid on the
 green cube on the blue cube"): whether a prepositional phrase tells the object apart or says where it goes depends
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.predicates import is_side
+from dcg_torch.language.predicates import is_side, last_thing, share_noun
 from dcg_torch.language.reader import Word
 
 
@@ -135,3 +135,23 @@ def _destination(places: list[Pending], verb: str) -> Pending | None:
     if solid:
         return solid[-1]
     return free[0] if free else None
+
+
+def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause, words: Sequence[Word]) -> None:
+    """ "the cube and the cone": the second noun phrase stands beside the one that spaCy joins it to."""
+    head = words[item.head].head
+    partner = next((noun for noun in nouns if noun.start <= head < noun.stop), nouns[-1])
+    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
+        partner = last_thing(nouns)  # "the cube on the left and the cone": things stand beside things
+    if partner.noun in lx.PLACES and item.noun not in lx.PLACES:
+        clause.objects.append(item)  # "On the left, the red cone"
+        nouns.append(item)
+        return
+    share_noun(partner, item)
+    for place in reversed(pending):
+        if any(child is partner for child in place.item.children):
+            place.item.children.append(item)
+            nouns.append(item)
+            return
+    clause.objects.append(item)
+    nouns.append(item)
