@@ -228,7 +228,8 @@ class FeatureSet:
         if phrase.color is not None:
             stated = f"color: {phrase.color}"
             names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
-            names += [f"color: {word}" for word in phrase.words]  # "the red and blue tower"
+            if Group.RELATION in self.groups:
+                names += [f"color: {word}" for word in phrase.words]  # "the red and blue tower"
         return [name for name in names if name in self.language]
 
     def object_names(self, obj: Object, colors: Sequence[str] = ()) -> list[str]:
@@ -238,8 +239,8 @@ class FeatureSet:
             names.append("hypothetical: yes")
             if LOOKED_ROUND in obj.attributes:
                 names.append(f"hypothetical: {LOOKED_ROUND}")
-        for own in (f"color: {color}" for color in (colors or (obj.color,)) if color is not None):
-            names.append(own if own in self.grounding else "color: unknown")
+        own = [f"color: {color}" for color in (colors or (obj.color,)) if color is not None]
+        names += [name if name in self.grounding else "color: unknown" for name in own]
         return [name for name in dict.fromkeys(names) if name in self.grounding]
 
     def encode_phrases(self, phrases: Sequence[Phrase]) -> Bag:

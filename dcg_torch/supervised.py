@@ -170,7 +170,7 @@ def _placed(
     for c, combo in enumerate(modifier.combos):
         labels: list[Correspondence | None] = [None] * len(things)
         weights = [0.0] * len(things)
-        for j, o in enumerate(world.meanable):
+        for j in range(len(world.meanable)):
             if j in meant:
                 labels[j], weights[j] = Correspondence.ACTIVE, posterior[c, j] / len(meant)
             elif j not in spared:

@@ -19,8 +19,9 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 LAYERS = (
     {"symbols", "resources", "records"},
     {"space", "loglinear", "language", "world"},
-    {"settings", "features", "meaning", "relational", "episodes", "console", "report", "simulator", "speaker"},
-    {"graph", "baseline"},
+    {"settings", "features", "meaning", "relational", "console", "report", "simulator", "speaker"},
+    {"episodes", "graph"},
+    {"baseline"},
     {"learning"},
     {"model"},
     {"open_world"},
