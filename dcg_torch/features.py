@@ -103,6 +103,7 @@ def _fixed_groundings() -> Iterator[Feature]:
     for names in (*space.RELATIONS.values(), space.STATES, space.RANKS):
         for name in names:
             yield Group.RELATION, name
+    yield Group.RELATION, "kind: place"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -287,6 +288,8 @@ class FeatureSet:
         """
         names = [[f"kind: {GroundingKind.OBJECT}", *self.object_names(o)] for o in world.things]
         if Group.RELATION in self.groups:
+            for own in names[len(world.objects) :]:
+                own.append("kind: place")
             described = [space.states(world.things, where)]
             if ranked:
                 described.append(space.ranks(world.things, where))
@@ -326,19 +329,18 @@ class FeatureSet:
 def _word_features(phrase: Phrase) -> Iterator[Feature]:
     """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
 
-    Words of a noun phrase also fire together ("second from the left"), and modifiers and such words together with
-    the context: what they compare the object with.
+    Words of a noun phrase also fire together ("second from the left"), and they and modifiers together with the
+    context: what they compare the object with.
     """
     is_noun = phrase.kind is PhraseKind.NOUN
-    for word in phrase.words:
+    words = [*phrase.words, *([" ".join(phrase.words)] if is_noun and len(phrase.words) > 1 else [])]
+    for word in words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
-    if is_noun and len(phrase.words) > 1:
-        yield Group.RELATION, f"word: {' '.join(phrase.words)}"
     for context in phrase.context:
         yield Group.RELATION, f"context: {context}"
-        if not is_noun:
-            for word in phrase.words:
-                yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
+        if not is_noun or context.startswith("of "):
+            for word in words:
+                yield Group.RELATION, f"{'word' if is_noun else phrase.kind}: {word}, {context}"
 
 
 def _pad(rows: list[list[int]]) -> Bag:

@@ -258,7 +258,11 @@ class FactorGraph:
         for node, of_node in out.items():
             above = [self.phrases.nodes[up]["tree"].phrase.kind for up in self.phrases.successors(node)]
             if isinstance(of_node, _Scored) and PhraseKind.MODIFIER not in above:
-                out[node] = replace(of_node, scores=of_node.scores[:, : len(self.world.objects)])
+                scores = of_node.scores[:, : len(self.world.objects)]
+                if self.world.meant is not None:
+                    ruled_out = [o.id not in self.world.meant for o in self.world.objects]
+                    scores = np.where(np.array(ruled_out)[None, :, None], -np.inf, scores)
+                out[node] = replace(of_node, scores=scores)
         return out
 
     def _encode(

@@ -44,6 +44,10 @@ _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
 
 
+PLACE_WORDS = frozenset(_PLACE_WORDS)
+PLACE_TYPES = frozenset(kind for kind, _ in _PLACE_WORDS.values())
+
+
 def place_symbols() -> list[Symbol]:
     """The words for places that are known from the start."""
     return [Symbol(word, kind) for word, (kind, _) in _PLACE_WORDS.items()]
@@ -121,4 +125,4 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
         for child in tree.children
         if child.phrase.kind is PhraseKind.PREPOSITION and child.children
     ]
-    return ParseTree(replace(phrase, context=context), tuple(modifiers))
+    return ParseTree(replace(phrase, context=(*context, of) if phrase.words else context), tuple(modifiers))

@@ -35,6 +35,9 @@ _TIE = 1e-6
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """Metres: the bounds of the distance features."""
 SETS = ("kind", "type", "color", "all")
+DIRECTION = "direction"
+"""Attribute of a place that is a direction, in a world without edges."""
+_SIDE_AT = 4.0  # metres from the robot to where such a side is taken to be
 AXES = ("left", "right", "far", "near", "high", "low", "big", "small", "middle", "robot", "remote", "speaker")
 
 VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
@@ -45,7 +48,7 @@ def _names() -> dict[str, list[str]]:
     """Family of relation features -> the names of its values."""
     bounds = [f"to {d:g} m" for d in DISTANCES] + ["farther"]
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
-    families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in ("side", "side seen")}
+    families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in ("side", "side seen", "toward")}
     for order in ("closest", "farthest"):
         families |= {
             f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)] for which in SETS
@@ -87,6 +90,8 @@ class Layout:
     place: NDArray[np.bool_]
     over: NDArray[np.bool_]
     speaker: Floats | None
+    origin: Floats
+    facing: Floats
 
 
 def layout(world: WorldModel) -> Layout:
@@ -109,7 +114,27 @@ def layout(world: WorldModel) -> Layout:
         over = (apart < SAME_SPOT) & (up > 0.01) & (up <= ONE_LEVEL) & ~place[:, None] & ~place[None, :]
     color = np.array([kinds.setdefault(("color", o.color), len(kinds)) for o in things], dtype=np.int64)
     speaker = None if world.speaker is None else seen_from(robot, np.array([[world.speaker.x, world.speaker.y]]))[0]
-    return Layout(position, half, kind, type_, color, place, over, speaker)
+    return Layout(position, half, kind, type_, color, place, over, speaker, *_directions(things, position))
+
+
+def _directions(things: Sequence[Object], position: Floats) -> tuple[Floats, Floats]:
+    """(n, 2) from where and (n,) along which angle one looks in the direction that a thing stands for.
+
+    "Behind you" is seen from the robot, "on your left" along its left; a speaker who stands apart looks at the robot.
+    """
+    facing = np.full(len(things), math.nan)
+    origin = np.zeros((len(things), 2))
+    for j, thing in enumerate(things):
+        if DIRECTION not in thing.attributes:
+            continue
+        x, y = position[j, :2]
+        if thing.type == "robot" or math.hypot(x, y) < SAME_SPOT:
+            facing[j] = 0.0
+        elif thing.type == "speaker":
+            origin[j], facing[j] = (x, y), math.atan2(-y, -x)
+        else:
+            facing[j] = math.atan2(y, x)
+    return origin, facing
 
 
 def seen_from(robot: Pose, points: Floats) -> Floats:
@@ -204,6 +229,9 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> dict[str, In
             "vertical": np.where(exists & ~of_place, _vertical(distance, offset[..., 2]), -1),
         }
         aside = exists & (distance >= SAME_SPOT)
+        about = position[None, :, :2] - where.origin[first][:, None]
+        turned = np.arctan2(about[..., 1], about[..., 0]) - where.facing[first][:, None]
+        found["toward"] = np.where(exists & np.isfinite(turned), _sector(turned), -1)
         bearing = np.arctan2(flat[..., 1], flat[..., 0])
         to_landmark = np.arctan2(position[first][:, 1], position[first][:, 0])[:, None]
         found["side"] = np.where(aside & ~of_place, _sector(bearing), -1)
@@ -266,7 +294,8 @@ def places(
     """The places that can be spoken of.
 
     Args:
-        bounds: (near, far, right, left) of the workspace, seen from the robot, metres; None: it has no edges.
+        bounds: (near, far, right, left) of the workspace, seen from the robot, metres; None: it has no edges, and its
+            sides are directions from the robot.
         robot: "you" to the speaker.
         speaker: "me".
     """
@@ -277,7 +306,7 @@ def places(
         c, s = math.cos(origin.yaw), math.sin(origin.yaw)
         where = (origin.x + c * x - s * y, origin.y + s * x + c * y, 0.0)
         name = " ".join(("place:", *sides, kind))
-        attributes = frozenset(f"{side} side" for side in sides)
+        attributes = frozenset({*(f"{side} side" for side in sides), *([] if bounds else [DIRECTION])})
         found.append(Object(name, kind, known=True, position=where, size=(*size, 0.0), attributes=attributes))
 
     if bounds is not None:
@@ -290,6 +319,9 @@ def places(
         for y, side in ((right, "right"), (left, "left")):
             add("edge", mid_x, y, (side,), (deep, 0.0))
         add("middle", mid_x, mid_y)
+    elif robot is not None:
+        for x, y, side in ((-1, 0, "near"), (1, 0, "far"), (0, -1, "right"), (0, 1, "left")):
+            add("edge", _SIDE_AT * x, _SIDE_AT * y, (side,))
     for kind, pose in (("robot", robot), ("speaker", speaker)):
         if pose is not None:
             x, y = seen_from(origin, np.array([[pose.x, pose.y]]))[0]

@@ -116,13 +116,15 @@ class Object:
 class WorldModel:
     """Upsilon, with the poses that "in front of" or "closest to me" are relative to.
 
-    `places` can be spoken of but not be meant: corners, edges, the middle, the robot, the speaker.
+    `places` can be spoken of but not be meant: corners, edges, the middle, the robot, the speaker. Where `meant` is
+    given, only the objects of these ids can be meant; the others are there and can be landmarks.
     """
 
     objects: tuple[Object, ...]
     robot: Pose | None = None
     speaker: Pose | None = None
     places: tuple[Object, ...] = ()
+    meant: frozenset[str] | None = None
 
     @property
     def things(self) -> tuple[Object, ...]:
