@@ -145,6 +145,16 @@ def _taught(chosen: Variant, lessons: int) -> GroundingModel:
     return model
 
 
+@functools.cache
+def _taught_open(chosen: Variant, lessons: int, assumed: OpenWorld) -> OpenWorldModel:
+    """The same for the model that keeps a posterior; its lessons stay in the weights, and are not needed again."""
+    model = OpenWorldModel.trained(_initial_training(), chosen, assumed)
+    if lessons:
+        teach(model, relational_lessons(lessons))
+        model.corpus = []
+    return model
+
+
 def untaught(settings: ModelSettings) -> GroundingModel:
     """The model of a configuration, trained on the initial examples alone.
 
@@ -156,7 +166,7 @@ def untaught(settings: ModelSettings) -> GroundingModel:
     chosen = settings.open_world
     prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
     assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
-    return OpenWorldModel.trained(_initial_training(), variant(settings), assumed)
+    return copy.deepcopy(_taught_open(variant(settings), settings.lessons, assumed))
 
 
 def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:
