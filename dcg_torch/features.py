@@ -276,12 +276,15 @@ class FeatureSet:
                 bag[c, index[child.grounding.object.id], column] = same
         return bag
 
-    def encode_things(self, world: WorldModel, where: space.Layout, *, ranked: bool) -> Bag:
+    def encode_things(
+        self, world: WorldModel, where: space.Layout, *, ranked: bool, compared: str | None = None
+    ) -> Bag:
         """Grounding columns of a noun phrase's groundings, places included.
 
         Args:
             where: the layout of `world`.
             ranked: whether the phrase has words that a rank could be meant by.
+            compared: with which of `space.SETS` the phrase compares its object.
 
         Returns:
             (len(world.things), k) bag.
@@ -292,17 +295,20 @@ class FeatureSet:
                 own.append("kind: place")
             described = [space.states(world.things, where)]
             if ranked:
-                described.append(space.ranks(world.things, where))
+                described.append(space.ranks(world.things, where, compared))
             for further in described:
                 for own, more in zip(names, further, strict=True):
                     own += more
         return _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
 
-    def encode_placed(self, where: space.Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int64]:
+    def encode_placed(
+        self, where: space.Layout, landmarks: Sequence[Sequence[int]], compared: str | None = None
+    ) -> NDArray[np.int64]:
         """Grounding columns of a modifier's groundings: how every thing stands to every tuple of landmarks.
 
         Args:
             landmarks: c tuples of thing numbers.
+            compared: with which of `space.SETS` the modifier's noun phrase compares its object.
 
         Returns:
             (c, things, k) bag.
@@ -311,7 +317,7 @@ class FeatureSet:
         kind = np.full((len(landmarks), n), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)
         columns = [kind]
         if Group.RELATION in self.groups:
-            for family, values in space.relations(where, landmarks).items():
+            for family, values in space.relations(where, landmarks, compared).items():
                 table = np.array([self.grounding[name] for name in space.RELATIONS[family]] + [-1])
                 columns.append(table[values])
         return np.stack(columns, axis=2)
@@ -326,21 +332,27 @@ class FeatureSet:
         return [names[column] for column in row if column >= 0]
 
 
+def compared_with(phrase: Phrase) -> str | None:
+    """With which of `space.SETS` a phrase compares its object, as its context says."""
+    return next((c.removeprefix("of ") for c in phrase.context if c.startswith("of ")), None)
+
+
 def _word_features(phrase: Phrase) -> Iterator[Feature]:
     """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
 
-    Words of a noun phrase also fire together ("second from the left"), and they and modifiers together with the
-    context: what they compare the object with.
+    Words of a noun phrase also fire together ("second from the left"), and modifiers and such words together with
+    the context: what they compare the object with.
     """
     is_noun = phrase.kind is PhraseKind.NOUN
-    words = [*phrase.words, *([" ".join(phrase.words)] if is_noun and len(phrase.words) > 1 else [])]
-    for word in words:
+    for word in phrase.words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
+    if is_noun and len(phrase.words) > 1:
+        yield Group.RELATION, f"word: {' '.join(phrase.words)}"
     for context in phrase.context:
         yield Group.RELATION, f"context: {context}"
-        if not is_noun or context.startswith("of "):
-            for word in words:
-                yield Group.RELATION, f"{'word' if is_noun else phrase.kind}: {word}, {context}"
+        if not is_noun:
+            for word in phrase.words:
+                yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
 
 
 def _pad(rows: list[list[int]]) -> Bag:

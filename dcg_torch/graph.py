@@ -24,7 +24,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, FeatureSet
+from dcg_torch.features import GROUNDING_OF, FeatureSet, compared_with
 from dcg_torch.loglinear import LogLinearModel
 from dcg_torch.symbols import (
     Child,
@@ -271,11 +271,12 @@ class FactorGraph:
         """(len(combos), groundings, k) bag of a phrase's factors."""
         kind = GROUNDING_OF[tree.phrase.kind]
         if kind is GroundingKind.OBJECT:
-            return features.encode_things(self.world, self.layout, ranked=bool(tree.phrase.words))[None]
+            ranked, compared = bool(tree.phrase.words), compared_with(tree.phrase)
+            return features.encode_things(self.world, self.layout, ranked=ranked, compared=compared)[None]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(self.world.things)}
             landmarks = [[index[h.child.grounding.object.id] for h in combo] for combo in combos]
-            return features.encode_placed(self.layout, landmarks)
+            return features.encode_placed(self.layout, landmarks, compared_with(tree.phrase))
         return features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group
+from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group, compared_with
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, Bag, FitResult, LogLinearModel, Table, fit, tabulate
@@ -258,18 +258,20 @@ class _Encoder:
     def __init__(self, features: FeatureSet) -> None:
         self.features = features
         self._layouts: dict[int, space.Layout] = {}
-        self._things: dict[tuple[int, bool], Bag] = {}
+        self._things: dict[tuple[int, bool, str | None], Bag] = {}
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of an example's factors."""
         kind, world = GROUNDING_OF[example.phrase.kind], example.world
         if kind is GroundingKind.OBJECT:
-            return self._of_things(world, ranked=bool(example.phrase.words))
+            return self._of_things(world, bool(example.phrase.words), compared_with(example.phrase))
         hypotheses: NDArray[np.int64]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
             landmarks = [index[c.grounding.object.id] for c in example.children]
-            hypotheses = self.features.encode_placed(self._layout(world), [landmarks])
+            hypotheses = self.features.encode_placed(
+                self._layout(world), [landmarks], compared_with(example.phrase)
+            )
         else:
             hypotheses = self.features.encode_groundings(kind, world, [example.children])
         return hypotheses.reshape(hypotheses.shape[1:])
@@ -279,10 +281,11 @@ class _Encoder:
             self._layouts[id(world)] = space.layout(world)
         return self._layouts[id(world)]
 
-    def _of_things(self, world: WorldModel, *, ranked: bool) -> Bag:
-        key = id(world), ranked
+    def _of_things(self, world: WorldModel, ranked: bool, compared: str | None) -> Bag:
+        key = id(world), ranked, compared
         if key not in self._things:
-            self._things[key] = self.features.encode_things(world, self._layout(world), ranked=ranked)
+            where = self._layout(world)
+            self._things[key] = self.features.encode_things(world, where, ranked=ranked, compared=compared)
         return self._things[key]
 
 

@@ -35,9 +35,11 @@ _TIE = 1e-6
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """Metres: the bounds of the distance features."""
 SETS = ("kind", "type", "color", "all")
+THOSE = "those"
+"""That one of the sets with which the phrase at hand compares its object."""
 DIRECTION = "direction"
 """Attribute of a place that is a direction, in a world without edges."""
-_SIDE_AT = 4.0  # metres from the robot to where such a side is taken to be
+_SIDE_AT = 20.0  # metres from the robot to where such a side is taken to be: the leftmost is the closest to the left
 AXES = ("left", "right", "far", "near", "high", "low", "big", "small", "middle", "robot", "remote", "speaker")
 
 VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
@@ -51,9 +53,10 @@ def _names() -> dict[str, list[str]]:
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in ("side", "side seen", "toward")}
     for order in ("closest", "farthest"):
         families |= {
-            f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)] for which in SETS
+            f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)]
+            for which in (*SETS, THOSE)
         }
-    families |= {"between": ["between", "not between"], "line": ["in line across", "in line along"]}
+    families |= {"itself": ["itself"], "between": ["between", "not between"], "line": ["in line across", "in line along"]}
     return families
 
 
@@ -66,7 +69,7 @@ STATES = [
 ]
 """The states that are always features; further attributes of objects become features as they are met."""
 
-RANKS = [f"rank: {axis} {k} of {which}" for which in SETS for axis in AXES for k in range(1, _NEAREST + 1)]
+RANKS = [f"rank: {axis} {k} of {which}" for which in (*SETS, THOSE) for axis in AXES for k in range(1, _NEAREST + 1)]
 
 
 @dataclass(frozen=True)
@@ -170,8 +173,12 @@ def states(things: Sequence[Object], where: Layout) -> list[list[str]]:
     return out
 
 
-def ranks(things: Sequence[Object], where: Layout) -> list[list[str]]:
-    """Names of the rank features of every thing: its place among those alike along every axis."""
+def ranks(things: Sequence[Object], where: Layout, compared: str | None = None) -> list[list[str]]:
+    """Names of the rank features of every thing: its place among those alike along every axis.
+
+    Args:
+        compared: the set that is "those" as well; None: none is.
+    """
     position = where.position
     x, y, z = position.T
     volume = np.array([math.nan if o.size is None else math.prod(o.size) for o in things])
@@ -188,7 +195,8 @@ def ranks(things: Sequence[Object], where: Layout) -> list[list[str]]:
         before = (less & alike[None]).sum(axis=2)
         for axis, j in zip(*np.nonzero((before < _NEAREST) & np.isfinite(values)), strict=True):
             if not where.place[j]:
-                out[j].append(f"rank: {AXES[axis]} {before[axis, j] + 1} of {which}")
+                place = f"rank: {AXES[axis]} {before[axis, j] + 1} of"
+                out[j] += [f"{place} {which}", *([f"{place} {THOSE}"] if which == compared else [])]
     return out
 
 
@@ -203,11 +211,12 @@ def _alike(where: Layout) -> list[NDArray[np.bool_]]:
     ]
 
 
-def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> dict[str, Ints]:
+def relations(where: Layout, landmarks: Sequence[Sequence[int]], compared: str | None = None) -> dict[str, Ints]:
     """The value of every relation family, for every thing and every tuple of landmarks.
 
     Args:
         landmarks: c tuples of thing numbers; distances and sides are to the first.
+        compared: the set that is "those" as well; None: none is.
 
     Returns:
         family -> (c, n) index into `RELATIONS[family]`, -1 where none fires.
@@ -228,6 +237,8 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> dict[str, In
             "place distance": np.where(exists & of_place, steps, -1),
             "vertical": np.where(exists & ~of_place, _vertical(distance, offset[..., 2]), -1),
         }
+        itself = first[:, None] == np.arange(len(position))[None, :]
+        found["itself"] = np.where(itself & ~of_place, 0, -1)
         aside = exists & (distance >= SAME_SPOT)
         about = position[None, :, :2] - where.origin[first][:, None]
         turned = np.arctan2(about[..., 1], about[..., 0]) - where.facing[first][:, None]
@@ -243,6 +254,8 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]]) -> dict[str, In
                 value = np.where(exists, sign * distance, math.inf)
                 before = ((value[:, None, :] < value[:, :, None] - _TIE) & alike[None]).sum(axis=2)
                 found[f"{order} of {which}"] = np.where(exists & (before < _NEAREST), before, -1)
+    if compared is not None:
+        found |= {f"{order} of {THOSE}": found[f"{order} of {compared}"] for order in ("closest", "farthest")}
     found["between"] = _between(position, landmarks)
     return found
 

@@ -150,8 +150,8 @@ def _taught_open(chosen: Variant, lessons: int, assumed: OpenWorld) -> OpenWorld
     """The same for the model that keeps a posterior; its lessons stay in the weights, and are not needed again."""
     model = OpenWorldModel.trained(_initial_training(), chosen, assumed)
     if lessons:
-        teach(model, relational_lessons(lessons))
-        model.corpus = []
+        teach(model, relational_lessons(lessons), rounds=2)
+        model.settle()
     return model
 
 

@@ -13,12 +13,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch import space
 from dcg_torch.features import FeatureSet, Group
 from dcg_torch.loglinear import LogLinearModel
 from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context"})
 _TAUGHT_GROUNDING = frozenset({"relation", "state", "rank", "stack color"})
+_RANKED = ("rank:", "relation: closest of", "relation: farthest of")
 _PLACES = {f"noun: {word}" for word in PLACE_WORDS}
 _OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place"}
 
@@ -73,10 +75,17 @@ def _is_taught_grounding(name: str) -> bool:
 
 
 def _taught(language: list[str], grounding: list[str]) -> NDArray[np.bool_]:
-    """Not what a noun or an object of a verb is like by itself: the lessons' worlds are random, it would be chance."""
-    place = np.array([name == "kind: place" for name in grounding])
-    placed = np.array([name.startswith("relation:") or name == "kind: placed" for name in grounding])
-    rows = {True: place | placed, False: np.ones(len(grounding), dtype=np.bool_)}
-    return np.array(
-        [rows[name.startswith("context:")] if _is_taught_language(name) else place for name in language]
-    ).reshape(len(language), len(grounding))
+    """(L, G): what there is to be learned from lessons of a robot's first day.
+
+    Not what a noun or an object of a verb is like by itself, nor how things stand in a context whatever the word: the
+    lessons' worlds are random, it would be chance. Of the sets in which things are ranked, the one with which the
+    phrase compares is enough.
+    """
+    of_context = np.array([name in {"kind: placed", "kind: place"} for name in grounding])
+    of_word = np.array([not name.startswith(_RANKED) or name.endswith(f"of {space.THOSE}") for name in grounding])
+    of_any = np.array([name == "kind: place" for name in grounding])
+    rows = [
+        of_context if name.startswith("context:") else of_word if _is_taught_language(name) else of_any
+        for name in language
+    ]
+    return np.array(rows, dtype=np.bool_).reshape(len(language), len(grounding))

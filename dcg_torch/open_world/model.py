@@ -37,7 +37,9 @@ LOOKED = frozenset({LOOKED_ROUND})
 _SURE = 0.95  # probability from which on the robot uses a word itself
 HELD = 0.5
 """Probability from which on a word counts among `symbols`."""
-_TAUGHT_L2 = 0.2
+_PLACE_WEIGHT = 3.0
+"""Of the examples of words for places: "you" and "left" are what they are, there is no corpus that may say otherwise."""
+_TAUGHT_L2 = float(__import__("os").environ.get("TL2", "0.2"))
 """Penalty on the weights that are taught by lessons."""
 
 
@@ -81,7 +83,7 @@ class OpenWorldModel(GroundingModel):
         words, corpus = list(training.symbols), []
         if Group.RELATION in variant.groups:
             words += place_symbols()
-            corpus = place_examples()
+            corpus = [replace(e, weight=_PLACE_WEIGHT) for e in place_examples()]
         features = FeatureSet.initial(variant.groups, words, training.colors, [*kept, *corpus])
         model = cls(
             variant,
@@ -205,6 +207,10 @@ class OpenWorldModel(GroundingModel):
             fit(self.loglinear, tables, l2=_TAUGHT_L2, free=blocks.taught, tolerance=1e-5, max_steps=max_steps)
             self._fitted_corpus = self.corpus
         return self.fitted
+
+    def settle(self) -> None:
+        """Keep what the corpus has taught and let go of its examples: the posterior does not move those weights."""
+        self.corpus = self._fitted_corpus = []
 
     def beliefs_of(self, word: str) -> dict[str, float]:
         """type -> probability that a noun names it."""
