@@ -196,7 +196,8 @@ class FeatureSet:
     def pairs(self) -> NDArray[np.bool_]:
         """(L, G): which pairs of columns are features."""
         families = [name.partition(":")[0] for name in self.grounding]
-        rows = [[f in PAIRS[name.partition(":")[0]] for f in families] for name in self.language]
+        met = {family: [f in others for f in families] for family, others in PAIRS.items()}
+        rows = [met[name.partition(":")[0]] for name in self.language]
         return np.array(rows, dtype=np.bool_).reshape(self.shape)
 
     @property

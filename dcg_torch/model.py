@@ -269,9 +269,7 @@ class _Encoder:
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
             landmarks = [index[c.grounding.object.id] for c in example.children]
-            hypotheses = self.features.encode_placed(
-                self._layout(world), [landmarks], compared_with(example.phrase)
-            )
+            hypotheses = self.features.encode_placed(self._layout(world), [landmarks], compared_with(example.phrase))
         else:
             hypotheses = self.features.encode_groundings(kind, world, [example.children])
         return hypotheses.reshape(hypotheses.shape[1:])

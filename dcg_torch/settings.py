@@ -72,8 +72,7 @@ class OpenWorldSettings:
 class ModelSettings:
     """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
 
-    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial;
-    with `looks_round` it looks all round before it decides.
+    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial.
     """
 
     name: str = "dcg_upup_away_color"
@@ -86,7 +85,6 @@ class ModelSettings:
     beam: int = 8
     synonyms: float | None = None
     lessons: int = 0
-    looks_round: bool = False
     posterior: bool = False
     open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 

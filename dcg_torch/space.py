@@ -56,7 +56,11 @@ def _names() -> dict[str, list[str]]:
             f"{order} of {which}": [f"{order} {k} of {which}" for k in range(1, _NEAREST + 1)]
             for which in (*SETS, THOSE)
         }
-    families |= {"itself": ["itself"], "between": ["between", "not between"], "line": ["in line across", "in line along"]}
+    families |= {
+        "itself": ["itself"],
+        "between": ["between", "not between"],
+        "line": ["in line across", "in line along"],
+    }
     return families
 
 

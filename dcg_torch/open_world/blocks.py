@@ -9,6 +9,7 @@ each block is fitted with the other as it stands, and a command costs no more th
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,13 +33,13 @@ class Blocks:
     Attributes:
         believed: the columns of nouns, colours, verbs and prepositions, in their order.
         rows, columns: where these stand in the whole.
-        taught: (L, G) the features that lessons may teach.
+        whole: the feature set itself.
     """
 
     believed: FeatureSet
     rows: NDArray[np.int64]
     columns: NDArray[np.int64]
-    taught: NDArray[np.bool_]
+    whole: FeatureSet
 
     @classmethod
     def of(cls, features: FeatureSet) -> Blocks:
@@ -51,7 +52,12 @@ class Blocks:
             {language[k]: n for n, k in enumerate(rows)},
             {grounding[k]: n for n, k in enumerate(columns)},
         )
-        return cls(believed, np.array(rows), np.array(columns), _taught(language, grounding))
+        return cls(believed, np.array(rows), np.array(columns), features)
+
+    @cached_property
+    def taught(self) -> NDArray[np.bool_]:
+        """(L, G) the features that lessons may teach."""
+        return _taught(list(self.whole.language), list(self.whole.grounding))
 
     def part(self, model: LogLinearModel) -> LogLinearModel:
         """The block that follows from the posterior, as a model of its own."""

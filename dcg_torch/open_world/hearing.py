@@ -25,7 +25,9 @@ def target(tree: ParseTree) -> ParseTree | None:
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
 
-def described_fit(solution: Solution, features: FeatureSet, model: LogLinearModel, beam: int) -> dict[str, float] | None:
+def described_fit(
+    solution: Solution, features: FeatureSet, model: LogLinearModel, beam: int
+) -> dict[str, float] | None:
     """object id -> how well the describing words and the modifiers of the object meant fit it.
 
     Returns:

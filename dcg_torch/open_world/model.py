@@ -38,8 +38,8 @@ _SURE = 0.95  # probability from which on the robot uses a word itself
 HELD = 0.5
 """Probability from which on a word counts among `symbols`."""
 _PLACE_WEIGHT = 3.0
-"""Of the examples of words for places: "you" and "left" are what they are, there is no corpus that may say otherwise."""
-_TAUGHT_L2 = float(__import__("os").environ.get("TL2", "0.2"))
+"""Of the examples of words for places: "you" and "left" are what they are; no corpus will say otherwise."""
+_TAUGHT_L2 = 0.2
 """Penalty on the weights that are taught by lessons."""
 
 
@@ -64,7 +64,6 @@ class OpenWorldModel(GroundingModel):
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.mind = mind
         self._blocks: Blocks | None = None
-        self._divided: FeatureSet | None = None
         self._fitted_corpus: list[Example] = []
 
     @classmethod
@@ -161,9 +160,7 @@ class OpenWorldModel(GroundingModel):
         self._hear(phrase.noun, phrase.color, scene, fit_of)
         for word, by_type in landmarks:
             unseen = self.mind.expected_unseen(looked=scene.looked)
-            self.mind = replace(
-                self.mind, beliefs=self.beliefs.weigh(Evidence(word, by_type, unseen, scene.source))
-            )
+            self.mind = replace(self.mind, beliefs=self.beliefs.weigh(Evidence(word, by_type, unseen, scene.source)))
         self._renew(max_steps)
         now = self.symbols.get(phrase.noun or "")
         return now if now != before else None
@@ -184,8 +181,8 @@ class OpenWorldModel(GroundingModel):
 
         The two are blocks of weights, each fitted as the other stands (`blocks`).
         """
-        if self._blocks is None or self._divided is not self.features:
-            self._blocks, self._divided = Blocks.of(self.features), self.features
+        if self._blocks is None or self._blocks.whole is not self.features:
+            self._blocks = Blocks.of(self.features)
         blocks = self._blocks
         soft = soft_examples(
             self.beliefs,

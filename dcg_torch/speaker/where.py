@@ -18,7 +18,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch import space
 from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
+from dcg_torch.world.files import World
 
 Floats = NDArray[np.float64]
 Mask = NDArray[np.bool_]
@@ -38,6 +40,13 @@ class View:
     colors: tuple[str, ...]
     position: Floats
     size: Floats | None = None
+
+    @classmethod
+    def of(cls, world: World, size: Floats | None = None) -> View:
+        """A world as it is seen from the robot's start."""
+        objects = world.objects
+        position = space.seen_from(world.start, np.array([o.position for o in objects], dtype=np.float64))
+        return cls(tuple(o.type for o in objects), tuple(o.color for o in objects), position, size)
 
 
 @dataclass(frozen=True)
@@ -80,6 +89,11 @@ RELATIONS: tuple[str, ...] = (
 """All that can be told."""
 SETS = frozenset(name for name in RELATIONS if name.startswith(("all", "several")))
 """Those that mean more than one object."""
+
+
+_SIZED = frozenset(_SIZES)
+SPOKEN = tuple(name for name in RELATIONS if name not in SETS | _SIZED)
+"""Those that mean one object, of which it is not known how big it is."""
 
 
 def tell(view: View, relation: str, rng: np.random.Generator, named: Collection[str]) -> Told | None:

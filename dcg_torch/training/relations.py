@@ -52,14 +52,7 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
         types, probability = _WORLDS[int(rng.integers(len(_WORLDS)))]
         world = generate_world(rng, "lesson", types=types, probability=probability)
         extents = rng.uniform(0.15, 0.6, size=len(world.objects))
-        places = np.array([o.position for o in world.objects])
-        view = View(
-            tuple(o.type for o in world.objects),
-            tuple(o.color for o in world.objects),
-            space.seen_from(world.start, places),
-            extents,
-        )
-        told = tell(view, relation, rng, KNOWN)
+        told = tell(View.of(world, extents), relation, rng, KNOWN)
         if told is None:
             continue
         percepts = [

@@ -39,20 +39,18 @@ class TurnInPlace:
 
     Args:
         step: radians between two looks; positive turns left.
-        always: turn full circle whatever the grounding: a relation is judged by all there is.
     """
 
     looked = False  # the paper's world model doesn't tell
 
-    def __init__(self, step: float, *, always: bool = False) -> None:
+    def __init__(self, step: float) -> None:
         self._step = step
-        self._always = always
         self._remaining = math.tau
 
     def move(self, solution: Solution, percepts: Sequence[Percept], robot: Robot) -> bool:
         """Turn by a step, if what is meant hasn't been seen."""
         missing = solution.object is not None and solution.object.hypothetical
-        if self._remaining <= 1e-9 or not (missing or self._always):
+        if self._remaining <= 1e-9 or not missing:
             return False
         step = min(abs(self._step), self._remaining)
         self._remaining -= step
