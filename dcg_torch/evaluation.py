@@ -7,8 +7,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from dcg_torch import space
-from dcg_torch.episodes import Episode, scene_bounds, workspace
+from dcg_torch.episodes import Episode, workspace
 from dcg_torch.graph import Solution
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.report.intervals import wilson
@@ -103,7 +102,7 @@ class Evaluation:
         began = time.perf_counter()
         kept = [e for e in train if known_types is None or _types_meant(e) <= set(known_types)]
         self.parse = parse
-        self._bounds = workspace(train)
+        self._workspace = workspace(train)
         self.model = GroundingModel.trained(initial, variant)
         self._meant = frozenset(t for e in kept for t in _types_meant(e))
         lessons = []
@@ -118,11 +117,10 @@ class Evaluation:
     def world(self, episode: Episode) -> WorldModel:
         """Upsilon of an episode: everything is perceived, and there are places to speak of."""
         pose, speaker = episode.pose, episode.speaker_pose
-        bounds = self._bounds or scene_bounds([o.position for o in episode.objects], pose)
-        world = self.model.world_model(episode.percepts(), pose, speaker)
+        world = self.model.world_model(episode.percepts(), pose, speaker, workspace=self._workspace)
         known = self._meant | set(self.model.known_types)
         objects = tuple(replace(o, known=o.type in known) for o in world.objects)
-        return replace(world, objects=objects, places=space.places(bounds, pose, speaker))
+        return replace(world, objects=objects)
 
     def answers(self, test: Sequence[Episode], *, learn: bool = False) -> Iterator[Answer]:
         """Ground the test episodes in order.

@@ -12,11 +12,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group, compared_with
+from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group, Ranking, ranking
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, Bag, FitResult, LogLinearModel, Table, fit, tabulate
-from dcg_torch.relational import place_examples, place_symbols, relational
+from dcg_torch.relational import (
+    Workspace,
+    coordinated,
+    furnished,
+    group_nouns,
+    grouped,
+    place_examples,
+    place_symbols,
+    relational,
+)
 from dcg_torch.symbols import (
     Correspondence,
     Example,
@@ -136,6 +145,8 @@ class GroundingModel:
             words += place_symbols()
             corpus = place_examples()
         features = FeatureSet.initial(variant.groups, words, training.colors, [*examples, *corpus])
+        if Group.RELATION in variant.groups:
+            features = features.include(nouns=group_nouns())
         loglinear = LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY)
         model = cls(variant, training.symbols, examples, features, loglinear, corpus)
         model.train()
@@ -170,13 +181,15 @@ class GroundingModel:
         speaker: Pose | None = None,
         *,
         looked: bool = False,
+        workspace: Workspace | None = None,
     ) -> WorldModel:
         """Upsilon as this variant represents it (lines 8 and 9).
 
         Args:
             looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
+            workspace: what is known of where the objects are, for relations.
         """
-        return world_model(
+        world = world_model(
             percepts,
             self.known_types,
             unknown=self.variant.unknown,
@@ -184,9 +197,16 @@ class GroundingModel:
             robot=robot,
             speaker=speaker,
         )
+        return furnished(world, workspace) if Group.RELATION in self.variant.groups else world
 
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11)."""
+        if Group.RELATION not in self.variant.groups:
+            return self._ground(tree, world)
+        first, *others = (self._ground(part, grouped(world, part)) for part in coordinated(tree))
+        return replace(first, further=tuple(others))
+
+    def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         return FactorGraph(self.readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
 
     def readable(self, tree: ParseTree) -> ParseTree:
@@ -257,33 +277,26 @@ class _Encoder:
 
     def __init__(self, features: FeatureSet) -> None:
         self.features = features
-        self._layouts: dict[int, space.Layout] = {}
-        self._things: dict[tuple[int, bool, str | None], Bag] = {}
+        self._things: dict[tuple[int, Ranking | None], Bag] = {}
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of an example's factors."""
         kind, world = GROUNDING_OF[example.phrase.kind], example.world
         if kind is GroundingKind.OBJECT:
-            return self._of_things(world, bool(example.phrase.words), compared_with(example.phrase))
+            return self._of_things(world, ranking(example.phrase))
         hypotheses: NDArray[np.int64]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(world.things)}
             landmarks = [index[c.grounding.object.id] for c in example.children]
-            hypotheses = self.features.encode_placed(self._layout(world), [landmarks], compared_with(example.phrase))
+            hypotheses = self.features.encode_placed(space.layout(world), [landmarks], ranking(example.phrase))
         else:
             hypotheses = self.features.encode_groundings(kind, world, [example.children])
         return hypotheses.reshape(hypotheses.shape[1:])
 
-    def _layout(self, world: WorldModel) -> space.Layout:
-        if id(world) not in self._layouts:
-            self._layouts[id(world)] = space.layout(world)
-        return self._layouts[id(world)]
-
-    def _of_things(self, world: WorldModel, ranked: bool, compared: str | None) -> Bag:
-        key = id(world), ranked, compared
+    def _of_things(self, world: WorldModel, counted: Ranking | None) -> Bag:
+        key = id(world), counted
         if key not in self._things:
-            where = self._layout(world)
-            self._things[key] = self.features.encode_things(world, where, ranked=ranked, compared=compared)
+            self._things[key] = self.features.encode_things(world, space.layout(world), counted)
         return self._things[key]
 
 

@@ -14,15 +14,13 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch import space
 from dcg_torch.features import FeatureSet, Group
 from dcg_torch.loglinear import LogLinearModel
-from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS
+from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS, group_nouns
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context"})
-_TAUGHT_GROUNDING = frozenset({"relation", "state", "rank", "stack color"})
-_RANKED = ("rank:", "relation: closest of", "relation: farthest of")
-_PLACES = {f"noun: {word}" for word in PLACE_WORDS}
+_TAUGHT_GROUNDING = frozenset({"relation", "state", "rank", "stack color", "group color"})
+_PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *group_nouns())}
 _OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place"}
 
 
@@ -81,15 +79,14 @@ def _is_taught_grounding(name: str) -> bool:
 
 
 def _taught(language: list[str], grounding: list[str]) -> NDArray[np.bool_]:
-    """(L, G): what there is to be learned from lessons of a robot's first day.
+    """(L, G): what there is to be learned from lessons.
 
     Not what a noun or an object of a verb is like by itself, nor how things stand in a context whatever the word: the
-    lessons' worlds are random, it would be chance. Of the sets in which things are ranked, the one with which the
-    phrase compares is enough.
+    lessons' worlds are random, it would be chance.
     """
     of_context = np.array([name in {"kind: placed", "kind: place"} for name in grounding])
-    of_word = np.array([not name.startswith(_RANKED) or name.endswith(f"of {space.THOSE}") for name in grounding])
     of_any = np.array([name == "kind: place" for name in grounding])
+    of_word = np.ones(len(grounding), dtype=np.bool_)
     rows = [
         of_context if name.startswith("context:") else of_word if _is_taught_language(name) else of_any
         for name in language

@@ -18,9 +18,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
-from dcg_torch import space
 from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
-from dcg_torch.graph import FactorGraph, Solution
+from dcg_torch.graph import Solution
 from dcg_torch.loglinear import TERNARY, FitResult, LogLinearModel, fit
 from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence
 from dcg_torch.meaning.lexicon import Entry, lexicon
@@ -29,7 +28,7 @@ from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
 from dcg_torch.open_world.blocks import Blocks
 from dcg_torch.open_world.hearing import described_fit, landmark_fits, target
 from dcg_torch.open_world.mind import Mind, OpenWorld
-from dcg_torch.relational import PLACE_WORDS, place_examples, place_symbols
+from dcg_torch.relational import PLACE_WORDS, Workspace, group_nouns, mobile_places, place_examples, place_symbols
 from dcg_torch.symbols import Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
 from dcg_torch.world.upsilon import world_model
 
@@ -84,6 +83,8 @@ class OpenWorldModel(GroundingModel):
             words += place_symbols()
             corpus = [replace(e, weight=_PLACE_WEIGHT) for e in place_examples()]
         features = FeatureSet.initial(variant.groups, words, training.colors, [*kept, *corpus])
+        if Group.RELATION in variant.groups:
+            features = features.include(nouns=group_nouns())
         model = cls(
             variant,
             training.symbols,
@@ -133,6 +134,7 @@ class OpenWorldModel(GroundingModel):
         speaker: Pose | None = None,
         *,
         looked: bool = False,
+        workspace: Workspace | None = None,
     ) -> WorldModel:
         """Upsilon; its hypothetical objects say whether the robot has looked round."""
         unseen = LOOKED if looked else frozenset()
@@ -166,15 +168,9 @@ class OpenWorldModel(GroundingModel):
         return now if now != before else None
 
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
-        """[phi*, gamma*]; where landmarks are spoken of, the robot, the speaker and the sides may be such.
-
-        A speaker of whom nothing is known is taken to stand where the robot does.
-        """
-        readable = self.readable(tree)
-        relative = any(node.phrase.kind is PhraseKind.MODIFIER for node in readable.walk())
-        if relative and not world.places:
-            world = replace(world, places=space.places(None, world.robot, world.speaker or world.robot))
-        return FactorGraph(readable, world).solve(self.features, self.loglinear, beam=self.variant.beam)
+        """[phi*, gamma*]; where landmarks are spoken of, the robot, the speaker and their sides may be such."""
+        relative = any(node.phrase.kind is PhraseKind.MODIFIER for node in self.readable(tree).walk())
+        return super().ground(tree, replace(world, places=mobile_places(world)) if relative else world)
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit from the present weights: what is believed to the posterior, and a new corpus to its examples.

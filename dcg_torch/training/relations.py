@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch import space
+from dcg_torch.relational import mobile_places
 from dcg_torch.speaker.where import RELATIONS, View, command, tell
 from dcg_torch.supervised import Lesson
 from dcg_torch.symbols import Percept
@@ -60,6 +60,6 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
             for o, e in zip(world.objects, extents, strict=True)
         ]
         upsilon = world_model(percepts, KNOWN, hypothetical=False, robot=world.start)
-        upsilon = replace(upsilon, places=space.places(None, world.start, world.start))
+        upsilon = replace(upsilon, places=mobile_places(upsilon))
         return Lesson(command(told.tree), upsilon, frozenset(world.objects[j].id for j in told.meant))
     return None
