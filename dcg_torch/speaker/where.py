@@ -91,6 +91,8 @@ SETS = frozenset(name for name in RELATIONS if name.startswith(("all", "several"
 """Those that mean more than one object."""
 
 
+DIRECTED = (*_SECTORS, *(" ".join(pair) for pair in _ABOUT_ROBOT), "several on your left", "several on your right")
+"""Those by a direction, of a landmark or of the robot."""
 _SIZED = frozenset(_SIZES)
 SPOKEN = tuple(name for name in RELATIONS if name not in SETS | _SIZED)
 """Those that mean one object, of which it is not known how big it is."""
@@ -222,12 +224,13 @@ class _Teller:
         """Behind, ahead, on one side; "on the left" may also be the leftmost of those that one could speak of."""
         turn = np.abs(_wrapped(self.bearing - angle))
         well, loosely = turn <= math.radians(50), turn <= math.radians(70)
-        value = np.zeros(len(turn))
+        value, margin = turn, math.radians(40)
         if place in ("the left", "the right"):
+            margin = 1.0
             value = -np.sign(angle) * self.view.position[:, 1]
             loosely = np.ones(len(turn), dtype=np.bool_)
         noun = _person(place) if place == "you" else _side(place)
-        return _modifier(word, noun), (value, well, loosely, 1.0)
+        return _modifier(word, noun), (value, well, loosely, margin)
 
     def between(self, j: int, noun: ParseTree) -> tuple[ParseTree, _Value] | None:
         other = self.landmark()

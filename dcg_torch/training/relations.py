@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from dcg_torch.relational import mobile_places
-from dcg_torch.speaker.where import RELATIONS, View, command, tell
+from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, command, tell
 from dcg_torch.supervised import Lesson
 from dcg_torch.symbols import Percept
 from dcg_torch.world.generator import TYPES, generate_world
@@ -23,7 +23,10 @@ KNOWN = ("cube", "sphere", "cylinder")
 """The types that the lessons call by name; they are known from the start."""
 _WORLDS = ((TYPES, 0.15), (TYPES, 0.3), ((*KNOWN, "drill", "mailbox"), 0.5), (KNOWN, 0.7))
 """Types, and the probability of each in each colour: from the paper's sparse worlds to rows of cubes."""
-_DRAWS = 200  # descriptions tried of one relation, before it is left out once
+_TURNS = (*RELATIONS, *DIRECTED, *DIRECTED)
+"""Of directions there are more lessons: as seen by whom, they say only where the frames differ."""
+_DRAWS = 40  # worlds tried for one relation, before it is left out once
+_TRIES = 6  # descriptions tried in each of them
 
 
 @functools.cache
@@ -39,7 +42,7 @@ def relational_lessons(count: int = 600, seed: int = 0) -> tuple[Lesson, ...]:
     lessons: list[Lesson] = []
     turn = 0
     while len(lessons) < count:
-        lesson = _lesson(RELATIONS[turn % len(RELATIONS)], rng)
+        lesson = _lesson(_TURNS[turn % len(_TURNS)], rng)
         turn += 1
         if lesson is not None:
             lessons.append(lesson)
@@ -52,7 +55,8 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
         types, probability = _WORLDS[int(rng.integers(len(_WORLDS)))]
         world = generate_world(rng, "lesson", types=types, probability=probability)
         extents = rng.uniform(0.15, 0.6, size=len(world.objects))
-        told = tell(View.of(world, extents), relation, rng, KNOWN)
+        view = View.of(world, extents)
+        told = next((told for _ in range(_TRIES) if (told := tell(view, relation, rng, KNOWN)) is not None), None)
         if told is None:
             continue
         percepts = [
