@@ -16,6 +16,8 @@ from dcg_torch.symbols import WorldModel
 from dcg_torch.trial.command import Parse, Parser
 
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
+_GENERATED = 0.1
+"""Weight of a generated lesson against one of people's."""
 _LEARNING_STEPS = 10  # L-BFGS iterations after a command: the optimum moves little, and is followed
 
 
@@ -84,6 +86,7 @@ class Evaluation:
         initial: the initial training set.
         parse: reads commands.
         known_types: leave out the training episodes about other types; None keeps all.
+        generated: lessons that come first, and weigh little: what words for relations mean until people say otherwise.
         rounds: of expectation-maximisation over the landmarks.
         progress: called as each round ends.
     """
@@ -96,6 +99,7 @@ class Evaluation:
         parse: Parser,
         *,
         known_types: Collection[str] | None = None,
+        generated: Sequence[Lesson] = (),
         rounds: int = 4,
         progress: Callable[[int], None] | None = None,
     ) -> None:
@@ -110,6 +114,8 @@ class Evaluation:
             reading = parse(episode.text, ())
             if reading.tree is not None:
                 lessons.append(Lesson(reading.tree, self.world(episode), frozenset(episode.target)))
+        if generated:
+            teach(self.model, [replace(lesson, weight=_GENERATED) for lesson in generated], rounds=2)
         teach(self.model, lessons, known_types=known_types, rounds=rounds, progress=progress)
         self._first_words = frozenset(self.model.symbols)
         self.train_seconds = time.perf_counter() - began
