@@ -196,6 +196,8 @@ def check(settings: Settings) -> None:
     for name, share in shares.items():
         if not 0.0 <= share <= 1.0:
             raise SettingsError(f"{name}={share}: a share lies between 0 and 1")
+    if settings.model.lessons < 0:
+        raise SettingsError(f"model.lessons={settings.model.lessons}: give a number of at least 0")
     if not settings.model.l2 > 0.0:
         raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
     if not 0.0 < abs(settings.simulator.spin_step) <= 57.0:

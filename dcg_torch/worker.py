@@ -149,7 +149,7 @@ def _taught(chosen: Variant, lessons: int, assumed: OpenWorld | None) -> Groundi
         if assumed is None
         else OpenWorldModel.trained(training, chosen, assumed)
     )
-    if lessons:
+    if lessons and Group.RELATION in chosen.groups:
         teach(model, relational_lessons(lessons), rounds=2)
     if isinstance(model, OpenWorldModel):
         model.settle()

@@ -108,18 +108,17 @@ def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[s
 
 def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[_Pair]:
     """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
-    word = next(iter(colors.posterior.words), None)
-    table, _ = colors.said_of()
-    best = 0 if word is None else int(table[0].argmax())
-    for said, color, ahead in ((None, None, unseen.ahead), (word, colors.posterior.types[best], unseen.ahead_colored)):
-        if said is None and color is not None:
-            continue
-        odds = 1.0 if said is None else float(table[0, best])
+    said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
+    if colors.posterior.words:
+        row = colors.said_of()[0][0]
+        color = colors.posterior.types[int(row.argmax())]
+        said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
+    for word, color_of, odds, ahead in said:
         for type_ in nouns.posterior.types:
-            yield _Pair(_phrase(None, said), _object(type_, color), odds)
+            yield _Pair(_phrase(None, word), _object(type_, color_of), odds)
         for _, type_, _ in _anchors(nouns):
             for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
-                yield _Pair(_phrase(None, said), _object(type_, hypothetical=True, attributes=attributes), rate)
+                yield _Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
 
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
