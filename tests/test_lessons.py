@@ -11,7 +11,8 @@ import pytest
 
 from dcg_torch.language import Parser
 from dcg_torch.speaker import RelationalSpeaker
-from dcg_torch.speaker.where import RELATIONS, SETS, SPOKEN, Told, View, command, tell, wording
+from dcg_torch.speaker.phrases import command, wording
+from dcg_torch.speaker.where import RELATIONS, SETS, SPOKEN, Told, View, tell
 from dcg_torch.symbols import ParseTree
 from dcg_torch.training.relations import KNOWN, relational_lessons
 from dcg_torch.world.files import World, WorldObject

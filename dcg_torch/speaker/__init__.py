@@ -15,7 +15,7 @@ from typing import Protocol
 import numpy as np
 import yaml
 
-from dcg_torch.speaker import where
+from dcg_torch.speaker import phrases, where
 from dcg_torch.world.files import World, WorldObject
 
 
@@ -116,7 +116,7 @@ class RelationalSpeaker:
                 continue
             (target,) = (world.objects[j].id for j in told.meant)
             form = CANONICAL_FORMS[rng.integers(len(CANONICAL_FORMS))]
-            text = form.replace("the {thing}", where.wording(told.tree))
+            text = form.replace("the {thing}", phrases.wording(told.tree))
             phrase = told.tree.phrase
             found.setdefault(target, Command(world, text, phrase.noun or "thing", phrase.color, target))
         return [found[o.id] for o in world.objects if o.id in found]

@@ -12,14 +12,15 @@ robot's line of sight to the thing; "on your left" and "behind you" are sectors 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
+from dcg_torch.speaker.phrases import PLURALS, a_side, noun_phrase, person, plural, prepositional
+from dcg_torch.symbols import ParseTree
 from dcg_torch.world.files import World
 
 Floats = NDArray[np.float64]
@@ -60,8 +61,6 @@ class Told:
 _Value = tuple[Floats, Mask, Mask, float]
 """Of every object: the least is meant; which fit well; which might be said to fit; by how much it must stand out."""
 
-_NAMES = {"beside": "next to", "nearest to": "closest to", "to the left of": "left of", "to the right of": "right of"}
-"""Other wordings, and the preposition that the language room makes of them."""
 _SECTORS = {"behind": 0.0, "in front of": math.pi, "to the left of": math.pi / 2, "to the right of": -math.pi / 2}
 _NEAR = {"next to": 2.5, "beside": 2.5, "near": 3.0, "close to": 3.0, "by": 2.5}
 _ABOUT_ROBOT = {
@@ -77,7 +76,7 @@ _ORDERS = {
 }
 """Word -> axis (0: distance from the robot, 1: to the left), sign, how many come before."""
 _SIZES = {"biggest": -1.0, "largest": -1.0, "smallest": 1.0}
-_PLURALS = {"cube": "cubes", "sphere": "spheres", "cylinder": "cylinders", "thing": "things", "object": "objects"}
+
 
 RELATIONS: tuple[str, ...] = (
     *_SECTORS, *_NEAR, "far from", "closest to", "nearest to", "farthest from", "between",
@@ -118,19 +117,6 @@ def tell(view: View, relation: str, rng: np.random.Generator, named: Collection[
     return _Teller(view, rng, named).tell(relation)
 
 
-def wording(tree: ParseTree) -> str:
-    """The phrases of a tree in words."""
-    first, *rest = [wording(child) for child in tree.children] or [""]
-    joined = " and ".join([first, *rest]) if tree.phrase.words == ("between",) else " ".join([first, *rest])
-    return " ".join(filter(None, (tree.phrase.text, joined)))
-
-
-def command(noun: ParseTree, verb: str = "go", preposition: str = "to") -> ParseTree:
-    """ "Go to" what a noun phrase means."""
-    to = ParseTree(Phrase(PhraseKind.PREPOSITION, preposition, (preposition,)), (noun,))
-    return ParseTree(Phrase(PhraseKind.VERB, verb, (verb,)), (to,))
-
-
 class _Teller:
     """Draws descriptions of one world."""
 
@@ -159,7 +145,7 @@ class _Teller:
             return None
         modifier, (value, well, loosely, margin) = found
         best = _stands_out(value, well & alike, loosely & alike, margin)
-        return None if best is None else Told(_noun(kind, color, modifiers=(modifier,)), frozenset({best}))
+        return None if best is None else Told(noun_phrase(kind, color, modifiers=(modifier,)), frozenset({best}))
 
     def head(self) -> tuple[str | None, str | None, Mask]:
         """The noun (None: "thing") and colour said of a random object, and the objects that they fit."""
@@ -182,7 +168,7 @@ class _Teller:
         kind, color = self.view.types[j], self.view.colors[j] if self.rng.random() < 0.6 else None
         if kind not in self.named or self.fitting(kind, color).sum() != 1:
             return None
-        return j, _noun(kind, color)
+        return j, noun_phrase(kind, color)
 
     def modifier(self, relation: str, alike: Mask) -> tuple[ParseTree, _Value] | None:
         """A prepositional phrase, and how every object fits it."""
@@ -193,7 +179,7 @@ class _Teller:
         if relation in ("closest to you", "nearest to me", "farthest from you"):
             word, _, who = relation.rpartition(" ")
             sign = -1.0 if word == "farthest from" else 1.0
-            return _modifier(word, _person(who)), (sign * self.distance, everything, everything, 0.4)
+            return prepositional(word, person(who)), (sign * self.distance, everything, everything, 0.4)
         if relation == "in a chain":
             return self.chain(alike)
         mark = self.landmark()
@@ -202,7 +188,7 @@ class _Teller:
         j, noun = mark
         if relation == "between":
             return self.between(j, noun)
-        return _modifier(relation, noun), self.from_landmark(relation, j)
+        return prepositional(relation, noun), self.from_landmark(relation, j)
 
     def from_landmark(self, relation: str, j: int) -> _Value:
         """How every object stands to the object j; itself stands in no relation."""
@@ -229,8 +215,8 @@ class _Teller:
             margin = 1.0
             value = -np.sign(angle) * self.view.position[:, 1]
             loosely = np.ones(len(turn), dtype=np.bool_)
-        noun = _person(place) if place == "you" else _side(place)
-        return _modifier(word, noun), (value, well, loosely, margin)
+        noun = person(place) if place == "you" else a_side(place)
+        return prepositional(word, noun), (value, well, loosely, margin)
 
     def between(self, j: int, noun: ParseTree) -> tuple[ParseTree, _Value] | None:
         other = self.landmark()
@@ -243,7 +229,7 @@ class _Teller:
         free = ~np.isin(np.arange(len(along)), [j, other[0]])
         well = free & (along > 0.5) & (along < length - 0.5) & (aside < max(0.5, 0.25 * length))
         loosely = free & (along > 0.0) & (along < length) & (aside < 0.5 * length)
-        return _modifier("between", noun, other[1]), (np.zeros(len(along)), well, loosely, 1.0)
+        return prepositional("between", noun, other[1]), (np.zeros(len(along)), well, loosely, 1.0)
 
     def chain(self, alike: Mask) -> tuple[ParseTree, _Value] | None:
         """ "next to the cube behind the sphere": a landmark that is itself told by a relation."""
@@ -255,14 +241,14 @@ class _Teller:
         (j,) = below.meant
         value, well, loosely, margin = self.from_landmark(relation, j)
         same = self.fitting(self.view.types[j], None)  # "the cube next to the cube ..." is said by nobody
-        return _modifier(relation, below.tree), (value, well & ~same, loosely & ~same, margin)
+        return prepositional(relation, below.tree), (value, well & ~same, loosely & ~same, margin)
 
     def ordered(self, relation: str, kind: str | None, color: str | None, alike: Mask) -> Told | None:
         """A superlative or an ordinal."""
         head, _, edge = relation.partition(" from ")
         words = (*head.split(), *([f"from {edge}"] if edge else []))
         best = self.in_order(relation, alike)
-        return None if best is None else Told(_noun(kind, color, words), frozenset({best}))
+        return None if best is None else Told(noun_phrase(kind, color, words), frozenset({best}))
 
     def in_order(self, relation: str, alike: Mask) -> int | None:
         """Which of those alike comes at a place of an order, a fair way off from its neighbours."""
@@ -296,7 +282,7 @@ class _Teller:
         best = None if (loosely & alike).sum() < 2 else self.in_order(word, loosely & alike)
         if best is None or not well[best]:
             return None
-        return Told(_noun(kind, color, (word,), (modifier,)), frozenset({best}))
+        return Told(noun_phrase(kind, color, (word,), (modifier,)), frozenset({best}))
 
     def quarter(self, side: str, kind: str | None, color: str | None, alike: Mask) -> Told | None:
         """ "Behind you on the right"."""
@@ -305,19 +291,19 @@ class _Teller:
         well = (left >= math.radians(110)) & (left <= math.radians(160))
         loosely = (left >= math.radians(80)) | (left <= math.radians(-170))
         best = _stands_out(np.zeros(len(left)), well & alike, loosely & alike, 1.0)
-        modifiers = _modifier("behind", _person("you")), _modifier("on", _side(side))
-        return None if best is None else Told(_noun(kind, color, modifiers=modifiers), frozenset({best}))
+        modifiers = prepositional("behind", person("you")), prepositional("on", a_side(side))
+        return None if best is None else Told(noun_phrase(kind, color, modifiers=modifiers), frozenset({best}))
 
     def every(self, kind: str | None, color: str | None, alike: Mask) -> Told | None:
         """ "All red cubes", "the cubes"."""
-        if kind is None or kind not in _PLURALS or alike.sum() < 2:
+        if kind is None or kind not in PLURALS or alike.sum() < 2:
             return None
         words = ("all",) if self.rng.random() < 0.5 else ()
-        return Told(_plural(kind, color, words), frozenset(map(int, np.flatnonzero(alike))))
+        return Told(plural(kind, color, words), frozenset(map(int, np.flatnonzero(alike))))
 
     def several(self, relation: str, kind: str | None, color: str | None, alike: Mask) -> Told | None:
         """ "The two cubes on your left"; nothing may be in doubt."""
-        if kind is not None and kind not in _PLURALS:
+        if kind is not None and kind not in PLURALS:
             return None
         found = self.modifier(relation, alike)
         if found is None:
@@ -330,7 +316,7 @@ class _Teller:
         if len(meant) < 2 or len(meant) == alike.sum() or (loosely & alike).sum() != len(meant):
             return None
         count = len(meant) if len(meant) <= 3 and self.rng.random() < 0.5 else None
-        return Told(_plural(kind, color, (), count, (modifier,)), frozenset(map(int, meant)))
+        return Told(plural(kind, color, (), count, (modifier,)), frozenset(map(int, meant)))
 
 
 def _stands_out(value: Floats, well: Mask, loosely: Mask, margin: float) -> int | None:
@@ -346,43 +332,3 @@ def _wrapped(angle: Floats) -> Floats:
     """To within pi of zero."""
     wrapped: Floats = (angle + math.pi) % math.tau - math.pi
     return wrapped
-
-
-def _noun(
-    kind: str | None, color: str | None, words: Sequence[str] = (), modifiers: tuple[ParseTree, ...] = ()
-) -> ParseTree:
-    """ "The second red cube from the left"; without a type it is a thing."""
-    noun = kind or "thing"
-    front = [word for word in words if not word.startswith("from ")]
-    behind = [word for word in words if word.startswith("from ")]
-    text = " ".join(filter(None, ("the", *front, color, noun, *behind)))
-    normal = tuple({"nearest": "closest"}.get(word, word) for word in words)
-    return ParseTree(Phrase(PhraseKind.NOUN, text, normal, noun, color), modifiers)
-
-
-def _plural(
-    kind: str | None,
-    color: str | None,
-    words: tuple[str, ...],
-    count: int | None = None,
-    modifiers: tuple[ParseTree, ...] = (),
-) -> ParseTree:
-    """ "The two red cubes"."""
-    noun = kind or "thing"
-    number = {None: "", 2: "two", 3: "three"}[count]
-    text = " ".join(filter(None, (*(words or ("the",)), number, color, _PLURALS[noun])))
-    return ParseTree(Phrase(PhraseKind.NOUN, text, words, noun, color, plural=True, count=count), modifiers)
-
-
-def _modifier(word: str, *nouns: ParseTree) -> ParseTree:
-    return ParseTree(Phrase(PhraseKind.PREPOSITION, word, (_NAMES.get(word, word),)), nouns)
-
-
-def _person(who: str) -> ParseTree:
-    return ParseTree(Phrase(PhraseKind.NOUN, who, noun=who))
-
-
-def _side(place: str) -> ParseTree:
-    """ "Your left", "the right"."""
-    whose, _, side = place.partition(" ")
-    return ParseTree(Phrase(PhraseKind.NOUN, place, ("your",) if whose == "your" else (), side))

@@ -13,7 +13,8 @@ from dataclasses import replace
 import numpy as np
 
 from dcg_torch.relational import mobile_places
-from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, command, tell
+from dcg_torch.speaker.phrases import command
+from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, tell
 from dcg_torch.supervised import Lesson
 from dcg_torch.symbols import Percept
 from dcg_torch.world.generator import TYPES, generate_world
