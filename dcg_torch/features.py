@@ -111,6 +111,7 @@ def _fixed_groundings() -> Iterator[Feature]:
     yield Group.HYPOTHETICAL, "hypothetical: yes"
     for name in (*space.RELATION_NAMES, *FEW.values(), *space.STATES, *space.RANKS):
         yield Group.RELATION, name
+    yield Group.RELATION, "kind: place"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -204,7 +205,8 @@ class FeatureSet:
     def pairs(self) -> NDArray[np.bool_]:
         """(L, G): which pairs of columns are features."""
         families = [name.partition(":")[0] for name in self.grounding]
-        rows = [[f in PAIRS[name.partition(":")[0]] for f in families] for name in self.language]
+        met = {family: [f in others for f in families] for family, others in PAIRS.items()}
+        rows = [met[name.partition(":")[0]] for name in self.language]
         return np.array(rows, dtype=np.bool_).reshape(self.shape)
 
     @property
@@ -304,6 +306,8 @@ class FeatureSet:
         if Group.RELATION in self.groups:
             for own, more in zip(names, space.states(where), strict=True):
                 own += more
+            for own in names[len(world.meanable) :]:
+                own.append("kind: place")
         bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
         if ranking is None or Group.RELATION not in self.groups:
             return bag

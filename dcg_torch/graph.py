@@ -276,7 +276,12 @@ class FactorGraph:
             above = [self.phrases.nodes[up]["tree"].phrase.kind for up in self.phrases.successors(node)]
             if isinstance(of_node, _Scored) and PhraseKind.MODIFIER not in above:
                 meanable = len(self.world.meanable)
-                out[node] = replace(of_node, scores=of_node.scores[:, :meanable], log_fit=of_node.log_fit[:meanable])
+                scores, fit = of_node.scores[:, :meanable], of_node.log_fit[:meanable]
+                if self.world.meant is not None:
+                    ruled_out = np.array([o.id not in self.world.meant for o in self.world.meanable])
+                    scores = np.where(ruled_out[None, :, None], -np.inf, scores)
+                    fit = np.where(ruled_out, -np.inf, fit)
+                out[node] = replace(of_node, scores=scores, log_fit=fit)
         return out
 
     def _encode(

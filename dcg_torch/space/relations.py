@@ -30,6 +30,7 @@ def _names() -> dict[str, list[str]]:
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
     for order, named in _ORDERS.items():
         families[order] = [f"{order} {k}" for k in range(1, named + 1)]
+    families["itself"] = ["itself"]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
     families["direction"] = ["along", "rather along", "aslant", "against"]
@@ -89,6 +90,8 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools)
         "place distance": np.where(of_place, steps, -1),
         "vertical": _vertical(where, first, distance, offset[..., 2], exists),
     }
+    itself = first[:, None] == np.arange(len(position))[None, :]
+    found["itself"] = np.where(itself & solid, 0, -1)
     found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
     found |= _orders(where, first, distance, exists, alike)
     if where.place[first].any():
