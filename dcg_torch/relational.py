@@ -51,6 +51,9 @@ _PLACE_WORDS = {
 }
 _DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "back": "near side"}
 """Nouns for the sides of somebody: "on your left"."""
+PLACE_WORDS = frozenset(_PLACE_WORDS)
+"""Nouns for places."""
+PLACE_TYPES = frozenset(kind for kind, _ in _PLACE_WORDS.values())
 _OWNERS = {"your": "of robot", "my": "of speaker"}
 _GROUP_WORDS = {
     "row": ("row",),
@@ -82,11 +85,6 @@ _AMBIGUOUS = 0.05
 _GROUP_WEIGHT = 0.5
 _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
-
-
-PLACE_WORDS = frozenset(_PLACE_WORDS)
-"""Nouns for places."""
-PLACE_TYPES = frozenset(kind for kind, _ in _PLACE_WORDS.values())
 
 
 def place_symbols() -> list[Symbol]:
@@ -165,24 +163,22 @@ class Workspace:
 
 
 def furnished(world: WorldModel, workspace: Workspace | None = None) -> WorldModel:
-    """A world with the places that can be spoken of."""
-    workspace = workspace or Workspace()
+    """A world with the places that can be spoken of.
+
+    Without a workspace there are no edges, only the robot, the speaker and the directions from them: the world of a
+    robot that drives about. A speaker of whom nothing is known is then taken to stand with the robot, and to speak of
+    the robot's left and right.
+    """
+    if workspace is None:
+        found = space.places(None, world.robot, world.speaker)
+        if world.speaker is None:
+            here = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
+            found += tuple(here)
+        return replace(world, places=found)
     bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
     if bounds is None and there:
         bounds = space.scene_bounds(there, world.robot)
     return replace(world, places=space.places(bounds, world.robot, world.speaker), unit=workspace.unit)
-
-
-def mobile_places(world: WorldModel) -> tuple[Object, ...]:
-    """The places of a world without edges: the robot, the speaker, and the directions from them.
-
-    A speaker of whom nothing is known is taken to stand with the robot, and to speak of the robot's left and right.
-    """
-    found = space.places(None, world.robot, world.speaker)
-    if world.speaker is None:
-        robot = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
-        found += tuple(robot)
-    return found
 
 
 def grouped(world: WorldModel, tree: ParseTree) -> WorldModel:

@@ -30,7 +30,7 @@ CORPUS = Path(__file__).parents[2] / "shared" / "data" / "train_robots.jsonl"
 @pytest.fixture(scope="module")
 def taught(training: TrainingSet) -> GroundingModel:
     model = GroundingModel.trained(training, Variant(groups=frozenset(Group), hypothetical=False, l2=0.2))
-    teach(model, relational_lessons(120), rounds=2)
+    teach(model, relational_lessons(800), rounds=2)
     return model
 
 
@@ -97,7 +97,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
 
 
 def test_held_out_lessons_are_grounded_far_above_chance(taught: GroundingModel) -> None:
-    lessons = relational_lessons(210)[120:]
+    lessons = relational_lessons(900)[800:]
     right = 0
     for lesson in lessons:
         found = taught.ground(lesson.tree, lesson.world).object

@@ -11,6 +11,8 @@ from collections import defaultdict
 from collections.abc import Mapping
 from dataclasses import replace
 
+import numpy as np
+
 from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.loglinear import LogLinearModel
@@ -65,12 +67,12 @@ def landmark_fits(
             graph = FactorGraph(tree, solution.world)
             meant = graph.solve(features, model, beam=beam).probabilities
             fits: defaultdict[str, float] = defaultdict(float)
-            for j, thing in enumerate(solution.world.objects):
-                if thing.hypothetical or meant[thing.id] < _NEGLIGIBLE:
-                    continue
-                for probability, hypothesis in graph.landmarks(j, features, model, beam=beam):
-                    if hypothesis.tree == without:
-                        chosen = hypothesis.children[k].child.grounding.object
-                        fits[chosen.id] += meant[thing.id] * probability
+            placed = next(p for p in graph.modifiers(features, model, beam=beam) if p.tree == without)
+            seen = [
+                j for j, o in enumerate(solution.world.objects) if not o.hypothetical and meant[o.id] >= _NEGLIGIBLE
+            ]
+            shares = np.array([meant[solution.world.objects[j].id] for j in seen])
+            for combo, probability in zip(placed.combos, placed.posterior[:, seen] @ shares, strict=True):
+                fits[combo[k].child.grounding.object.id] += float(probability)
             out.append((word, dict(fits)))
     return out

@@ -28,7 +28,7 @@ from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
 from dcg_torch.open_world.blocks import Blocks
 from dcg_torch.open_world.hearing import described_fit, landmark_fits, target
 from dcg_torch.open_world.mind import Mind, OpenWorld
-from dcg_torch.relational import PLACE_WORDS, Workspace, group_nouns, mobile_places, place_examples, place_symbols
+from dcg_torch.relational import PLACE_WORDS, Workspace, furnished, group_nouns, place_examples, place_symbols
 from dcg_torch.symbols import Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
 from dcg_torch.world.upsilon import world_model
 
@@ -170,7 +170,7 @@ class OpenWorldModel(GroundingModel):
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """[phi*, gamma*]; where landmarks are spoken of, the robot, the speaker and their sides may be such."""
         relative = any(node.phrase.kind is PhraseKind.MODIFIER for node in self.readable(tree).walk())
-        return super().ground(tree, replace(world, places=mobile_places(world)) if relative else world)
+        return super().ground(tree, furnished(world) if relative else world)
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit from the present weights: what is believed to the posterior, and a new corpus to its examples.

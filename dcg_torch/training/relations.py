@@ -8,11 +8,10 @@ same fit as all others.
 from __future__ import annotations
 
 import functools
-from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.relational import mobile_places
+from dcg_torch.relational import furnished
 from dcg_torch.speaker.phrases import command
 from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, tell
 from dcg_torch.supervised import Lesson
@@ -65,6 +64,5 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
             for o, e in zip(world.objects, extents, strict=True)
         ]
         upsilon = world_model(percepts, KNOWN, hypothetical=False, robot=world.start)
-        upsilon = replace(upsilon, places=mobile_places(upsilon))
-        return Lesson(command(told.tree), upsilon, frozenset(world.objects[j].id for j in told.meant))
+        return Lesson(command(told.tree), furnished(upsilon), frozenset(world.objects[j].id for j in told.meant))
     return None
