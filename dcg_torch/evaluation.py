@@ -10,6 +10,7 @@ from typing import Any
 from dcg_torch import space
 from dcg_torch.episodes import Episode, scene_bounds, workspace
 from dcg_torch.graph import Solution
+from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.report.intervals import wilson
 from dcg_torch.supervised import Lesson, teach
@@ -104,13 +105,16 @@ class Evaluation:
         kept = [e for e in train if known_types is None or _types_meant(e) <= set(known_types)]
         self.parse = parse
         self._bounds = workspace(train)
-        self.model = GroundingModel.trained(initial, variant)
+        kind = GroundingModel if variant.synonyms is None else LexicalModel
+        self.model = kind.trained(initial, variant)
         self._meant = frozenset(t for e in kept for t in _types_meant(e))
         lessons = []
         for episode in kept:
             reading = parse(episode.text, ())
             if reading.tree is not None:
                 lessons.append(Lesson(reading.tree, self.world(episode), frozenset(episode.target)))
+        if isinstance(self.model, LexicalModel):
+            self.model.taught(sorted(self._meant), {})
         teach(self.model, lessons, known_types=known_types, rounds=rounds, progress=progress)
         self._first_words = frozenset(self.model.symbols)
         self.train_seconds = time.perf_counter() - began

@@ -168,6 +168,11 @@ class FeatureSet:
             groundings.append((Group.COLOR, f"color: {symbol.color}"))
         return self._with(languages, groundings)
 
+    def name_color(self, word: str, color: str) -> FeatureSet:
+        """Columns for a learned colour: the word that is said, and the colour as it is perceived."""
+        seen = [(Group.COLOR, f"color: {color}"), (Group.RELATION, f"stack color: {color}")]
+        return self._with([(Group.COLOR, f"color: {word}")], seen)
+
     def include(
         self, *, nouns: Iterable[str] = (), types: Iterable[str] = (), colors: Iterable[str] = ()
     ) -> FeatureSet:

@@ -1,0 +1,268 @@
+"""The model that goes on learning words where scenes are seen as a whole: new nouns and new words for colours.
+
+It is the log-linear factor graph, trained on a corpus. The paper's robot learns a word from one grounding and believes
+it for ever. This one keeps, for every noun and colour word that the corpus did not teach, the sums of the
+log-likelihoods of what it may name (`meaning.beliefs`), moved by every command that it hears:
+
+    P(command | word names t)  ~  (1 - slip) q[t] + slip / SPREAD (1 - q[t])
+    q[t] = sum over objects of type t of P(the object is meant | all of the command but this word)
+
+so that no lesson rests on itself, a wrong one is outweighed by later ones, and what the rest of the command does not
+tell teaches little. A word becomes a `Symbol`, with columns of its own, once one meaning is probable enough: a type or
+colour that had no name yet, or a further name of one that has. Its weights come from soft examples of that posterior
+(`meaning.soft`), in one fit with the corpus, whose sufficient statistics outlive the growth (`encoding.Statistics`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+
+from dcg_torch.encoding import Statistics, encode
+from dcg_torch.features import FeatureSet
+from dcg_torch.graph import FactorGraph, Solution
+from dcg_torch.learning import replace_unknown
+from dcg_torch.loglinear import FitResult, LogLinearModel, Table, fit
+from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
+from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
+from dcg_torch.model import GroundingModel, Scene, Variant
+from dcg_torch.relational import place_symbols
+from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol
+
+_SLIP = 0.1
+"""Share of commands in which the rest of a command is taken to mean another object than it does."""
+_HELD = 0.5
+"""A learned word keeps its meaning while its probability is above this."""
+_MOVED = 1e-3
+"""Probability by which a posterior must have moved for the weights to be fitted to it again."""
+_STRENGTH = 5.0
+_ENOUGH = 0.8  # where the variant does not say how probable a meaning must be
+
+
+@dataclass(frozen=True)
+class Words:
+    """What has been learned about words since the corpus.
+
+    Attributes:
+        nouns: the evidence about nouns and types.
+        colors: the same about words for colours and the colours of percepts.
+        taught_colors: words for colours that the training taught, and what they name.
+        taught_types: types known from the training, with or without a name.
+        color_words: words for colours that have been learned, and what they name.
+    """
+
+    nouns: Beliefs = field(default_factory=lambda: Beliefs(Prior(slip=_SLIP)))
+    colors: Beliefs = field(default_factory=lambda: Beliefs(Prior(slip=_SLIP)))
+    taught_colors: Mapping[str, str] = field(default_factory=dict)
+    taught_types: tuple[str, ...] = ()
+    color_words: Mapping[str, str] = field(default_factory=dict)
+
+
+class LexicalModel(GroundingModel):
+    """A `GroundingModel` that learns words from the evidence of all commands that had them.
+
+    Attributes:
+        words: that evidence.
+    """
+
+    def __init__(
+        self,
+        variant: Variant,
+        symbols: Iterable[Symbol],
+        examples: Iterable[Example],
+        features: FeatureSet,
+        loglinear: LogLinearModel,
+        corpus: Iterable[Example] = (),
+        words: Words | None = None,
+    ) -> None:
+        super().__init__(variant, symbols, examples, features, loglinear, corpus)
+        self.words = words or Words()
+        self._statistics: Statistics | None = None
+        self._tables_of: tuple[FeatureSet, tuple[str, ...], list[Table]] | None = None
+        self._fitted_to: list[Pair] | None = None
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types that have a name, or were in the training."""
+        return tuple(dict.fromkeys((*super().known_types, *self.words.taught_types)))
+
+    def taught(self, types: Iterable[str], colors: Mapping[str, str]) -> None:
+        """Say what the corpus taught: types met as known ones, and words for colours with what they name."""
+        self.words = replace(
+            self.words,
+            taught_types=tuple(dict.fromkeys((*self.words.taught_types, *types))),
+            taught_colors={**self.words.taught_colors, **colors},
+        )
+
+    def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
+        """Weigh what a command tells about its noun and colour word, and train if their meaning has moved.
+
+        What the robot took the command to mean is no evidence; what else was said is.
+
+        Args:
+            scene: not looked at; all is in the solution's world.
+
+        Returns:
+            The symbol of the command's noun, if this command made or changed it.
+        """
+        phrase = solution.noun
+        if phrase is None or not self.variant.learns:
+            return None
+        self._settle()
+        before = self.symbols.get(phrase.noun or "")
+        nouns = self.words.nouns.meet(o.type for o in solution.world.objects if o.type is not None)
+        colors = self.words.colors.meet(o.color for o in solution.world.objects if o.color is not None)
+        if phrase.noun is not None and phrase.noun not in nouns.settled:
+            rest = self._without(solution, replace(phrase, noun=None))
+            nouns = nouns.weigh(Evidence(phrase.noun, _summed((o.type, p) for o, p in rest)))
+        if phrase.color is not None and phrase.color not in colors.settled:
+            rest = self._without(solution, replace(phrase, color=None))
+            colors = colors.weigh(Evidence(phrase.color, _summed((o.color, p) for o, p in rest)))
+        self.words = replace(self.words, nouns=nouns, colors=colors)
+        self._renew(max_steps)
+        now = self.symbols.get(phrase.noun or "")
+        return now if now != before else None
+
+    @property
+    def corpus(self) -> list[Example]:
+        """Examples that were labelled over whole worlds: trained on as they are."""
+        return self._corpus
+
+    @corpus.setter
+    def corpus(self, examples: Iterable[Example]) -> None:
+        self._corpus, self._statistics, self._tables_of = list(examples), None, None
+
+    def train(self, *, max_steps: int = 500) -> FitResult:
+        """Fit the corpus, the hand-made examples and the posterior of the words, from the present weights."""
+        known = self.known_types
+        if self._statistics is None:
+            self._statistics = Statistics.of(self.corpus, self.features, self.loglinear.correspondences)
+        if self._tables_of is None or self._tables_of[0] is not self.features or self._tables_of[1] != known:
+            tables = self._statistics.under(self.features, known)
+            self._tables_of = self.features, known, [*tables, *self._tables(self.examples)]
+        pairs = self._pairs()
+        soft = encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear)
+        self.fitted = fit(self.loglinear, [*self._tables_of[2], *soft], l2=self.variant.l2, max_steps=max_steps)
+        self._fitted_to = pairs
+        return self.fitted
+
+    def _settle(self) -> None:
+        """Take as settled what the training taught: all symbols and colours that were not learned since."""
+        nouns, colors = self.words.nouns, self.words.colors
+        places = {s.word: s.type for s in place_symbols()}
+        named = places | {s.word: s.type for s in self.symbols.values() if s.word not in nouns.heard}
+        of_columns = (name.removeprefix("color: ") for name in self.features.language if name.startswith("color: "))
+        taught = self.words.taught_colors
+        seen = {c: taught.get(c, c) for c in of_columns if c not in self.words.color_words and c != "unknown"}
+        if named != nouns.settled:
+            nouns = replace(nouns, settled=named).meet(named.values())
+        if seen != colors.settled:
+            colors = replace(colors, settled=seen).meet(seen.values())
+        self.words = replace(self.words, nouns=nouns, colors=colors)
+
+    def _without(self, solution: Solution, phrase: Phrase) -> list[tuple[Object, float]]:
+        """How probable each object is if `phrase` stands in the place of the noun phrase.
+
+        What the model has learned of known and unknown types as such is taken out of a phrase without a noun: it says
+        which types the training was about.
+        """
+        tree = _replaced(solution.tree, solution.noun, phrase)
+        found = FactorGraph(tree, solution.world).solve(self.features, self.loglinear, beam=self.variant.beam)
+        odds = {o.id: found.probabilities[o.id] for o in solution.world.objects}
+        if phrase.noun is None:
+            signs = self.loglinear.correspondences
+            weight = self.loglinear.weight
+            active, inactive = (weight[signs.index(c)] for c in (Correspondence.ACTIVE, Correspondence.INACTIVE))
+            languages = self.features.encode_phrases([phrase])[0]
+            for o in solution.world.objects:
+                column = self.features.grounding.get(f"known: {'yes' if o.known else 'no'}")
+                if column is not None:
+                    odds[o.id] *= math.exp(-float((active - inactive)[languages, column].sum()))
+        total = math.fsum(odds.values())
+        return [(o, odds[o.id] / total) for o in solution.world.objects]
+
+    def _renew(self, max_steps: int) -> None:
+        """Symbols and columns for what is probable enough by now, and a fit if the posterior has moved."""
+        enough = _ENOUGH if self.variant.synonyms is None else self.variant.synonyms
+        features = self.features
+        posterior = self.words.nouns.posterior
+        for word in self.words.nouns.heard:
+            meaning, probability = posterior.best(word)
+            old = self.symbols.get(word)
+            if meaning == UNMET or probability < (enough if old is None else _HELD):
+                continue
+            if old is None or old.type != meaning:
+                self.symbols[word] = Symbol(word, meaning)
+                features = features.grow(self.symbols[word])
+        posterior, named = self.words.colors.posterior, dict(self.words.color_words)
+        for word in self.words.colors.heard:
+            meaning, probability = posterior.best(word)
+            if meaning == UNMET or probability < (enough if word not in named else _HELD):
+                continue
+            if named.get(word) != meaning:
+                named[word] = meaning
+                features = features.name_color(word, meaning)
+        self.words = replace(self.words, color_words=named)
+        if features.shape != self.features.shape:
+            self.features = features
+            self.loglinear.grow(features.pairs)
+        self.examples = replace_unknown(self.examples, self.known_types)
+        if self._fitted_to is None or _apart(self._pairs(), self._fitted_to) > _MOVED:
+            self.train(max_steps=max_steps)
+
+    def _pairs(self) -> list[Pair]:
+        """The soft labels of every learned word, and of one never heard."""
+        self._settle()
+        return [*self._noun_pairs(), *self._color_pairs()]
+
+    def _noun_pairs(self) -> list[Pair]:
+        nouns, known = self.words.nouns, self.known_types
+        table, new = nouns.said_of()
+        types = nouns.posterior.types
+        at = [k for k, t in enumerate(types) if t in known]
+        strange = [k for k, t in enumerate(types) if t not in known and t not in set(nouns.settled.values())]
+        rows = [(w, row) for w, row in zip(nouns.posterior.words, table, strict=True) if w in nouns.heard]
+        rows = [(w, row) for w, row in rows if self.features.knows_noun(w)]
+        pairs = []
+        for word, row in (*rows, (NEVER_HEARD, new)):
+            phrase = Phrase(PhraseKind.NOUN, word, noun=word)
+            pairs += [Pair(phrase, Object(types[k], types[k], known=True), float(row[k])) for k in at]
+            pairs.append(Pair(phrase, Object("strange", None, known=False), float(row[strange].max())))
+        return pairs
+
+    def _color_pairs(self) -> list[Pair]:
+        colors, column = self.words.colors, self.features.grounding
+        table, new = colors.said_of()
+        values = colors.posterior.types
+        at = [k for k, c in enumerate(values) if f"color: {c}" in column]
+        strange = [k for k in range(len(values)) if k not in at]
+        rows = [(w, row) for w, row in zip(colors.posterior.words, table, strict=True) if w in self.words.color_words]
+        pairs = []
+        for word, row in (*rows, (NEVER_HEARD, new)):
+            phrase = Phrase(PhraseKind.NOUN, word, color=word)
+            for k, value in (*((k, values[k]) for k in at), (max(strange, key=lambda k: row[k]), NEVER_HEARD)):
+                thing = Object(f"{value} thing", next(iter(self.known_types), None), known=True, color=value)
+                pairs.append(Pair(phrase, thing, float(row[k])))
+        return pairs
+
+
+def _replaced(tree: ParseTree, old: Phrase | None, new: Phrase) -> ParseTree:
+    """The tree with another phrase in the place of one."""
+    children = tuple(_replaced(child, old, new) for child in tree.children)
+    return ParseTree(new if tree.phrase is old else tree.phrase, children)
+
+
+def _summed(parts: Iterable[tuple[str | None, float]]) -> dict[str, float]:
+    total: dict[str, float] = {}
+    for name, part in parts:
+        if name is not None:
+            total[name] = total.get(name, 0.0) + part
+    return total
+
+
+def _apart(one: list[Pair], other: list[Pair]) -> float:
+    """The largest difference between the probabilities of two lists of soft labels; infinite if they list others."""
+    if [(p.phrase, p.object) for p in one] != [(p.phrase, p.object) for p in other]:
+        return math.inf
+    return max((abs(p.odds / (1 + p.odds) - q.odds / (1 + q.odds)) for p, q in zip(one, other, strict=True)), default=0)
