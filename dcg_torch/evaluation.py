@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections import Counter
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -86,6 +87,7 @@ class Evaluation:
         initial: the initial training set.
         parse: reads commands.
         known_types: leave out the training episodes about other types; None keeps all.
+        known_colors: leave out the training episodes about objects of other colours; None keeps all.
         rounds: of expectation-maximisation over the landmarks.
         progress: called as each round ends.
     """
@@ -98,24 +100,37 @@ class Evaluation:
         parse: Parser,
         *,
         known_types: Collection[str] | None = None,
+        known_colors: Collection[str] | None = None,
         rounds: int = 4,
         progress: Callable[[int], None] | None = None,
     ) -> None:
         began = time.perf_counter()
         kept = [e for e in train if known_types is None or _types_meant(e) <= set(known_types)]
+        kept = [e for e in kept if known_colors is None or _colors_meant(e) <= set(known_colors)]
         self.parse = parse
         self._bounds = workspace(train)
         kind = GroundingModel if variant.synonyms is None else LexicalModel
         self.model = kind.trained(initial, variant)
         self._meant = frozenset(t for e in kept for t in _types_meant(e))
-        lessons = []
+        lessons, said = [], (dict[str, Counter[str]](), dict[str, Counter[str]]())
         for episode in kept:
             reading = parse(episode.text, ())
             if reading.tree is not None:
                 lessons.append(Lesson(reading.tree, self.world(episode), frozenset(episode.target)))
+                words, meant = (reading.noun, reading.color), (_types_meant(episode), _colors_meant(episode))
+                for word, values, counts in zip(words, meant, said, strict=True):
+                    if word is not None and len(values) == 1:
+                        counts.setdefault(word, Counter()).update(values - {None})
         if isinstance(self.model, LexicalModel):
-            self.model.taught(sorted(self._meant), {})
-        teach(self.model, lessons, known_types=known_types, rounds=rounds, progress=progress)
+            self.model.taught(sorted(self._meant), *said)
+        teach(
+            self.model,
+            lessons,
+            known_types=known_types,
+            known_colors=known_colors,
+            rounds=rounds,
+            progress=progress,
+        )
         self._first_words = frozenset(self.model.symbols)
         self.train_seconds = time.perf_counter() - began
 
@@ -155,6 +170,10 @@ def _nouns(solution: Solution) -> list[Any]:
 
 def _types_meant(episode: Episode) -> set[str]:
     return {o.type for o in episode.objects if o.id in episode.target}
+
+
+def _colors_meant(episode: Episode) -> set[str | None]:
+    return {o.color for o in episode.objects if o.id in episode.target}
 
 
 def _shared(episode: Episode) -> int:

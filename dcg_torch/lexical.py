@@ -26,7 +26,7 @@ from dcg_torch.learning import replace_unknown
 from dcg_torch.loglinear import FitResult, LogLinearModel, Table, fit
 from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
-from dcg_torch.model import GroundingModel, Scene, Variant
+from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
 from dcg_torch.relational import place_symbols
 from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol
 
@@ -36,6 +36,8 @@ _HELD = 0.5
 """A learned word keeps its meaning while its probability is above this."""
 _MOVED = 1e-3
 """Probability by which a posterior must have moved for the weights to be fitted to it again."""
+_AGREEING, _AGREED = 3, 0.8
+"""A word of the corpus is settled by as many lessons that agree, if they are this share of all that had it."""
 _STRENGTH = 5.0
 _ENOUGH = 0.8  # where the variant does not say how probable a meaning must be
 
@@ -82,17 +84,47 @@ class LexicalModel(GroundingModel):
         self._tables_of: tuple[FeatureSet, tuple[str, ...], list[Table]] | None = None
         self._fitted_to: list[Pair] | None = None
 
+    @classmethod
+    def trained(cls, training: TrainingSet, variant: Variant | None = None) -> LexicalModel:
+        """A model with its initial groundings and features, trained, to be taught a corpus."""
+        model = super().trained(training, variant)
+        assert isinstance(model, LexicalModel)
+        model.words = replace(model.words, taught_colors={color: color for color in training.colors})
+        return model
+
     @property
     def known_types(self) -> tuple[str, ...]:
         """The types that have a name, or were in the training."""
         return tuple(dict.fromkeys((*super().known_types, *self.words.taught_types)))
 
-    def taught(self, types: Iterable[str], colors: Mapping[str, str]) -> None:
-        """Say what the corpus taught: types met as known ones, and words for colours with what they name."""
+    def taught(
+        self,
+        types: Iterable[str] = (),
+        nouns: Mapping[str, Mapping[str, int]] | None = None,
+        colors: Mapping[str, Mapping[str, int]] | None = None,
+    ) -> None:
+        """Say what the corpus taught.
+
+        A word that few lessons had is not settled: they are its first evidence, and what is heard may outweigh them.
+
+        Args:
+            types: met as known ones.
+            nouns: how many lessons said each noun of an object of each type.
+            colors: the same for words for colours and colours.
+        """
+        settled, heard = dict(self.words.taught_colors), self.words.colors
+        for word, values in (colors or {}).items():
+            if _sure(values):
+                settled[word] = max(values, key=lambda v: values[v])
+            elif word not in settled:
+                heard = _weighed(heard, word, values)
+        of_nouns = self.words.nouns
+        for word, values in (nouns or {}).items():
+            if not _sure(values):
+                of_nouns = _weighed(of_nouns, word, values)
+        taught = tuple(dict.fromkeys((*self.words.taught_types, *types)))
         self.words = replace(
-            self.words,
-            taught_types=tuple(dict.fromkeys((*self.words.taught_types, *types))),
-            taught_colors={**self.words.taught_colors, **colors},
+            self.words, nouns=of_nouns, colors=heard, taught_types=taught, taught_colors=settled
         )
 
     def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
@@ -152,13 +184,11 @@ class LexicalModel(GroundingModel):
         nouns, colors = self.words.nouns, self.words.colors
         places = {s.word: s.type for s in place_symbols()}
         named = places | {s.word: s.type for s in self.symbols.values() if s.word not in nouns.heard}
-        of_columns = (name.removeprefix("color: ") for name in self.features.language if name.startswith("color: "))
-        taught = self.words.taught_colors
-        seen = {c: taught.get(c, c) for c in of_columns if c not in self.words.color_words and c != "unknown"}
         if named != nouns.settled:
             nouns = replace(nouns, settled=named).meet(named.values())
-        if seen != colors.settled:
-            colors = replace(colors, settled=seen).meet(seen.values())
+        if self.words.taught_colors != colors.settled:
+            colors = replace(colors, settled=dict(self.words.taught_colors))
+            colors = colors.meet(colors.settled.values())
         self.words = replace(self.words, nouns=nouns, colors=colors)
 
     def _without(self, solution: Solution, phrase: Phrase) -> list[tuple[Object, float]]:
@@ -245,6 +275,19 @@ class LexicalModel(GroundingModel):
                 thing = Object(f"{value} thing", next(iter(self.known_types), None), known=True, color=value)
                 pairs.append(Pair(phrase, thing, float(row[k])))
         return pairs
+
+
+def _sure(lessons: Mapping[str, int]) -> bool:
+    """Do enough lessons agree on what a word names?"""
+    return max(lessons.values()) >= max(_AGREEING, _AGREED * sum(lessons.values()))
+
+
+def _weighed(beliefs: Beliefs, word: str, lessons: Mapping[str, int]) -> Beliefs:
+    """The beliefs with lessons about a word, each of which showed what was meant."""
+    for meaning, count in lessons.items():
+        for _ in range(count):
+            beliefs = beliefs.weigh(Evidence(word, {meaning: 1.0}))
+    return beliefs
 
 
 def _replaced(tree: ParseTree, old: Phrase | None, new: Phrase) -> ParseTree:
