@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, FeatureSet, Group
+from dcg_torch.features import GROUNDING_OF, FeatureSet
 from dcg_torch.loglinear import Bag, LogLinearModel, Merged, Table, merge
 from dcg_torch.symbols import Correspondence, Example, GroundingKind, WorldModel
 
@@ -22,9 +22,7 @@ def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearMo
     return [part.table(features.shape) for part in merged(examples, Encoder(features), model.correspondences)]
 
 
-def merged(
-    examples: Sequence[Example], encoder: Encoder, correspondences: Sequence[Correspondence]
-) -> list[Merged]:
+def merged(examples: Sequence[Example], encoder: Encoder, correspondences: Sequence[Correspondence]) -> list[Merged]:
     """The labelled factors of `examples`, identical ones merged; rows of like width stand together."""
     alike: dict[int, list[tuple[Example, Bag]]] = {}
     for example in examples:
@@ -122,7 +120,9 @@ class Statistics:
         cls, examples: Sequence[Example], features: FeatureSet, correspondences: Sequence[Correspondence]
     ) -> Statistics:
         """Of a corpus, with all columns that `features` has."""
-        nouns, types, colors, words = {}, {}, {}, []
+        nouns: dict[str, None] = {}
+        types: dict[str, None] = {}
+        colors: dict[str, None] = {}
         worlds = {id(e.world): e.world for e in examples}
         for world in worlds.values():
             types |= {o.type: None for o in world.things if o.type is not None}
@@ -133,26 +133,32 @@ class Statistics:
                 nouns[example.phrase.noun] = None
             if example.phrase.color is not None:
                 colors[example.phrase.color] = None
-            words.append(example)
-        apart = features.extended((), list(colors), words).include(nouns=nouns, types=types)
+        apart = features.extended((), list(colors), examples).include(nouns=nouns, types=types)
         known = {key: _all_known(world) for key, world in worlds.items()}
         encoder = Encoder(apart)
         parts = merged([replace(e, world=known[id(e.world)]) for e in examples], encoder, correspondences)
         return cls(apart, tuple(parts), places)
 
+    def joined(self, other: Statistics) -> Statistics:
+        """Those of both corpora, under the columns of both."""
+        features = self.features.joined(other.features)
+        parts = []
+        for one in (self, other):
+            language = _renaming(one.features.language, features.language, lambda name: (name,))
+            grounding = _renaming(one.features.grounding, features.grounding, lambda name: (name,))
+            parts += [_under(part, language, grounding) for part in one.parts]
+        return Statistics(features, tuple(parts), self.places | other.places)
+
     def under(self, features: FeatureSet, known_types: Collection[str]) -> list[Table]:
         """The tables under the model's columns."""
         language = _renaming(self.features.language, features.language, lambda n: _language(n, features))
         types = self.places | set(known_types)
-        grounding = _renaming(
-            self.features.grounding, features.grounding, lambda n: _grounding(n, features, types)
-        )
-        return [
-            replace(part, language=_renamed(part.language, language), grounding=_renamed(part.grounding, grounding)).table(
-                features.shape
-            )
-            for part in self.parts
-        ]
+        grounding = _renaming(self.features.grounding, features.grounding, lambda n: _grounding(n, features, types))
+        return [_under(part, language, grounding).table(features.shape) for part in self.parts]
+
+
+def _under(part: Merged, language: NDArray[np.int64], grounding: NDArray[np.int64]) -> Merged:
+    return replace(part, language=_renamed(part.language, language), grounding=_renamed(part.grounding, grounding))
 
 
 def _all_known(world: WorldModel) -> WorldModel:

@@ -149,14 +149,18 @@ class FeatureSet:
         return start.extended(symbols, colors, examples)
 
     def extended(self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example]) -> FeatureSet:
-        """Columns for a labelled corpus: its nouns and types, its colours, and the other words of its examples."""
+        """Columns for a labelled corpus: its nouns, types and colours, its other words, attributes of things."""
         new = self
         for symbol in symbols:
             new = new.grow(symbol)
         for color in colors:
             new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
+        examples = list(examples)
         words = [f for example in examples for f in _word_features(example.phrase)]
-        return new._with(words, [(Group.RELATION, f"stack color: {color}") for color in colors])
+        worlds = {id(example.world): example.world for example in examples}.values()
+        met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
+        further = [(Group.RELATION, f"state: {attribute}") for attribute in sorted(met)]
+        return new._with(words, [*further, *((Group.RELATION, f"stack color: {color}") for color in colors)])
 
     def grow(self, symbol: Symbol) -> FeatureSet:
         """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
@@ -182,6 +186,14 @@ class FeatureSet:
             [*((Group.DCG, f"noun: {n}") for n in nouns), *of_colors],
             [*((Group.DCG, f"type: {t}") for t in types), *of_colors],
         )
+
+    def joined(self, other: FeatureSet) -> FeatureSet:
+        """With the columns of another set of the same groups, behind its own."""
+        language, grounding = dict(self.language), dict(self.grounding)
+        for table, names in ((language, other.language), (grounding, other.grounding)):
+            for name in names:
+                table.setdefault(name, len(table))
+        return FeatureSet(self.groups, language, grounding)
 
     def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
         language, grounding = dict(self.language), dict(self.grounding)

@@ -116,6 +116,12 @@ class Solution:
         return None if self.object is None else self.probabilities[self.object.id]
 
 
+def _meant(hypothesis: Hypothesis) -> Object:
+    """The object that the noun phrase of the action means, or where there is none, the action itself."""
+    walk = hypothesis.walk()
+    return next((h for h in walk if h.tree.phrase.kind is PhraseKind.NOUN), hypothesis).child.grounding.object
+
+
 class FactorGraph:
     """The correspondence variables and factors of one command in one world.
 
@@ -172,6 +178,12 @@ class FactorGraph:
             self._best(root, 1)[0],
             {o.id: float(p) for o, p in zip(self.world.objects, probabilities, strict=True)},
         )
+
+    def runner_up(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Hypothesis | None:
+        """The best configuration whose noun phrase means another object than the best one's; None if there is none."""
+        root = self._pass(features, model, beam) if self.world.objects else None
+        ranked = [] if root is None else self._best(root, root.scores.size)
+        return next((h for h in ranked if _meant(h) != _meant(ranked[0])), None)
 
     def landmarks(
         self, thing: int, features: FeatureSet, model: LogLinearModel, *, beam: int = 8

@@ -19,7 +19,9 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+from dcg_torch import space
 from dcg_torch.encoding import Statistics, encode
+from dcg_torch.episodes import scene_bounds
 from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import replace_unknown
@@ -28,7 +30,20 @@ from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
 from dcg_torch.relational import place_symbols
-from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol
+from dcg_torch.symbols import (
+    Correspondence,
+    Example,
+    Object,
+    ParseTree,
+    Percept,
+    Phrase,
+    PhraseKind,
+    Pose,
+    Symbol,
+    WorldModel,
+)
+
+Bounds = tuple[float, float, float, float]
 
 _SLIP = 0.1
 """Share of commands in which the rest of a command is taken to mean another object than it does."""
@@ -66,6 +81,8 @@ class LexicalModel(GroundingModel):
 
     Attributes:
         words: that evidence.
+        workspace: the bounds of the ground that all scenes share, if they do: (near, far, right, left), seen from the
+            robot, metres. A scene without is bounded by its own objects.
     """
 
     def __init__(
@@ -77,9 +94,12 @@ class LexicalModel(GroundingModel):
         loglinear: LogLinearModel,
         corpus: Iterable[Example] = (),
         words: Words | None = None,
+        statistics: Statistics | None = None,
     ) -> None:
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.words = words or Words()
+        self.workspace: Bounds | None = None
+        self._restored = statistics
         self._statistics: Statistics | None = None
         self._tables_of: tuple[FeatureSet, tuple[str, ...], list[Table]] | None = None
         self._fitted_to: list[Pair] | None = None
@@ -96,6 +116,22 @@ class LexicalModel(GroundingModel):
     def known_types(self) -> tuple[str, ...]:
         """The types that have a name, or were in the training."""
         return tuple(dict.fromkeys((*super().known_types, *self.words.taught_types)))
+
+    def world_model(
+        self,
+        percepts: Iterable[Percept],
+        robot: Pose | None = None,
+        speaker: Pose | None = None,
+        *,
+        looked: bool = False,
+    ) -> WorldModel:
+        """Upsilon of a scene that is seen as a whole, with the places that can be spoken of."""
+        percepts = list(percepts)
+        world = super().world_model(percepts, robot, speaker, looked=looked)
+        bounds = self.workspace
+        if bounds is None and percepts:
+            bounds = scene_bounds([p.position for p in percepts], robot)
+        return replace(world, places=space.places(bounds, robot, speaker))
 
     def taught(
         self,
@@ -123,9 +159,7 @@ class LexicalModel(GroundingModel):
             if not _sure(values):
                 of_nouns = _weighed(of_nouns, word, values)
         taught = tuple(dict.fromkeys((*self.words.taught_types, *types)))
-        self.words = replace(
-            self.words, nouns=of_nouns, colors=heard, taught_types=taught, taught_colors=settled
-        )
+        self.words = replace(self.words, nouns=of_nouns, colors=heard, taught_types=taught, taught_colors=settled)
 
     def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Weigh what a command tells about its noun and colour word, and train if their meaning has moved.
@@ -165,13 +199,19 @@ class LexicalModel(GroundingModel):
     def corpus(self, examples: Iterable[Example]) -> None:
         self._corpus, self._statistics, self._tables_of = list(examples), None, None
 
+    @property
+    def statistics(self) -> Statistics:
+        """The corpus as sufficient statistics: of its examples, and those that the model was restored with."""
+        if self._statistics is None:
+            own = Statistics.of(self.corpus, self.features, self.loglinear.correspondences)
+            self._statistics = own if self._restored is None else self._restored.joined(own)
+        return self._statistics
+
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit the corpus, the hand-made examples and the posterior of the words, from the present weights."""
         known = self.known_types
-        if self._statistics is None:
-            self._statistics = Statistics.of(self.corpus, self.features, self.loglinear.correspondences)
         if self._tables_of is None or self._tables_of[0] is not self.features or self._tables_of[1] != known:
-            tables = self._statistics.under(self.features, known)
+            tables = self.statistics.under(self.features, known)
             self._tables_of = self.features, known, [*tables, *self._tables(self.examples)]
         pairs = self._pairs()
         soft = encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear)
