@@ -19,13 +19,17 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dcg_torch import space
+from dcg_torch.binary import Factors, fit
 from dcg_torch.encoding import Statistics, encode
 from dcg_torch.episodes import scene_bounds
 from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import replace_unknown
-from dcg_torch.loglinear import FitResult, LogLinearModel, Table, fit
+from dcg_torch.loglinear import FitResult, LogLinearModel
 from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
@@ -76,6 +80,19 @@ class Words:
     color_words: Mapping[str, str] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
+class _Taught:
+    """The labelled factors of the corpus and the hand-made examples, and what they hold under.
+
+    `fire` is (L, G): the features that fire in some of them.
+    """
+
+    features: FeatureSet
+    known_types: tuple[str, ...]
+    factors: Factors
+    fire: NDArray[np.bool_]
+
+
 class LexicalModel(GroundingModel):
     """A `GroundingModel` that learns words from the evidence of all commands that had them.
 
@@ -101,13 +118,13 @@ class LexicalModel(GroundingModel):
         self.workspace: Bounds | None = None
         self._restored = statistics
         self._statistics: Statistics | None = None
-        self._tables_of: tuple[FeatureSet, tuple[str, ...], list[Table]] | None = None
+        self._taught_under: _Taught | None = None
         self._fitted_to: list[Pair] | None = None
 
     @classmethod
     def trained(cls, training: TrainingSet, variant: Variant | None = None) -> LexicalModel:
-        """A model with its initial groundings and features, trained, to be taught a corpus."""
-        model = super().trained(training, variant)
+        """A model with its initial groundings and features, trained, to be taught a corpus; phi is of eq. 8."""
+        model = super().trained(training, replace(variant or Variant(), ternary=False))
         assert isinstance(model, LexicalModel)
         model.words = replace(model.words, taught_colors={color: color for color in training.colors})
         return model
@@ -197,7 +214,7 @@ class LexicalModel(GroundingModel):
 
     @corpus.setter
     def corpus(self, examples: Iterable[Example]) -> None:
-        self._corpus, self._statistics, self._tables_of = list(examples), None, None
+        self._corpus, self._statistics, self._taught_under = list(examples), None, None
 
     @property
     def statistics(self) -> Statistics:
@@ -209,15 +226,27 @@ class LexicalModel(GroundingModel):
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit the corpus, the hand-made examples and the posterior of the words, from the present weights."""
-        known = self.known_types
-        if self._tables_of is None or self._tables_of[0] is not self.features or self._tables_of[1] != known:
-            tables = self.statistics.under(self.features, known)
-            self._tables_of = self.features, known, [*tables, *self._tables(self.examples)]
         pairs = self._pairs()
-        soft = encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear)
-        self.fitted = fit(self.loglinear, [*self._tables_of[2], *soft], l2=self.variant.l2, max_steps=max_steps)
+        taught, soft = self._taught(), self._soft(pairs)
+        free = taught.fire | soft.fire() | (self.loglinear.weight != 0.0).numpy().any(axis=0)
+        factors = (taught.factors, soft)
+        self.fitted = fit(self.loglinear, factors, l2=self.variant.l2, max_steps=max_steps, free=free)
         self._fitted_to = pairs
         return self.fitted
+
+    def _taught(self) -> _Taught:
+        """What does not change with the posterior, under the present columns."""
+        known = self.known_types
+        old = self._taught_under
+        if old is None or old.features is not self.features or old.known_types != known:
+            tables = [*self.statistics.under(self.features, known), *self._tables(self.examples)]
+            factors = Factors.of(tables, self.features.shape[1])
+            self._taught_under = old = _Taught(self.features, known, factors, factors.fire())
+        return old
+
+    def _soft(self, pairs: Iterable[Pair]) -> Factors:
+        tables = encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear)
+        return Factors.of(tables, self.features.shape[1])
 
     def _settle(self) -> None:
         """Take as settled what the training taught: all symbols and colours that were not learned since."""
@@ -277,8 +306,10 @@ class LexicalModel(GroundingModel):
         if features.shape != self.features.shape:
             self.features = features
             self.loglinear.grow(features.pairs)
-        self.examples = replace_unknown(self.examples, self.known_types)
-        if self._fitted_to is None or _apart(self._pairs(), self._fitted_to) > _MOVED:
+            self.examples = replace_unknown(self.examples, self.known_types)
+        # A fit that was cut short goes on with the next command, so that the optimum is followed.
+        underway = self.fitted is None or self.fitted.status == "step limit"
+        if underway or self._fitted_to is None or _apart(self._pairs(), self._fitted_to) > _MOVED:
             self.train(max_steps=max_steps)
 
     def _pairs(self) -> list[Pair]:

@@ -21,7 +21,7 @@ LAYERS = (
     {"space", "loglinear", "language", "world"},
     {"settings", "features", "meaning", "relational", "episodes", "console", "report", "simulator", "speaker"},
     {"graph", "baseline"},
-    {"encoding", "learning"},
+    {"binary", "encoding", "learning"},
     {"model"},
     {"open_world", "lexical"},
     {"store", "supervised", "explain", "explanation"},
@@ -44,7 +44,7 @@ ONLY = {
     "pybullet_data": {"simulator"},
     "hydra": HYDRA,
     "omegaconf": HYDRA,
-    "torch": {"loglinear", "store", "worker", "bench", "evaluate", "report.board"},
+    "torch": {"loglinear", "binary", "store", "worker", "bench", "evaluate", "report.board"},
     "safetensors": {"store"},
     "tensorboard": {"report.board"},
 }
