@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, FeatureSet
+from dcg_torch.features import GROUNDING_OF, FeatureSet, Ranking, ranking
 from dcg_torch.loglinear import Bag, LogLinearModel, Merged, Table, merge
 from dcg_torch.symbols import Correspondence, Example, GroundingKind, WorldModel
 
@@ -41,38 +41,29 @@ class Encoder:
 
     def __init__(self, features: FeatureSet) -> None:
         self.features = features
-        self._layouts: dict[int, space.Layout] = {}
-        self._bags: dict[tuple[int, bool | tuple[str, ...]], Bag] = {}
+        self._bags: dict[tuple[int, tuple[str, ...] | None, Ranking | None], Bag] = {}
         self._worlds: dict[int, WorldModel] = {}  # held, so that no other gets the same id
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of an example's factors."""
         kind, world = GROUNDING_OF[example.phrase.kind], example.world
         self._worlds[id(world)] = world
-        if kind is GroundingKind.OBJECT:
-            return self._of_things(world, ranked=bool(example.phrase.words))
-        if kind is GroundingKind.PLACED:
-            return self._of_placed(world, tuple(c.grounding.object.id for c in example.children))
-        hypotheses = self.features.encode_groundings(kind, world, [example.children])
-        return hypotheses.reshape(hypotheses.shape[1:])
-
-    def _layout(self, world: WorldModel) -> space.Layout:
-        if id(world) not in self._layouts:
-            self._layouts[id(world)] = space.layout(world)
-        return self._layouts[id(world)]
-
-    def _of_things(self, world: WorldModel, *, ranked: bool) -> Bag:
-        key = id(world), ranked
+        if kind is GroundingKind.ACTION or kind is GroundingKind.REGION:
+            hypotheses = self.features.encode_groundings(kind, world, [example.children])
+            return hypotheses.reshape(hypotheses.shape[1:])
+        placed = kind is GroundingKind.PLACED
+        landmarks = tuple(c.grounding.object.id for c in example.children) if placed else None
+        counted = ranking(example.phrase)
+        key = id(world), landmarks, counted
         if key not in self._bags:
-            self._bags[key] = self.features.encode_things(world, self._layout(world), ranked=ranked)
+            self._bags[key] = self._encode(world, landmarks, counted)
         return self._bags[key]
 
-    def _of_placed(self, world: WorldModel, landmarks: tuple[str, ...]) -> Bag:
-        key = id(world), landmarks
-        if key not in self._bags:
-            index = {thing.id: j for j, thing in enumerate(world.things)}
-            self._bags[key] = self.features.encode_placed(self._layout(world), [[index[i] for i in landmarks]])[0]
-        return self._bags[key]
+    def _encode(self, world: WorldModel, landmarks: tuple[str, ...] | None, counted: Ranking | None) -> Bag:
+        if landmarks is None:
+            return self.features.encode_things(world, space.layout(world), counted)
+        index = {thing.id: j for j, thing in enumerate(world.things)}
+        return self.features.encode_placed(space.layout(world), [[index[i] for i in landmarks]], counted)[0]
 
 
 def _merge(
@@ -163,7 +154,10 @@ def _under(part: Merged, language: NDArray[np.int64], grounding: NDArray[np.int6
 
 def _all_known(world: WorldModel) -> WorldModel:
     """The world with every object of some type known: whether it is, is said later."""
-    return replace(world, objects=tuple(o if o.type is None else replace(o, known=True) for o in world.objects))
+    objects, groups = (
+        tuple(o if o.type is None else replace(o, known=True) for o in of) for of in (world.objects, world.groups)
+    )
+    return replace(world, objects=objects, groups=groups)
 
 
 def _language(name: str, features: FeatureSet) -> tuple[str, ...]:

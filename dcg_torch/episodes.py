@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import space
+from dcg_torch.relational import Workspace
 from dcg_torch.symbols import Percept, Pose
 
 
@@ -172,21 +173,21 @@ def _repeated(ids: Sequence[str]) -> str:
     return next(i for i in ids if ids.count(i) > 1)
 
 
-def workspace(episodes: Sequence[Episode]) -> tuple[float, float, float, float] | None:
-    """The bounds of a workspace that all the episodes share: (near, far, right, left), seen from the robot, metres.
+def workspace(episodes: Sequence[Episode]) -> Workspace:
+    """What the scenes have in common: bounds, where the robot's place is one and the same in all; and the unit.
 
-    None where the robot's place is not one and the same in all: then each scene has bounds of its own.
+    The unit is the median distance from an object to its nearest neighbour.
     """
+    nearest = []
+    for episode in episodes:
+        points = np.array([p.position for p in episode.percepts()])
+        apart = np.linalg.norm(points[None] - points[:, None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        nearest += [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]
+    unit = float(np.median(nearest)) if nearest else 1.0
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
-        return None
-    return scene_bounds([o.position for e in episodes for o in e.objects], episodes[0].pose)
-
-
-def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> tuple[float, float, float, float]:
-    """The bounding box of positions, seen from the robot: (near, far, right, left), metres."""
-    points = space.seen_from(robot or Pose(0.0, 0.0), np.array([p[:2] for p in positions], dtype=np.float64))
-    low, high = points.min(axis=0), points.max(axis=0)
-    return float(low[0]), float(high[0]), float(low[1]), float(high[1])
+        return Workspace(None, unit)
+    return Workspace(space.scene_bounds([o.position for e in episodes for o in e.objects], episodes[0].pose), unit)
 
 
 def split_folds(episodes: Sequence[Episode], folds: int, rng: np.random.Generator) -> list[list[Episode]]:

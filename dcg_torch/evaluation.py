@@ -10,8 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from dcg_torch import space
-from dcg_torch.episodes import Episode, scene_bounds, workspace
+from dcg_torch.episodes import Episode, workspace
 from dcg_torch.graph import Solution
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
@@ -124,13 +123,13 @@ class Evaluation:
         kept = [e for e in train if known_types is None or _types_meant(e) <= set(known_types)]
         kept = [e for e in kept if known_colors is None or _colors_meant(e) <= set(known_colors)]
         self.parse = parse
-        self._bounds = workspace(train)
         kind = GroundingModel if variant.synonyms is None else LexicalModel
         self.model = kind.trained(initial, variant)
+        self._workspace = workspace(train)
         self._meant = frozenset(t for e in kept for t in _types_meant(e))
         read = [(e, reading) for e in kept if (reading := parse(e.text, ())).tree is not None]
         if isinstance(self.model, LexicalModel):
-            self.model.workspace = self._bounds
+            self.model.workspace = self._workspace
             nouns = _counted((reading.noun, _types_meant(e)) for e, reading in read)
             colors = _counted((reading.color, _colors_meant(e)) for e, reading in read)
             self.model.taught(sorted(self._meant), nouns, colors)
@@ -155,13 +154,10 @@ class Evaluation:
     def world(self, episode: Episode) -> WorldModel:
         """Upsilon of an episode: everything is perceived, and there are places to speak of."""
         pose, speaker = episode.pose, episode.speaker_pose
-        world = self.model.world_model(episode.percepts(), pose, speaker)
-        if isinstance(self.model, LexicalModel):
-            return world
-        bounds = self._bounds or scene_bounds([o.position for o in episode.objects], pose)
+        world = self.model.world_model(episode.percepts(), pose, speaker, workspace=self._workspace)
         known = self._meant | set(self.model.known_types)
         objects = tuple(replace(o, known=o.type in known) for o in world.objects)
-        return replace(world, objects=objects, places=space.places(bounds, pose, speaker))
+        return replace(world, objects=objects)
 
     def answers(self, test: Sequence[Episode], *, learn: bool = False) -> Iterator[Answer]:
         """Ground the test episodes in order.

@@ -21,6 +21,7 @@ from __future__ import annotations
 import enum
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,6 +29,7 @@ from numpy.typing import NDArray
 from dcg_torch import space
 from dcg_torch.loglinear import Bag
 from dcg_torch.symbols import (
+    NOT,
     Child,
     Correspondence,
     Example,
@@ -63,12 +65,19 @@ PAIRS: dict[str, frozenset[str]] = {
     "verb": frozenset({"kind", "child"}),
     "preposition": frozenset({"kind", "child"}),
     "modifier": frozenset({"kind", "relation"}),
-    "word": frozenset({"rank", "state", "stack color"}),
+    "word": frozenset({"rank", "state", "stack color", "group color"}),
     "context": frozenset({"kind", "state", "relation"}),
     "noun": frozenset({"type", "state"}),
     "noun known": frozenset({"known", "hypothetical"}),
-    "color": frozenset({"color"}),
+    "color": frozenset({"color", "group color"}),
     "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
+}
+
+FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
+"""Family of ranks by distance -> the name of the feature of the first few, as many as the phrase counts."""
+_ORDINALS = {
+    **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
+    **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
 }
 
 PAPER = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
@@ -100,9 +109,8 @@ def _fixed_groundings() -> Iterator[Feature]:
     yield Group.UNKNOWN, "known: no"
     yield Group.COLOR, "color: unknown"
     yield Group.HYPOTHETICAL, "hypothetical: yes"
-    for names in (*space.RELATIONS.values(), space.STATES, space.RANKS):
-        for name in names:
-            yield Group.RELATION, name
+    for name in (*space.RELATION_NAMES, *FEW.values(), *space.STATES, *space.RANKS):
+        yield Group.RELATION, name
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -159,8 +167,9 @@ class FeatureSet:
         words = [f for example in examples for f in _word_features(example.phrase)]
         worlds = {id(example.world): example.world for example in examples}.values()
         met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
-        further = [(Group.RELATION, f"state: {attribute}") for attribute in sorted(met)]
-        return new._with(words, [*further, *((Group.RELATION, f"stack color: {color}") for color in colors)])
+        further = [f"state: {attribute}" for attribute in sorted(met)]
+        colored = [f"{of} color: {color}" for of in ("stack", "group") for color in colors]
+        return new._with(words, [(Group.RELATION, name) for name in (*further, *colored)])
 
     def grow(self, symbol: Symbol) -> FeatureSet:
         """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
@@ -174,7 +183,8 @@ class FeatureSet:
 
     def name_color(self, word: str, color: str) -> FeatureSet:
         """Columns for a learned colour: the word that is said, and the colour as it is perceived."""
-        seen = [(Group.COLOR, f"color: {color}"), (Group.RELATION, f"stack color: {color}")]
+        of_others = [(Group.RELATION, f"{of} color: {color}") for of in ("stack", "group")]
+        seen = [(Group.COLOR, f"color: {color}"), *of_others]
         return self._with([(Group.COLOR, f"color: {word}")], seen)
 
     def include(
@@ -239,7 +249,7 @@ class FeatureSet:
         return [name for name in names if name in self.language]
 
     def object_names(self, obj: Object) -> list[str]:
-        """Names of the grounding features that fire for an object by itself."""
+        """Names of the grounding features that fire for an object by itself, or for what the members of a group are."""
         names = [f"type: {obj.type}", "known: yes"] if obj.known else ["type: (unmet)", "known: no"]
         if obj.hypothetical:
             names.append("hypothetical: yes")
@@ -263,9 +273,9 @@ class FeatureSet:
             children: c hypotheses, each a tuple of equally many child groundings; one empty tuple for a leaf.
 
         Returns:
-            (c, len(world.objects), k) bag.
+            (c, len(world.meanable), k) bag.
         """
-        objects = world.objects
+        objects = world.meanable
         own = _pad(
             [
                 [
@@ -292,43 +302,67 @@ class FeatureSet:
                 bag[c, index[child.grounding.object.id], column] = same
         return bag
 
-    def encode_things(self, world: WorldModel, where: space.Layout, *, ranked: bool) -> Bag:
-        """Grounding columns of a noun phrase's groundings, places included.
+    def encode_things(self, world: WorldModel, where: space.Layout, ranking: Ranking | None) -> Bag:
+        """Grounding columns of a noun phrase's groundings, groups and places included.
 
         Args:
             where: the layout of `world`.
-            ranked: whether the phrase has words that a rank could be meant by.
+            ranking: what the phrase counts, if it has words that a rank could be meant by.
 
         Returns:
             (len(world.things), k) bag.
         """
         names = [[f"kind: {GroundingKind.OBJECT}", *self.object_names(o)] for o in world.things]
         if Group.RELATION in self.groups:
-            described = [space.states(world.things, where)]
-            if ranked:
-                described.append(space.ranks(world.things, where))
-            for further in described:
-                for own, more in zip(names, further, strict=True):
-                    own += more
-        return _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
+            for own, more in zip(names, space.states(where), strict=True):
+                own += more
+        bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
+        if ranking is None or Group.RELATION not in self.groups:
+            return bag
+        found = space.ranks(where, ranking.among, ordinal=ranking.ordinal, count=ranking.count)
+        return np.hstack([bag, self._ranks[found]])
 
-    def encode_placed(self, where: space.Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int64]:
+    def encode_placed(
+        self, where: space.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None
+    ) -> NDArray[np.int64]:
         """Grounding columns of a modifier's groundings: how every thing stands to every tuple of landmarks.
 
         Args:
             landmarks: c tuples of thing numbers.
+            ranking: what the phrase counts that the modifier describes.
 
         Returns:
             (c, things, k) bag.
         """
-        n = len(where.place)
-        kind = np.full((len(landmarks), n), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)
-        columns = [kind]
+        n, ranking = len(where.things), ranking or Ranking("all")
+        columns = [np.full((len(landmarks), n, 1), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)]
         if Group.RELATION in self.groups:
-            for family, values in space.relations(where, landmarks).items():
-                table = np.array([self.grounding[name] for name in space.RELATIONS[family]] + [-1])
-                columns.append(table[values])
-        return np.stack(columns, axis=2)
+            found = space.relations(where, landmarks, ranking.among)
+            columns.append(self._relations[found])
+            if ranking.count is not None and ranking.count > 1:
+                columns.append(np.where(self._rank_of[found] < ranking.count, self._few[found], -1))
+        return np.concatenate(columns, axis=2)
+
+    @cached_property
+    def _ranks(self) -> NDArray[np.int64]:
+        """Index into `space.RANKS` -> column; a last entry for -1."""
+        return np.array([*(self.grounding.get(name, -1) for name in space.RANKS), -1])
+
+    @cached_property
+    def _relations(self) -> NDArray[np.int64]:
+        """Index into `space.RELATION_NAMES` -> column; a last entry for -1."""
+        return np.array([*(self.grounding.get(name, -1) for name in space.RELATION_NAMES), -1])
+
+    @cached_property
+    def _few(self) -> NDArray[np.int64]:
+        """Index into `space.RELATION_NAMES` -> column of the "few" of its family, -1 for most families."""
+        found = [self.grounding.get(FEW.get(f, ""), -1) for f, names in space.RELATIONS.items() for _ in names]
+        return np.array([*found, -1])
+
+    @cached_property
+    def _rank_of(self) -> NDArray[np.int64]:
+        """Index into `space.RELATION_NAMES` -> the number of the value in its family."""
+        return np.array([*(k for names in space.RELATIONS.values() for k in range(len(names))), 0])
 
     def grounding_names(self, grounding: Grounding, children: Sequence[Child]) -> list[str]:
         """Names of the grounding features that fire, for explanations."""
@@ -340,6 +374,23 @@ class FeatureSet:
         return [names[column] for column in row if column >= 0]
 
 
+@dataclass(frozen=True, slots=True)
+class Ranking:
+    """What a phrase counts: the nth (`ordinal`) or the first few (`count`) among those that it speaks of (`among`)."""
+
+    among: str
+    ordinal: int | None = None
+    count: int | None = None
+
+
+def ranking(phrase: Phrase) -> Ranking | None:
+    """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
+    if phrase.kind is PhraseKind.NOUN and not phrase.words:
+        return None
+    ordinal = next((_ORDINALS[word] for word in phrase.words if word in _ORDINALS), None)
+    return Ranking(phrase.among or "all", ordinal, phrase.count)
+
+
 def _word_features(phrase: Phrase) -> Iterator[Feature]:
     """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
 
@@ -347,14 +398,15 @@ def _word_features(phrase: Phrase) -> Iterator[Feature]:
     the context: what they compare the object with.
     """
     is_noun = phrase.kind is PhraseKind.NOUN
-    for word in phrase.words:
+    words = [word for word in phrase.words if word != NOT or phrase.kind is not PhraseKind.MODIFIER]
+    for word in words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
-    if is_noun and len(phrase.words) > 1:
-        yield Group.RELATION, f"word: {' '.join(phrase.words)}"
+    if is_noun and len(words) > 1:
+        yield Group.RELATION, f"word: {' '.join(words)}"
     for context in phrase.context:
         yield Group.RELATION, f"context: {context}"
         if not is_noun:
-            for word in phrase.words:
+            for word in words:
                 yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
 
 

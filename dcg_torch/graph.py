@@ -16,7 +16,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import networkx as nx
@@ -24,9 +24,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, FeatureSet
+from dcg_torch.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.loglinear import LogLinearModel
 from dcg_torch.symbols import (
+    NOT,
     Child,
     Correspondence,
     Grounding,
@@ -61,6 +62,10 @@ class Hypothesis:
         return [self, *(h for child in self.children for h in child.walk())]
 
 
+_AS_WELL = 0.5
+"""An object is one of several that are meant if it is described at least so well as the best, in probability."""
+
+
 @dataclass(frozen=True)
 class Solution:
     """phi* and gamma* of a command, with the alternatives that were weighed.
@@ -68,13 +73,17 @@ class Solution:
     Attributes:
         best: the most probable configuration, None where the world offers nothing to ground to.
         world: Upsilon, as it was.
-        probabilities: object id -> probability that the command is about it; sums to 1.
+        probabilities: object or group id -> probability that the command is about it; sums to 1.
+        fits: object or group id -> probability that the noun phrase describes it, whatever else it describes.
+        further: of the other noun phrases that the command joins to the first ("the cube and the cone").
     """
 
     tree: ParseTree
     world: WorldModel
     best: Hypothesis | None
     probabilities: Mapping[str, float]
+    fits: Mapping[str, float] = field(default_factory=dict)
+    further: tuple[Solution, ...] = ()
 
     @property
     def object(self) -> Object | None:
@@ -83,18 +92,27 @@ class Solution:
 
     @property
     def objects(self) -> tuple[Object, ...]:
-        """What the command is about, if it speaks of several: as many as it counts, or all that are as likely.
+        """What the command is about: one object, the members of a group, or several objects.
 
-        "As likely" is at least half as probable as the best. A phrase in the singular means one.
+        A phrase in the plural means as many as it counts, or else all that it describes about as well as the best.
         """
+        found = dict.fromkeys((*self._meant(), *(o for solution in self.further for o in solution.objects)))
+        return tuple(found)
+
+    def _meant(self) -> tuple[Object, ...]:
         noun = self.noun
-        if self.object is None or noun is None or (not noun.plural and (noun.count or 1) == 1):
-            return () if self.object is None else (self.object,)
+        if self.object is None or noun is None:
+            return ()
+        if self.object.members:
+            members = set(self.object.members)
+            return tuple(o for o in self.world.objects if o.id in members)
+        if not noun.plural and (noun.count or 1) == 1:
+            return (self.object,)
         ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
         if noun.count is not None:
             return tuple(ranked[: noun.count])
-        least = 0.5 * self.probabilities[ranked[0].id]
-        return tuple(o for o in ranked if self.probabilities[o.id] >= least)
+        least = _AS_WELL * self.fits[ranked[0].id]
+        return tuple(o for o in ranked if self.fits[o.id] >= least)
 
     @property
     def noun(self) -> Phrase | None:
@@ -112,8 +130,16 @@ class Solution:
 
     @property
     def probability(self) -> float | None:
-        """Of the grounding, None where there is none."""
-        return None if self.object is None else self.probabilities[self.object.id]
+        """Of the grounding, None where there is none; of several objects, that they and no others are meant."""
+        if self.object is None:
+            return None
+        meant = self._meant()
+        if len(meant) < 2 or self.object.members:
+            own = self.probabilities[self.object.id]
+        else:
+            inside = {o.id for o in meant}
+            own = math.prod(self.fits[o.id] if o.id in inside else 1.0 - self.fits[o.id] for o in self.world.objects)
+        return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
 
 def _meant(hypothesis: Hypothesis) -> Object:
@@ -153,11 +179,11 @@ class FactorGraph:
         """The bipartite graph of Fig. 4: a variable per (phrase, object), a factor joined to its children's."""
         graph = nx.Graph()
         for node, data in self.phrases.nodes(data=True):
-            for obj in self.world.objects:
+            for obj in self.world.meanable:
                 graph.add_node(("factor", node, obj.id), bipartite=1)
                 graph.add_node(("phi", node, obj.id), bipartite=0, phrase=data["tree"].phrase)
                 graph.add_edge(("factor", node, obj.id), ("phi", node, obj.id))
-                for below, other in itertools.product(self.phrases.predecessors(node), self.world.objects):
+                for below, other in itertools.product(self.phrases.predecessors(node), self.world.meanable):
                     graph.add_edge(("factor", node, obj.id), ("phi", below, other.id))
         return graph
 
@@ -169,14 +195,18 @@ class FactorGraph:
         """
         if not self.world.objects:
             return Solution(self.tree, self.world, None, {})
-        root = self._pass(features, model, beam)
-        totals = np.logaddexp.reduce(root.scores, axis=(0, 2))[: len(self.world.objects)]
+        passed = self._pass(features, model, beam)
+        root = passed[0]
+        meanable = self.world.meanable
+        totals = np.logaddexp.reduce(root.scores, axis=(0, 2))[: len(meanable)]
         probabilities = np.exp(totals - np.logaddexp.reduce(totals))
+        noun = next((passed[k] for k in sorted(passed) if passed[k].tree.phrase.kind is PhraseKind.NOUN), None)
         return Solution(
             self.tree,
             self.world,
             self._best(root, 1)[0],
-            {o.id: float(p) for o, p in zip(self.world.objects, probabilities, strict=True)},
+            {o.id: float(p) for o, p in zip(meanable, probabilities, strict=True)},
+            {} if noun is None else {o.id: float(p) for o, p in zip(meanable, np.exp(noun.log_fit), strict=True)},
         )
 
     def runner_up(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Hypothesis | None:
@@ -199,26 +229,25 @@ class FactorGraph:
             For every modifier and every choice of its landmarks, the probability and the hypothesis.
         """
         found = []
-        for modifier in self._pass(features, model, beam).modifiers:
+        for modifier in self._pass(features, model, beam)[0].modifiers:
             column = modifier.mixture[:, thing]
             for combo, probability in enumerate(np.exp(column - np.logaddexp.reduce(column))):
                 found.append((float(probability), modifier.hypothesis(thing, self.world.things[thing], combo)))
         return found
 
-    def _pass(self, features: FeatureSet, model: LogLinearModel, beam: int) -> _Scored:
-        """From the leaves to the root, whose scores are returned."""
+    def _pass(self, features: FeatureSet, model: LogLinearModel, beam: int) -> dict[int, _Scored]:
+        """From the leaves to the root, number 0: the scores of every phrase but the modifiers."""
         beams: dict[int, list[Hypothesis]] = {}
         placed: dict[int, _Placed] = {}
-        root: _Scored | None = None
+        scored: dict[int, _Scored] = {}
         for level in _levels(self.phrases):
             for node, of_node in self._score_level(level, beams, placed, features, model, beam).items():
                 if isinstance(of_node, _Placed):
                     placed[node] = of_node
                 else:
-                    root = of_node
+                    scored[node] = of_node
                     beams[node] = self._best(of_node, beam)
-        assert root is not None  # the last level holds the root alone
-        return root
+        return scored
 
     @cached_property
     def layout(self) -> space.Layout:
@@ -251,8 +280,10 @@ class FactorGraph:
             kind = trees[which].phrase.kind
             scores = np.array([sum(h.log_score for h in combo) for combo in combos[which]])
             if kind is PhraseKind.MODIFIER:
-                active = table[:, :, model.correspondences.index(Correspondence.ACTIVE)]
-                mixture = active + (scores - np.logaddexp.reduce(scores))[:, None]
+                negated = NOT in trees[which].phrase.words
+                asserted = Correspondence.INACTIVE if negated else Correspondence.ACTIVE
+                mixture = table[:, :, model.correspondences.index(asserted)]
+                mixture = mixture + (scores - np.logaddexp.reduce(scores))[:, None]
                 out[node] = _Placed(trees[which], combos[which], mixture)
                 continue
             meant = [c for c in model.correspondences if c is not Correspondence.INACTIVE]
@@ -262,15 +293,18 @@ class FactorGraph:
             # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
             base = (np.array([math.fsum(row) for row in inactive]) + scores)[:, None]
             modifiers = [placed[c] for c in below[which] if c in placed]
+            fit = table[0, :, model.correspondences.index(Correspondence.ACTIVE)]
             for modifier in modifiers:
                 base = base + modifier.log_psi
+                fit = fit + modifier.log_psi
             log_odds = [base + table[:, :, model.correspondences.index(phi)] - inactive for phi in meant]
-            out[node] = _Scored(trees[which], combos[which], meant, np.stack(log_odds, axis=2), modifiers)
+            out[node] = _Scored(trees[which], combos[which], meant, np.stack(log_odds, axis=2), fit, modifiers)
         # Only a landmark may be a place: what a command is about is an object.
         for node, of_node in out.items():
             above = [self.phrases.nodes[up]["tree"].phrase.kind for up in self.phrases.successors(node)]
             if isinstance(of_node, _Scored) and PhraseKind.MODIFIER not in above:
-                out[node] = replace(of_node, scores=of_node.scores[:, : len(self.world.objects)])
+                meanable = len(self.world.meanable)
+                out[node] = replace(of_node, scores=of_node.scores[:, :meanable], log_fit=of_node.log_fit[:meanable])
         return out
 
     def _encode(
@@ -279,11 +313,11 @@ class FactorGraph:
         """(len(combos), groundings, k) bag of a phrase's factors."""
         kind = GROUNDING_OF[tree.phrase.kind]
         if kind is GroundingKind.OBJECT:
-            return features.encode_things(self.world, self.layout, ranked=bool(tree.phrase.words))[None]
+            return features.encode_things(self.world, self.layout, ranking(tree.phrase))[None]
         if kind is GroundingKind.PLACED:
             index = {thing.id: j for j, thing in enumerate(self.world.things)}
             landmarks = [[index[h.child.grounding.object.id] for h in combo] for combo in combos]
-            return features.encode_placed(self.layout, landmarks)
+            return features.encode_placed(self.layout, landmarks, ranking(tree.phrase))
         return features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
@@ -301,12 +335,16 @@ class FactorGraph:
 
 @dataclass(frozen=True)
 class _Scored:
-    """log-scores (combos of child hypotheses, groundings, correspondences that are not INACTIVE) of a phrase."""
+    """log-scores (combos of child hypotheses, groundings, correspondences that are not INACTIVE) of a phrase.
+
+    `log_fit` (groundings,) is the logarithm of Psi(ACTIVE) by itself, modifiers included; of use for a noun phrase.
+    """
 
     tree: ParseTree
     combos: Sequence[tuple[Hypothesis, ...]]
     meant: Sequence[Correspondence]
     scores: NDArray[np.float64]
+    log_fit: NDArray[np.float64]
     modifiers: Sequence[_Placed] = ()
 
 
@@ -318,6 +356,8 @@ class _Placed:
     that of the object meant is asserted, and the landmark is summed over:
 
         Psi(object) = sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark)
+
+    with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
 
     Attributes:
         mixture: (combos, things) the logarithm of the summands.

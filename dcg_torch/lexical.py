@@ -22,10 +22,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch import space
 from dcg_torch.binary import Factors, fit
 from dcg_torch.encoding import Statistics, encode
-from dcg_torch.episodes import scene_bounds
 from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import replace_unknown
@@ -33,7 +31,7 @@ from dcg_torch.loglinear import FitResult, LogLinearModel
 from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
-from dcg_torch.relational import place_symbols
+from dcg_torch.relational import Workspace, group_nouns, place_symbols
 from dcg_torch.symbols import (
     Correspondence,
     Example,
@@ -46,8 +44,6 @@ from dcg_torch.symbols import (
     Symbol,
     WorldModel,
 )
-
-Bounds = tuple[float, float, float, float]
 
 _SLIP = 0.1
 """Share of commands in which the rest of a command is taken to mean another object than it does."""
@@ -98,8 +94,7 @@ class LexicalModel(GroundingModel):
 
     Attributes:
         words: that evidence.
-        workspace: the bounds of the ground that all scenes share, if they do: (near, far, right, left), seen from the
-            robot, metres. A scene without is bounded by its own objects.
+        workspace: what its scenes have in common.
     """
 
     def __init__(
@@ -115,7 +110,7 @@ class LexicalModel(GroundingModel):
     ) -> None:
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.words = words or Words()
-        self.workspace: Bounds | None = None
+        self.workspace = Workspace()
         self._restored = statistics
         self._statistics: Statistics | None = None
         self._taught_under: _Taught | None = None
@@ -141,14 +136,10 @@ class LexicalModel(GroundingModel):
         speaker: Pose | None = None,
         *,
         looked: bool = False,
+        workspace: Workspace | None = None,
     ) -> WorldModel:
-        """Upsilon of a scene that is seen as a whole, with the places that can be spoken of."""
-        percepts = list(percepts)
-        world = super().world_model(percepts, robot, speaker, looked=looked)
-        bounds = self.workspace
-        if bounds is None and percepts:
-            bounds = scene_bounds([p.position for p in percepts], robot)
-        return replace(world, places=space.places(bounds, robot, speaker))
+        """Upsilon of a scene that is seen as a whole, in this model's workspace if none is given."""
+        return super().world_model(percepts, robot, speaker, looked=looked, workspace=workspace or self.workspace)
 
     def taught(
         self,
@@ -194,8 +185,19 @@ class LexicalModel(GroundingModel):
             return None
         self._settle()
         before = self.symbols.get(phrase.noun or "")
-        nouns = self.words.nouns.meet(o.type for o in solution.world.objects if o.type is not None)
-        colors = self.words.colors.meet(o.color for o in solution.world.objects if o.color is not None)
+        for part in (solution, *solution.further):
+            self._hear(part)
+        self._renew(max_steps)
+        now = self.symbols.get(phrase.noun or "")
+        return now if now != before else None
+
+    def _hear(self, solution: Solution) -> None:
+        """Weigh what the rest of a command tells about the noun and the colour word of what it means."""
+        phrase, things = solution.noun, solution.world.objects
+        if phrase is None:
+            return
+        nouns = self.words.nouns.meet(o.type for o in things if o.type is not None)
+        colors = self.words.colors.meet(o.color for o in things if o.color is not None)
         if phrase.noun is not None and phrase.noun not in nouns.settled:
             rest = self._without(solution, replace(phrase, noun=None))
             nouns = nouns.weigh(Evidence(phrase.noun, _summed((o.type, p) for o, p in rest)))
@@ -203,9 +205,6 @@ class LexicalModel(GroundingModel):
             rest = self._without(solution, replace(phrase, color=None))
             colors = colors.weigh(Evidence(phrase.color, _summed((o.color, p) for o, p in rest)))
         self.words = replace(self.words, nouns=nouns, colors=colors)
-        self._renew(max_steps)
-        now = self.symbols.get(phrase.noun or "")
-        return now if now != before else None
 
     @property
     def corpus(self) -> list[Example]:
@@ -251,8 +250,8 @@ class LexicalModel(GroundingModel):
     def _settle(self) -> None:
         """Take as settled what the training taught: all symbols and colours that were not learned since."""
         nouns, colors = self.words.nouns, self.words.colors
-        places = {s.word: s.type for s in place_symbols()}
-        named = places | {s.word: s.type for s in self.symbols.values() if s.word not in nouns.heard}
+        given = {s.word: s.type for s in place_symbols()} | dict.fromkeys(group_nouns(), "group")
+        named = given | {s.word: s.type for s in self.symbols.values() if s.word not in nouns.heard}
         if named != nouns.settled:
             nouns = replace(nouns, settled=named).meet(named.values())
         if self.words.taught_colors != colors.settled:
@@ -268,18 +267,18 @@ class LexicalModel(GroundingModel):
         """
         tree = _replaced(solution.tree, solution.noun, phrase)
         found = FactorGraph(tree, solution.world).solve(self.features, self.loglinear, beam=self.variant.beam)
-        odds = {o.id: found.probabilities[o.id] for o in solution.world.objects}
+        odds = dict(found.probabilities)
         if phrase.noun is None:
             signs = self.loglinear.correspondences
             weight = self.loglinear.weight
             active, inactive = (weight[signs.index(c)] for c in (Correspondence.ACTIVE, Correspondence.INACTIVE))
             languages = self.features.encode_phrases([phrase])[0]
-            for o in solution.world.objects:
+            for o in solution.world.meanable:
                 column = self.features.grounding.get(f"known: {'yes' if o.known else 'no'}")
                 if column is not None:
                     odds[o.id] *= math.exp(-float((active - inactive)[languages, column].sum()))
         total = math.fsum(odds.values())
-        return [(o, odds[o.id] / total) for o in solution.world.objects]
+        return [(o, odds[o.id] / total) for o in solution.world.meanable]
 
     def _renew(self, max_steps: int) -> None:
         """Symbols and columns for what is probable enough by now, and a fit if the posterior has moved."""

@@ -13,7 +13,16 @@ from dcg_torch.features import PAPER, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
-from dcg_torch.relational import place_examples, place_symbols, relational
+from dcg_torch.relational import (
+    Workspace,
+    coordinated,
+    furnished,
+    group_nouns,
+    grouped,
+    place_examples,
+    place_symbols,
+    relational,
+)
 from dcg_torch.symbols import (
     Correspondence,
     Example,
@@ -134,6 +143,8 @@ class GroundingModel:
             words += place_symbols()
             corpus = place_examples()
         features = FeatureSet.initial(variant.groups, words, training.colors, [*examples, *corpus])
+        if Group.RELATION in variant.groups:
+            features = features.include(nouns=group_nouns())
         loglinear = LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY)
         model = cls(variant, training.symbols, examples, features, loglinear, corpus)
         model.train()
@@ -168,13 +179,15 @@ class GroundingModel:
         speaker: Pose | None = None,
         *,
         looked: bool = False,
+        workspace: Workspace | None = None,
     ) -> WorldModel:
         """Upsilon as this variant represents it (lines 8 and 9).
 
         Args:
             looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
+            workspace: what is known of where the objects are, for relations.
         """
-        return world_model(
+        world = world_model(
             percepts,
             self.known_types,
             unknown=self.variant.unknown,
@@ -182,9 +195,16 @@ class GroundingModel:
             robot=robot,
             speaker=speaker,
         )
+        return furnished(world, workspace) if Group.RELATION in self.variant.groups else world
 
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11)."""
+        if Group.RELATION not in self.variant.groups:
+            return self._ground(tree, world)
+        first, *others = (self._ground(part, grouped(world, part)) for part in coordinated(tree))
+        return replace(first, further=tuple(others))
+
+    def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         return FactorGraph(self.readable(tree), world).solve(self.features, self.loglinear, beam=self.variant.beam)
 
     def readable(self, tree: ParseTree) -> ParseTree:

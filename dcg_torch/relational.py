@@ -1,11 +1,26 @@
-"""A parse tree as the relational features read it: modifiers marked, and every phrase told what it stands in."""
+"""Commands and worlds as the relational features read them.
+
+A tree's modifiers are marked, and every phrase is told what it stands in; a world gets the places that can be spoken
+of, and the groups that its objects form where the command speaks of one.
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from dcg_torch import space
-from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Pose, Symbol, WorldModel
+from dcg_torch.symbols import (
+    NOT,
+    Correspondence,
+    Example,
+    Object,
+    ParseTree,
+    Phrase,
+    PhraseKind,
+    Pose,
+    Symbol,
+    WorldModel,
+)
 
 # What people call the places; the side is the one that the word itself names, seen from the robot.
 _PLACE_WORDS = {
@@ -26,10 +41,31 @@ _PLACE_WORDS = {
     "you": ("robot", None),
     "robot": ("robot", None),
     "yourself": ("robot", None),
+    "floor": ("ground", None),
+    "ground": ("ground", None),
+    "board": ("ground", None),
+    "table": ("ground", None),
     "me": ("speaker", None),
     "myself": ("speaker", None),
     "speaker": ("speaker", None),
 }
+_DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "back": "near side"}
+"""Nouns for the sides of somebody: "on your left"."""
+_OWNERS = {"your": "of robot", "my": "of speaker"}
+_GROUP_WORDS = {
+    "row": ("row",),
+    "line": ("row",),
+    "column": ("row", "stack"),
+    "stack": ("stack",),
+    "tower": ("stack",),
+    "pile": ("stack", "cluster"),
+    "heap": ("stack", "cluster"),
+    "group": ("cluster",),
+    "bunch": ("cluster",),
+    "cluster": ("cluster",),
+    "collection": ("cluster",),
+}
+"""What people call groups."""
 _ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 _SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
@@ -40,6 +76,10 @@ _SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
+_EITHER_END = frozenset({"back", "front"})
+"""Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
+_AMBIGUOUS = 0.05
+_GROUP_WEIGHT = 0.5
 _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
 
@@ -49,39 +89,115 @@ def place_symbols() -> list[Symbol]:
     return [Symbol(word, kind) for word, (kind, _) in _PLACE_WORDS.items()]
 
 
+def group_nouns() -> tuple[str, ...]:
+    """The words for groups that are known from the start."""
+    return tuple(_GROUP_WORDS)
+
+
 def place_examples() -> list[Example]:
-    """Hand-made examples of what the words for places, and for their sides, mean."""
+    """Hand-made examples of what the words for places, for their sides, and for groups mean."""
     robot, speaker = Pose(0.0, 0.0), Pose(4.0, 0.0)
     things = space.places((1.0, 7.0, -3.0, 3.0), robot, speaker)
     cube = Object("cube", "cube", known=True)
     world = WorldModel((cube,), robot, speaker, things)
-    phrases: list[tuple[Phrase, str, set[str]]] = []
+    phrases: list[tuple[Phrase, set[str], set[str]]] = []
     for noun, (kind, side) in _PLACE_WORDS.items():
         phrase = Phrase(PhraseKind.NOUN, noun, noun=noun, context=("landmark",))
-        phrases.append((phrase, kind, set() if side is None else {side}))
+        phrases.append((phrase, {kind}, set() if side is None else {side}))
         if kind in ("corner", "edge") and side is None:
-            for word, of_word in _SIDE_WORDS.items():
-                phrases.append((replace(phrase, words=(word,)), kind, {of_word}))
+            phrases += [(replace(phrase, words=(word,)), {kind}, {of}) for word, of in _SIDE_WORDS.items()]
+        if noun in _DIRECTIONS:
+            for word, owner in _OWNERS.items():
+                whose = replace(phrase, words=(word,))
+                phrases.append((whose, {"direction"}, {_DIRECTIONS[noun], owner}))
     return [
         Example(
             phrase,
             world,
             tuple(
-                Correspondence.ACTIVE if o.type == kind and sides <= o.attributes else Correspondence.INACTIVE
+                Correspondence.ACTIVE if o.type in kinds and sides <= o.attributes else Correspondence.INACTIVE
                 for o in world.things
             ),
-            weight=_PLACE_WEIGHT,
+            weight=_PLACE_WEIGHT * (_AMBIGUOUS if {phrase.noun, *phrase.words} & _EITHER_END else 1.0),
         )
-        for phrase, kind, sides in phrases
-    ]
+        for phrase, kinds, sides in phrases
+    ] + _group_examples()
+
+
+def _group_examples() -> list[Example]:
+    """A row, a stack and a cluster of cubes: which of them a word means, and that a cube alone is none of them."""
+    rows = [Object(f"row {k}", "cube", known=True, position=(3.0, 1.0 * k, 0.0)) for k in range(3)]
+    stack = [Object(f"stack {k}", "cube", known=True, position=(8.0, 0.0, 1.0 * k)) for k in range(3)]
+    heap = [Object(f"heap {k}", "cube", known=True, position=(14.0 + k % 2, 1.0 * (k // 2), 0.0)) for k in range(4)]
+    objects = (*rows, *stack, *heap)
+    kept = [g for g in space.groups(objects) if {m.split()[0] for m in g.members} in ({"row"}, {"stack"}, {"heap"})]
+    groups = tuple(g for g in kept if ("row" in g.attributes) == g.members[0].startswith("row"))
+    world = WorldModel(objects, Pose(0.0, 0.0), groups=groups)
+
+    def labels(kinds: tuple[str, ...]) -> tuple[Correspondence, ...]:
+        meant = [bool(o.attributes & set(kinds)) if o.members else not kinds for o in world.things]
+        return tuple(Correspondence.ACTIVE if m else Correspondence.INACTIVE for m in meant)
+
+    said = [Example(Phrase(PhraseKind.NOUN, "cube", noun="cube"), world, labels(()), weight=_GROUP_WEIGHT)]
+    for word, kinds in _GROUP_WORDS.items():
+        alone = Phrase(PhraseKind.NOUN, word, noun=word)
+        of_cubes = Phrase(PhraseKind.NOUN, f"{word} of cubes", (word,), "cube", plural=True)
+        said += [Example(phrase, world, labels(kinds), weight=_GROUP_WEIGHT) for phrase in (alone, of_cubes)]
+    return said
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What the scenes of one robot have in common.
+
+    Attributes:
+        bounds: of its workspace, seen from the robot; None: each scene has its own, those of its objects.
+        unit: metres that neighbours are apart.
+    """
+
+    bounds: space.Bounds | None = None
+    unit: float = 1.0
+
+
+def furnished(world: WorldModel, workspace: Workspace | None = None) -> WorldModel:
+    """A world with the places that can be spoken of."""
+    workspace = workspace or Workspace()
+    bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
+    if bounds is None and there:
+        bounds = space.scene_bounds(there, world.robot)
+    return replace(world, places=space.places(bounds, world.robot, world.speaker), unit=workspace.unit)
+
+
+def grouped(world: WorldModel, tree: ParseTree) -> WorldModel:
+    """A world with the groups that its objects form, if the command speaks of any."""
+    if not any(is_group(node.phrase) for node in tree.walk()):
+        return world
+    return replace(world, groups=space.groups(world.objects, world.unit))
+
+
+def is_group(phrase: Phrase) -> bool:
+    """Does a noun phrase speak of a group of objects?"""
+    return phrase.kind is PhraseKind.NOUN and any(w in _GROUP_WORDS for w in (phrase.noun, *phrase.words))
+
+
+def coordinated(tree: ParseTree) -> list[ParseTree]:
+    """A tree for each noun phrase that a command is about: "the cube and the cone" is two of them."""
+    first = tree.children[0] if tree.children else None
+    if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
+        return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in first.children] or [tree]
+    nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
+    if tree.phrase.kind is PhraseKind.NOUN or len(nouns) < 2:
+        return [tree]
+    others = tuple(child for child in tree.children if child.phrase.kind is not PhraseKind.NOUN)
+    return [replace(tree, children=(noun, *others)) for noun in nouns]
 
 
 def relational(tree: ParseTree) -> ParseTree:
     """The path to the object meant, with everything that describes the object.
 
     A preposition below a noun phrase becomes a MODIFIER, and phrases get their context: a noun phrase what is done
-    with its object ("object of take") or that it is a landmark and of what; a modifier and a describing word, what
-    the object is compared with ("of kind": type and colour are said; "of type"; "of color"; "of all").
+    with its object ("object of take") or that it is a landmark and of what; a modifier what its landmark is. Both are
+    told what "the closest" is one of.
     """
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
@@ -97,28 +213,54 @@ def relational(tree: ParseTree) -> ParseTree:
     return replace(tree, children=(child,))
 
 
-def compared(phrase: Phrase) -> str:
+def among(phrase: Phrase) -> str:
     """What a noun phrase's object is one of: of those of its kind, type or colour, or of all."""
     if phrase.noun is not None:
-        return "of kind" if phrase.color is not None else "of type"
-    return "of color" if phrase.color is not None else "of all"
+        return "kind" if phrase.color is not None else "type"
+    return "color" if phrase.color is not None else "all"
 
 
 def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
     """What a modifier is relative to: things stand otherwise to a corner than to another thing."""
-    noun = tree.children[0].phrase.noun
-    return ("to a place", f"to {_PLACE_WORDS[noun][0]}") if noun in _PLACE_WORDS else ("to a thing",)
+    phrase = tree.children[0].phrase
+    if is_group(phrase):
+        return ("to a group",)
+    return ("to a place", f"to {_PLACE_WORDS[phrase.noun][0]}") if phrase.noun in _PLACE_WORDS else ("to a thing",)
 
 
 def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in _ANYTHING else tree.phrase
-    of = compared(phrase)
-    modifiers = [
-        ParseTree(
-            Phrase(PhraseKind.MODIFIER, child.phrase.text, child.phrase.words, context=(of, *_landmark_context(child))),
-            tuple(_noun(n, (f"landmark of {' '.join(child.phrase.words)}", "landmark")) for n in child.children),
-        )
-        for child in tree.children
-        if child.phrase.kind is PhraseKind.PREPOSITION and child.children
-    ]
-    return ParseTree(replace(phrase, context=context), tuple(modifiers))
+    described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
+    if any(_is_bare(child) for child in described):
+        described = [child for child in described if not _is_bare(child)]
+        phrase = replace(phrase, words=(*phrase.words, _BARE))
+    modifiers = tuple(_modifier(child, phrase) for child in described)
+    return ParseTree(replace(phrase, context=context, among=among(phrase)), modifiers)
+
+
+_BARE = "nothing on it"
+"""Word of a noun phrase: "the cube with nothing on it"."""
+
+
+def _is_bare(tree: ParseTree) -> bool:
+    """ "with nothing on top": there is no landmark, the object is bare."""
+    return tree.children[0].phrase.noun in ("nothing", "anything") and tree.phrase.words[0] in ("with", "without")
+
+
+def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
+    words = tree.phrase.words
+    if words[0].startswith(f"{NOT} "):
+        words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
+    landmarks = [_noun(n, (f"landmark of {' '.join(words)}", "landmark")) for n in tree.children]
+    if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
+        landmarks *= 2  # "between the two cones": two of one description
+    several = head.count if head.count is not None and head.count > 1 else None
+    phrase = Phrase(
+        PhraseKind.MODIFIER,
+        tree.phrase.text,
+        words,
+        count=several,
+        context=_landmark_context(tree),
+        among=among(head),
+    )
+    return ParseTree(phrase, tuple(landmarks))

@@ -18,10 +18,11 @@ from safetensors.torch import load_file, save_file
 
 from dcg_torch.encoding import Statistics
 from dcg_torch.features import FeatureSet
-from dcg_torch.lexical import Bounds, LexicalModel, Words
+from dcg_torch.lexical import LexicalModel, Words
 from dcg_torch.loglinear import LogLinearModel, Merged
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.open_world import Mind, OpenWorldModel
+from dcg_torch.relational import Workspace
 from dcg_torch.symbols import Correspondence, Example, Symbol
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
@@ -42,7 +43,7 @@ class _Description:
     corpus: tuple[Example, ...] = ()
     mind: Mind | None = None
     words: Words | None = None
-    workspace: Bounds | None = None
+    workspace: Workspace | None = None
     apart: tuple[tuple[str, ...], tuple[str, ...]] | None = None  # the columns of a corpus's statistics
     places: tuple[str, ...] = ()
 
@@ -126,7 +127,7 @@ def load(directory: Path) -> GroundingModel:
             words=described.words,
             statistics=_statistics(described, tensors, directory),
         )
-        lexical.workspace = described.workspace
+        lexical.workspace = described.workspace or Workspace()
         return lexical
     return GroundingModel(
         described.variant, described.symbols, described.examples, features, loglinear, described.corpus

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from dcg_torch.graph import FactorGraph, Hypothesis
 from dcg_torch.loglinear import FitResult
 from dcg_torch.model import GroundingModel
+from dcg_torch.relational import coordinated, grouped, is_group
 from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
 
 _NEGLIGIBLE = 0.02
@@ -53,21 +54,42 @@ def teach(
         beam: landmarks considered for each modifier.
         progress: called with the number of each round that is done.
     """
-    prepared = [(lesson, noun) for lesson in lessons if (noun := _noun(model.readable(lesson.tree))) is not None]
+    prepared = [part for lesson in lessons for part in _parts(model, lesson)]
     words, colors = _inventory(prepared, known_types, known_colors)
-    phrases = [Example(node.phrase, lesson.world, ()) for lesson, noun in prepared for node in noun.walk()]
+    phrases = [Example(node.phrase, part.world, ()) for part in prepared for node in part.noun.walk()]
     for word in words:
         model.symbols.setdefault(word.word, word)
     model.features = model.features.extended(words, colors, phrases)
     model.loglinear.grow(model.features.pairs)
     before = list(model.corpus)
     for number in range(rounds):
-        model.corpus = before + [e for lesson, noun in prepared for e in _expect(model, lesson, noun, beam)]
+        model.corpus = before + [e for part in prepared for e in _expect(model, part, beam)]
         # The weights are only on their way until the landmarks have settled.
         fitted = model.train(max_steps=_STEPS if number == rounds - 1 else _STEPS // 4)
         if progress is not None:
             progress(number)
     return fitted
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One noun phrase that a lesson is about; `alone` if the lesson joins no others to it."""
+
+    noun: ParseTree
+    world: WorldModel
+    targets: frozenset[str]
+    alone: bool
+
+
+def _parts(model: GroundingModel, lesson: Lesson) -> list[_Part]:
+    """The noun phrases that a lesson joins, each in the world with the groups that it may speak of."""
+    found = []
+    trees = coordinated(lesson.tree)
+    for tree in trees:
+        noun = _noun(model.readable(tree))
+        if noun is not None:
+            found.append(_Part(noun, grouped(lesson.world, tree), lesson.targets, len(trees) == 1))
+    return found
 
 
 def _noun(tree: ParseTree) -> ParseTree | None:
@@ -76,44 +98,63 @@ def _noun(tree: ParseTree) -> ParseTree | None:
 
 
 def _inventory(
-    prepared: Sequence[tuple[Lesson, ParseTree]],
-    known_types: Collection[str] | None,
-    known_colors: Collection[str] | None,
+    prepared: Sequence[_Part], known_types: Collection[str] | None, known_colors: Collection[str] | None
 ) -> tuple[list[Symbol], list[str]]:
     """The symbols that the lessons make known, each noun for the type it means most, and their colours."""
     meant: dict[str, Counter[str]] = {}
     colors: dict[str, None] = {}
-    for lesson, noun in prepared:
-        for o in lesson.world.objects:
-            if o.id in lesson.targets and o.type is not None and (known_types is None or o.type in known_types):
-                if noun.phrase.noun is not None:
-                    meant.setdefault(noun.phrase.noun, Counter())[o.type] += 1
+    for part in prepared:
+        for o in part.world.objects:
+            if o.id in part.targets and o.type is not None and (known_types is None or o.type in known_types):
+                if part.noun.phrase.noun is not None and part.alone:
+                    meant.setdefault(part.noun.phrase.noun, Counter())[o.type] += 1
                 if o.color is not None and (known_colors is None or o.color in known_colors):
                     colors[o.color] = None
-        for node in noun.walk():
-            if node.phrase.color is not None and (known_colors is None or node is noun):
+        for node in part.noun.walk():
+            if node.phrase.color is not None and (known_colors is None or node is part.noun):
                 colors[node.phrase.color] = None
     return [Symbol(word, types.most_common(1)[0][0]) for word, types in meant.items()], list(colors)
 
 
-def _expect(model: GroundingModel, lesson: Lesson, noun: ParseTree, beam: int) -> list[Example]:
-    """The examples of a lesson, weighted by what the present model takes its landmarks to be."""
-    world = lesson.world
-    meant = [j for j, o in enumerate(world.objects) if o.id in lesson.targets]
-    labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.objects)
-    for j, o in enumerate(world.objects):
-        if noun.children and any(_alike(noun.phrase, o, world.objects[k]) for k in meant):
-            labels[j] = None  # here it is the modifiers that tell them apart
-    for j in meant:
-        labels[j] = Correspondence.ACTIVE
-    examples = [Example(noun.phrase, world, tuple(labels))]
-    if noun.children:
-        graph = FactorGraph(noun, world)
+def _expect(model: GroundingModel, part: _Part, beam: int) -> list[Example]:
+    """The examples of a noun phrase, weighted by what the present model takes its landmarks to be."""
+    world, noun = part.world, part.noun
+    graph = FactorGraph(noun, world)
+    examples: list[Example] = []
+    for share, meant in _choices(model, part, graph):
+        labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.meanable)
+        for j, o in enumerate(world.meanable):
+            told_apart = bool(noun.children) and any(_alike(noun.phrase, o, world.things[k]) for k in meant)
+            if told_apart or (o.id in part.targets and not part.alone):
+                labels[j] = None  # here it is the modifiers, or the other noun phrases, that tell them apart
         for j in meant:
+            labels[j] = Correspondence.ACTIVE
+        examples.append(Example(noun.phrase, world, tuple(labels), weight=share))
+        for j in meant if noun.children else ():
             for weight, hypothesis in graph.landmarks(j, model.features, model.loglinear, beam=beam):
                 if weight > _NEGLIGIBLE:
-                    examples += _modifier(hypothesis, noun.phrase, world, weight / len(meant), lesson.targets)
+                    targets = {world.things[k].id for k in meant} | part.targets
+                    examples += _modifier(hypothesis, noun.phrase, world, share * weight / len(meant), targets)
     return examples
+
+
+def _choices(model: GroundingModel, part: _Part, graph: FactorGraph) -> list[tuple[float, list[int]]]:
+    """What a noun phrase may mean of what the lesson means, with weights: numbers of things.
+
+    A phrase for a group means the group whose members are meant. Of several joined phrases, each means one of the
+    targets: which, the present model says.
+    """
+    things = part.world.things
+    if is_group(part.noun.phrase):
+        groups = [j for j, o in enumerate(things) if o.members and part.targets == set(o.members)]
+        if groups:
+            return [(1.0, groups)]
+    meant = [j for j, o in enumerate(part.world.objects) if o.id in part.targets]
+    if part.alone or part.noun.phrase.plural:
+        return [(1.0, meant)]
+    probabilities = graph.solve(model.features, model.loglinear).probabilities
+    shares = [probabilities[things[j].id] for j in meant]
+    return [(s / sum(shares), [j]) for s, j in zip(shares, meant, strict=True) if s > _NEGLIGIBLE * sum(shares)]
 
 
 def _modifier(
@@ -126,7 +167,7 @@ def _modifier(
     for j, thing in enumerate(world.things):
         if thing.id == meant.id:
             near[j] = Correspondence.ACTIVE
-        elif thing.id not in targets and j < len(world.objects):
+        elif thing.id not in targets and j < len(world.meanable):
             (near if _alike(head, thing, meant) else far)[j] = Correspondence.INACTIVE
     phrase, children = hypothesis.tree.phrase, tuple(h.child for h in hypothesis.children)
     examples = [

@@ -29,6 +29,10 @@ class PhraseKind(enum.StrEnum):
     MODIFIER = "modifier"  # a preposition that describes a noun phrase: "(the cone) behind (the cube)"
 
 
+NOT = "not"
+"""Word of a modifier that is negated ("not on the cube"): it says how the factor is read, and is no feature of it."""
+
+
 class GroundingKind(enum.StrEnum):
     """What a phrase may ground to; every grounding is about one object."""
 
@@ -46,7 +50,8 @@ class Phrase:
     word of a preposition). A noun phrase has its head in `noun` (singular, "fire hydrant" is one noun, None
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
     `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
-    of its meaning ("object of take").
+    of its meaning ("object of take"), and `among` what "the closest" is the closest of: things of one "kind", "type"
+    or "color", or "all".
     """
 
     kind: PhraseKind
@@ -57,6 +62,7 @@ class Phrase:
     plural: bool = False
     count: int | None = None
     context: tuple[str, ...] = ()
+    among: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +106,10 @@ class Percept:
 
 @dataclass(frozen=True, slots=True)
 class Object:
-    """An element of Upsilon. A hypothetical object has no position, and no type if it is unknown too."""
+    """An element of Upsilon. A hypothetical object has no position, and no type if it is unknown too.
+
+    A group of objects has `members`, their ids, and the type and colour that they share.
+    """
 
     id: str
     type: str | None
@@ -110,24 +119,34 @@ class Object:
     position: tuple[float, float, float] | None = None
     size: tuple[float, float, float] | None = None
     attributes: frozenset[str] = frozenset()
+    members: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class WorldModel:
     """Upsilon, with the poses that "in front of" or "closest to me" are relative to.
 
-    `places` can be spoken of but not be meant: corners, edges, the middle, the robot, the speaker.
+    `groups` are rows, stacks and clusters of objects: a command about one means its members. `places` can be spoken
+    of but not be meant: corners, edges, the middle, the robot, the speaker. `unit` is the length in metres that
+    neighbours are apart in scenes like this: what "next to" is measured by.
     """
 
     objects: tuple[Object, ...]
     robot: Pose | None = None
     speaker: Pose | None = None
     places: tuple[Object, ...] = ()
+    groups: tuple[Object, ...] = ()
+    unit: float = 1.0
 
     @property
     def things(self) -> tuple[Object, ...]:
-        """All that a noun phrase may speak of: the objects, then the places."""
-        return self.objects + self.places
+        """All that a noun phrase may speak of: the objects, then the groups, then the places."""
+        return self.objects + self.groups + self.places
+
+    @property
+    def meanable(self) -> tuple[Object, ...]:
+        """What a command may be about: the objects, then the groups."""
+        return self.objects + self.groups
 
 
 @dataclass(frozen=True, slots=True)
