@@ -106,30 +106,6 @@ class Statistics:
     parts: tuple[Merged, ...]
     places: frozenset[str]
 
-    @classmethod
-    def of(
-        cls, examples: Sequence[Example], features: FeatureSet, correspondences: Sequence[Correspondence]
-    ) -> Statistics:
-        """Of a corpus, with all columns that `features` has."""
-        nouns: dict[str, None] = {}
-        types: dict[str, None] = {}
-        colors: dict[str, None] = {}
-        worlds = {id(e.world): e.world for e in examples}
-        for world in worlds.values():
-            types |= {o.type: None for o in world.things if o.type is not None}
-            colors |= {o.color: None for o in world.things if o.color is not None}
-        places = frozenset(o.type for world in worlds.values() for o in world.places if o.type is not None)
-        for example in examples:
-            if example.phrase.noun is not None:
-                nouns[example.phrase.noun] = None
-            if example.phrase.color is not None:
-                colors[example.phrase.color] = None
-        apart = features.extended((), list(colors), examples).include(nouns=nouns, types=types)
-        known = {key: _all_known(world) for key, world in worlds.items()}
-        encoder = Encoder(apart)
-        parts = merged([replace(e, world=known[id(e.world)]) for e in examples], encoder, correspondences)
-        return cls(apart, tuple(parts), places)
-
     def joined(self, other: Statistics) -> Statistics:
         """Those of both corpora, under the columns of both."""
         features = self.features.joined(other.features)
@@ -146,6 +122,38 @@ class Statistics:
         types = self.places | set(known_types)
         grounding = _renaming(self.features.grounding, features.grounding, lambda n: _grounding(n, features, types))
         return [_under(part, language, grounding).table(features.shape) for part in self.parts]
+
+
+class Reader:
+    """Makes the statistics of a corpus, again and again: what a world looks like is encoded once."""
+
+    def __init__(self) -> None:
+        self._encoder: Encoder | None = None
+        self._known: dict[int, tuple[WorldModel, WorldModel]] = {}
+
+    def statistics(
+        self, examples: Sequence[Example], features: FeatureSet, correspondences: Sequence[Correspondence]
+    ) -> Statistics:
+        """Of a corpus, with all columns that `features` has."""
+        worlds = {id(e.world): e.world for e in examples}
+        for key, world in worlds.items():
+            if key not in self._known:
+                self._known[key] = world, _all_known(world)  # the world too, so that no other gets the same id
+        things = [o for world in worlds.values() for o in world.things]
+        types = {o.type: None for o in things if o.type is not None}
+        nouns = {e.phrase.noun: None for e in examples if e.phrase.noun is not None}
+        colors = {o.color: None for o in things if o.color is not None}
+        colors |= {e.phrase.color: None for e in examples if e.phrase.color is not None}
+        start = features if self._encoder is None else self._encoder.features.joined(features)
+        apart = start.extended((), list(colors), examples).include(nouns=nouns, types=types)
+        if self._encoder is None or len(apart.grounding) > len(self._encoder.features.grounding):
+            self._encoder = Encoder(apart)
+        self._encoder.features = apart  # its grounding columns are the old ones, and so are its bags
+        found = merged(
+            [replace(e, world=self._known[id(e.world)][1]) for e in examples], self._encoder, correspondences
+        )
+        places = frozenset(o.type for world in worlds.values() for o in world.places if o.type is not None)
+        return Statistics(apart, tuple(found), places)
 
 
 def _under(part: Merged, language: NDArray[np.int64], grounding: NDArray[np.int64]) -> Merged:

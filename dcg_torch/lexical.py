@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.binary import Factors, fit
-from dcg_torch.encoding import Statistics, encode
+from dcg_torch.encoding import Reader, Statistics, encode
 from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import replace_unknown
@@ -111,6 +111,7 @@ class LexicalModel(GroundingModel):
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.words = words or Words()
         self.workspace = Workspace()
+        self._reader = Reader()
         self._restored = statistics
         self._statistics: Statistics | None = None
         self._taught_under: _Taught | None = None
@@ -183,6 +184,7 @@ class LexicalModel(GroundingModel):
         phrase = solution.noun
         if phrase is None or not self.variant.learns:
             return None
+        self._reader = Reader()  # the corpus is complete: what it was encoded from is not needed any more
         self._settle()
         before = self.symbols.get(phrase.noun or "")
         for part in (solution, *solution.further):
@@ -219,7 +221,7 @@ class LexicalModel(GroundingModel):
     def statistics(self) -> Statistics:
         """The corpus as sufficient statistics: of its examples, and those that the model was restored with."""
         if self._statistics is None:
-            own = Statistics.of(self.corpus, self.features, self.loglinear.correspondences)
+            own = self._reader.statistics(self.corpus, self.features, self.loglinear.correspondences)
             self._statistics = own if self._restored is None else self._restored.joined(own)
         return self._statistics
 

@@ -188,12 +188,23 @@ def merge(
         weight: (n,) of each factor in the likelihood.
         correspondences: P.
     """
-    a_rows, a_of = np.unique(_distinct(language), axis=0, return_inverse=True)
-    keyed = np.column_stack([a_of.reshape(-1)[phrase], _distinct(grounding)])
-    rows, which = np.unique(keyed, axis=0, return_inverse=True)
+    a_rows, a_of = _unique(_distinct(language))
+    rows, which = _unique(np.column_stack([a_of[phrase], _distinct(grounding)]))
     count = np.zeros((correspondences, len(rows)))
-    np.add.at(count, (label, which.reshape(-1)), weight)
+    np.add.at(count, (label, which), weight)
     return Merged(a_rows, rows[:, 1:], rows[:, 0], count)
+
+
+def _unique(rows: Bag) -> tuple[Bag, NDArray[np.int64]]:
+    """`numpy.unique` of rows, with the inverse: most repeats fall away by a hash, before rows are sorted."""
+    factors = np.random.default_rng(0).integers(1, 2**63, size=rows.shape[1], dtype=np.uint64) | np.uint64(1)
+    hashed = (rows.astype(np.uint64) * factors).sum(axis=1, dtype=np.uint64)
+    _, first, group = np.unique(hashed, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    if not np.array_equal(rows[first][group], rows):  # two rows with one hash
+        first, group = np.arange(len(rows)), np.arange(len(rows))
+    found, which = np.unique(rows[first], axis=0, return_inverse=True)
+    return found, which.reshape(-1)[group]
 
 
 def tabulate(
