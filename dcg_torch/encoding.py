@@ -63,7 +63,8 @@ class Encoder:
         if landmarks is None:
             return self.features.encode_things(world, space.layout(world), counted)
         index = {thing.id: j for j, thing in enumerate(world.things)}
-        return self.features.encode_placed(space.layout(world), [[index[i] for i in landmarks]], counted)[0]
+        rows = self.features.encode_placed(space.layout(world), [[index[i] for i in landmarks]], counted)
+        return rows.reshape(rows.shape[1:])
 
 
 def _merge(

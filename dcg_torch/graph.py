@@ -211,7 +211,7 @@ class FactorGraph:
 
     def runner_up(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Hypothesis | None:
         """The best configuration whose noun phrase means another object than the best one's; None if there is none."""
-        root = self._pass(features, model, beam) if self.world.objects else None
+        root = self._pass(features, model, beam)[0] if self.world.objects else None
         ranked = [] if root is None else self._best(root, root.scores.size)
         return next((h for h in ranked if _meant(h) != _meant(ranked[0])), None)
 

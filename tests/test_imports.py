@@ -19,7 +19,8 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 LAYERS = (
     {"symbols", "resources", "records"},
     {"space", "loglinear", "language", "world"},
-    {"settings", "features", "meaning", "relational", "episodes", "console", "report", "simulator", "speaker"},
+    {"settings", "features", "meaning", "relational", "console", "report", "simulator", "speaker"},
+    {"episodes"},
     {"graph", "baseline"},
     {"binary", "encoding", "learning"},
     {"model"},
