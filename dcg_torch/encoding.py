@@ -207,5 +207,6 @@ def _renaming(
 def _renamed(bag: Bag, table: NDArray[np.int64]) -> Bag:
     """A bag under other columns, without columns of padding alone."""
     rows = np.sort(table[bag].reshape(len(bag), -1), axis=1)
+    rows[:, 1:][rows[:, 1:] == rows[:, :-1]] = -1  # two unknown colours of a group are one feature
     used = (rows >= 0).any(axis=0)
     return rows[:, used]

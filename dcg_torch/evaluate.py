@@ -13,13 +13,13 @@ import hydra
 import numpy as np
 import torch
 from hydra.core.hydra_config import HydraConfig
-from omegaconf import DictConfig, OmegaConf
+from omegaconf import DictConfig
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
 from dcg_torch.__main__ import refuse, run_application
-from dcg_torch.config import CONFIG_ERRORS, save_composed
+from dcg_torch.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
 from dcg_torch.config import explain as explain_error
 from dcg_torch.console import Bar, make_console
 from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
@@ -190,9 +190,7 @@ def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> Non
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
     try:
-        settings = OmegaConf.to_object(config)
-        assert isinstance(settings, EvaluateSettings)
-        figures = evaluate(settings, directory, console)
+        figures = evaluate(evaluate_settings_of(config), directory, console)
         save_composed(config, directory)
         text = json.dumps({**figures, "run_dir": str(directory)})
         part = directory / f"{SUMMARY}.part"

@@ -20,6 +20,8 @@ from dcg_torch.symbols import WorldModel
 from dcg_torch.trial.command import Parse, Parser
 
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
+_GENERATED = 0.1
+"""Weight of a generated lesson against one of people's."""
 _LEARNING_STEPS = 10  # L-BFGS iterations after a command: the optimum moves little, and is followed
 
 
@@ -103,6 +105,7 @@ class Evaluation:
         parse: reads commands.
         known_types: leave out the training episodes about other types; None keeps all.
         known_colors: leave out the training episodes about objects of other colours; None keeps all.
+        generated: lessons that come first, and weigh little: what words for relations mean until people say otherwise.
         rounds: of expectation-maximisation over the landmarks.
         progress: called as each round ends.
     """
@@ -116,6 +119,7 @@ class Evaluation:
         *,
         known_types: Collection[str] | None = None,
         known_colors: Collection[str] | None = None,
+        generated: Sequence[Lesson] = (),
         rounds: int = 4,
         progress: Callable[[int], None] | None = None,
     ) -> None:
@@ -133,6 +137,8 @@ class Evaluation:
             nouns = _counted((reading.noun, _types_meant(e)) for e, reading in read)
             colors = _counted((reading.color, _colors_meant(e)) for e, reading in read)
             self.model.taught(sorted(self._meant), nouns, colors)
+        if generated:
+            teach(self.model, [replace(lesson, weight=_GENERATED) for lesson in generated], rounds=2)
         teach(
             self.model,
             [Lesson(r.tree, self.world(e), frozenset(e.target)) for e, r in read if r.tree is not None],

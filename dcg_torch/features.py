@@ -246,19 +246,19 @@ class FeatureSet:
         if phrase.color is not None:
             stated = f"color: {phrase.color}"
             names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
+            names += [f"color: {word}" for word in phrase.words]  # "the red and blue tower"
         return [name for name in names if name in self.language]
 
-    def object_names(self, obj: Object) -> list[str]:
-        """Names of the grounding features that fire for an object by itself, or for what the members of a group are."""
+    def object_names(self, obj: Object, colors: Sequence[str] = ()) -> list[str]:
+        """Names of the grounding features that fire for an object by itself; for a group, with its members' colours."""
         names = [f"type: {obj.type}", "known: yes"] if obj.known else ["type: (unmet)", "known: no"]
         if obj.hypothetical:
             names.append("hypothetical: yes")
             if LOOKED_ROUND in obj.attributes:
                 names.append(f"hypothetical: {LOOKED_ROUND}")
-        if obj.color is not None:
-            own = f"color: {obj.color}"
+        for own in (f"color: {color}" for color in (colors or (obj.color,)) if color is not None):
             names.append(own if own in self.grounding else "color: unknown")
-        return [name for name in names if name in self.grounding]
+        return [name for name in dict.fromkeys(names) if name in self.grounding]
 
     def encode_phrases(self, phrases: Sequence[Phrase]) -> Bag:
         """(len(phrases), k) bag of language columns."""
@@ -312,7 +312,12 @@ class FeatureSet:
         Returns:
             (len(world.things), k) bag.
         """
-        names = [[f"kind: {GroundingKind.OBJECT}", *self.object_names(o)] for o in world.things]
+        members = {o.id: o.color for o in world.objects}
+        colors = [[c for m in o.members if (c := members[m]) is not None] for o in world.things]
+        names = [
+            [f"kind: {GroundingKind.OBJECT}", *self.object_names(o, of_members)]
+            for o, of_members in zip(world.things, colors, strict=True)
+        ]
         if Group.RELATION in self.groups:
             for own, more in zip(names, space.states(where), strict=True):
                 own += more

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +28,8 @@ from dcg_torch.features import FeatureSet
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import replace_unknown
 from dcg_torch.loglinear import FitResult, LogLinearModel
-from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
-from dcg_torch.meaning.soft import NEVER_HEARD, Pair, pair_examples
+from dcg_torch.meaning.beliefs import UNMET, Evidence
+from dcg_torch.meaning.soft import Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
 from dcg_torch.relational import Workspace, group_nouns, place_symbols
 from dcg_torch.symbols import (
@@ -39,41 +39,18 @@ from dcg_torch.symbols import (
     ParseTree,
     Percept,
     Phrase,
-    PhraseKind,
     Pose,
     Symbol,
     WorldModel,
 )
+from dcg_torch.words import Words, apart, soft_labels
 
-_SLIP = 0.1
-"""Share of commands in which the rest of a command is taken to mean another object than it does."""
 _HELD = 0.5
 """A learned word keeps its meaning while its probability is above this."""
 _MOVED = 1e-3
 """Probability by which a posterior must have moved for the weights to be fitted to it again."""
-_AGREEING, _AGREED = 3, 0.8
-"""A word of the corpus is settled by as many lessons that agree, if they are this share of all that had it."""
 _STRENGTH = 5.0
 _ENOUGH = 0.8  # where the variant does not say how probable a meaning must be
-
-
-@dataclass(frozen=True)
-class Words:
-    """What has been learned about words since the corpus.
-
-    Attributes:
-        nouns: the evidence about nouns and types.
-        colors: the same about words for colours and the colours of percepts.
-        taught_colors: words for colours that the training taught, and what they name.
-        taught_types: types known from the training, with or without a name.
-        color_words: words for colours that have been learned, and what they name.
-    """
-
-    nouns: Beliefs = field(default_factory=lambda: Beliefs(Prior(slip=_SLIP)))
-    colors: Beliefs = field(default_factory=lambda: Beliefs(Prior(slip=_SLIP)))
-    taught_colors: Mapping[str, str] = field(default_factory=dict)
-    taught_types: tuple[str, ...] = ()
-    color_words: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -157,18 +134,7 @@ class LexicalModel(GroundingModel):
             nouns: how many lessons said each noun of an object of each type.
             colors: the same for words for colours and colours.
         """
-        settled, heard = dict(self.words.taught_colors), self.words.colors
-        for word, values in (colors or {}).items():
-            if _sure(values):
-                settled[word] = max(values, key=lambda v: values[v])
-            elif word not in settled:
-                heard = _weighed(heard, word, values)
-        of_nouns = self.words.nouns
-        for word, values in (nouns or {}).items():
-            if not _sure(values):
-                of_nouns = _weighed(of_nouns, word, values)
-        taught = tuple(dict.fromkeys((*self.words.taught_types, *types)))
-        self.words = replace(self.words, nouns=of_nouns, colors=heard, taught_types=taught, taught_colors=settled)
+        self.words = self.words.taught(types, nouns or {}, colors or {})
 
     def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Weigh what a command tells about its noun and colour word, and train if their meaning has moved.
@@ -251,15 +217,9 @@ class LexicalModel(GroundingModel):
 
     def _settle(self) -> None:
         """Take as settled what the training taught: all symbols and colours that were not learned since."""
-        nouns, colors = self.words.nouns, self.words.colors
         given = {s.word: s.type for s in place_symbols()} | dict.fromkeys(group_nouns(), "group")
-        named = given | {s.word: s.type for s in self.symbols.values() if s.word not in nouns.heard}
-        if named != nouns.settled:
-            nouns = replace(nouns, settled=named).meet(named.values())
-        if self.words.taught_colors != colors.settled:
-            colors = replace(colors, settled=dict(self.words.taught_colors))
-            colors = colors.meet(colors.settled.values())
-        self.words = replace(self.words, nouns=nouns, colors=colors)
+        named = {s.word: s.type for s in self.symbols.values() if s.word not in self.words.nouns.heard}
+        self.words = self.words.settled(given | named)
 
     def _without(self, solution: Solution, phrase: Phrase) -> list[tuple[Object, float]]:
         """How probable each object is if `phrase` stands in the place of the noun phrase.
@@ -310,56 +270,13 @@ class LexicalModel(GroundingModel):
             self.examples = replace_unknown(self.examples, self.known_types)
         # A fit that was cut short goes on with the next command, so that the optimum is followed.
         underway = self.fitted is None or self.fitted.status == "step limit"
-        if underway or self._fitted_to is None or _apart(self._pairs(), self._fitted_to) > _MOVED:
+        if underway or self._fitted_to is None or apart(self._pairs(), self._fitted_to) > _MOVED:
             self.train(max_steps=max_steps)
 
     def _pairs(self) -> list[Pair]:
         """The soft labels of every learned word, and of one never heard."""
         self._settle()
-        return [*self._noun_pairs(), *self._color_pairs()]
-
-    def _noun_pairs(self) -> list[Pair]:
-        nouns, known = self.words.nouns, self.known_types
-        table, new = nouns.said_of()
-        types = nouns.posterior.types
-        at = [k for k, t in enumerate(types) if t in known]
-        strange = [k for k, t in enumerate(types) if t not in known and t not in set(nouns.settled.values())]
-        rows = [(w, row) for w, row in zip(nouns.posterior.words, table, strict=True) if w in nouns.heard]
-        rows = [(w, row) for w, row in rows if self.features.knows_noun(w)]
-        pairs = []
-        for word, row in (*rows, (NEVER_HEARD, new)):
-            phrase = Phrase(PhraseKind.NOUN, word, noun=word)
-            pairs += [Pair(phrase, Object(types[k], types[k], known=True), float(row[k])) for k in at]
-            pairs.append(Pair(phrase, Object("strange", None, known=False), float(row[strange].max())))
-        return pairs
-
-    def _color_pairs(self) -> list[Pair]:
-        colors, column = self.words.colors, self.features.grounding
-        table, new = colors.said_of()
-        values = colors.posterior.types
-        at = [k for k, c in enumerate(values) if f"color: {c}" in column]
-        strange = [k for k in range(len(values)) if k not in at]
-        rows = [(w, row) for w, row in zip(colors.posterior.words, table, strict=True) if w in self.words.color_words]
-        pairs = []
-        for word, row in (*rows, (NEVER_HEARD, new)):
-            phrase = Phrase(PhraseKind.NOUN, word, color=word)
-            for k, value in (*((k, values[k]) for k in at), (max(strange, key=lambda k: row[k]), NEVER_HEARD)):
-                thing = Object(f"{value} thing", next(iter(self.known_types), None), known=True, color=value)
-                pairs.append(Pair(phrase, thing, float(row[k])))
-        return pairs
-
-
-def _sure(lessons: Mapping[str, int]) -> bool:
-    """Do enough lessons agree on what a word names?"""
-    return max(lessons.values()) >= max(_AGREEING, _AGREED * sum(lessons.values()))
-
-
-def _weighed(beliefs: Beliefs, word: str, lessons: Mapping[str, int]) -> Beliefs:
-    """The beliefs with lessons about a word, each of which showed what was meant."""
-    for meaning, count in lessons.items():
-        for _ in range(count):
-            beliefs = beliefs.weigh(Evidence(word, {meaning: 1.0}))
-    return beliefs
+        return soft_labels(self.words, self.features, self.known_types)
 
 
 def _replaced(tree: ParseTree, old: Phrase | None, new: Phrase) -> ParseTree:
@@ -374,10 +291,3 @@ def _summed(parts: Iterable[tuple[str | None, float]]) -> dict[str, float]:
         if name is not None:
             total[name] = total.get(name, 0.0) + part
     return total
-
-
-def _apart(one: list[Pair], other: list[Pair]) -> float:
-    """The largest difference between the probabilities of two lists of soft labels; infinite if they list others."""
-    if [(p.phrase, p.object) for p in one] != [(p.phrase, p.object) for p in other]:
-        return math.inf
-    return max((abs(p.odds / (1 + p.odds) - q.odds / (1 + q.odds)) for p, q in zip(one, other, strict=True)), default=0)

@@ -18,12 +18,13 @@ from safetensors.torch import load_file, save_file
 
 from dcg_torch.encoding import Statistics
 from dcg_torch.features import FeatureSet
-from dcg_torch.lexical import LexicalModel, Words
+from dcg_torch.lexical import LexicalModel
 from dcg_torch.loglinear import LogLinearModel, Merged
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.open_world import Mind, OpenWorldModel
 from dcg_torch.relational import Workspace
 from dcg_torch.symbols import Correspondence, Example, Symbol
+from dcg_torch.words import Words
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 

@@ -28,11 +28,12 @@ _STEPS = 300
 
 @dataclass(frozen=True)
 class Lesson:
-    """A command and the ids of the objects it means."""
+    """A command and the ids of the objects it means; `weight` scales its likelihood."""
 
     tree: ParseTree
     world: WorldModel
     targets: frozenset[str]
+    weight: float = 1.0
 
 
 def teach(
@@ -78,6 +79,7 @@ class _Part:
     noun: ParseTree
     world: WorldModel
     targets: frozenset[str]
+    weight: float
     alone: bool
 
 
@@ -88,7 +90,7 @@ def _parts(model: GroundingModel, lesson: Lesson) -> list[_Part]:
     for tree in trees:
         noun = _noun(model.readable(tree))
         if noun is not None:
-            found.append(_Part(noun, grouped(lesson.world, tree), lesson.targets, len(trees) == 1))
+            found.append(_Part(noun, grouped(lesson.world, tree), lesson.targets, lesson.weight, len(trees) == 1))
     return found
 
 
@@ -121,7 +123,8 @@ def _expect(model: GroundingModel, part: _Part, beam: int) -> list[Example]:
     world, noun = part.world, part.noun
     graph = FactorGraph(noun, world)
     examples: list[Example] = []
-    for share, meant in _choices(model, part, graph):
+    for chance, meant in _choices(model, part, graph):
+        share = chance * part.weight
         labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.meanable)
         for j, o in enumerate(world.meanable):
             told_apart = bool(noun.children) and any(_alike(noun.phrase, o, world.things[k]) for k in meant)

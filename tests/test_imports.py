@@ -22,7 +22,7 @@ LAYERS = (
     {"settings", "features", "meaning", "relational", "console", "report", "simulator", "speaker"},
     {"episodes"},
     {"graph", "baseline"},
-    {"binary", "encoding", "learning"},
+    {"binary", "encoding", "learning", "words"},
     {"model"},
     {"open_world", "lexical"},
     {"store", "supervised", "explain", "explanation"},

@@ -20,9 +20,20 @@ from dcg_torch.learning import replace_unknown
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.loglinear import BINARY, LogLinearModel, fit, objective
 from dcg_torch.model import TrainingSet, Variant
+from dcg_torch.relational import grouped
 from dcg_torch.store import load, save
 from dcg_torch.supervised import Lesson, teach
-from dcg_torch.symbols import Object, ParseTree, Percept, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.symbols import (
+    Correspondence,
+    Example,
+    Object,
+    ParseTree,
+    Percept,
+    Phrase,
+    PhraseKind,
+    Symbol,
+    WorldModel,
+)
 
 VARIANT = Variant(groups=frozenset(Group) - {Group.OPEN}, hypothetical=False, ternary=False, l2=0.2, synonyms=0.8)
 Thing = tuple[str, str | None]
@@ -217,6 +228,22 @@ def test_statistics_say_what_the_examples_say_whatever_is_known(schooled: Lexica
         assert torch.allclose(gradient, slope, atol=1e-8)
         values.append(float(value))
     assert len(set(values)) == 3
+
+
+def test_a_feature_that_two_unknown_colours_share_fires_once(schooled: LexicalModel) -> None:
+    """A row of three colours without a name, as a thing that a phrase may mean."""
+    percepts = [Percept(f"{k}", "cube", c, (2.0, float(k), 0.0)) for k, c in enumerate(("c7", "c8", "c9"))]
+    tree = take("row")
+    world = grouped(schooled.world_model(percepts), tree)
+    assert world.groups
+    phrase = tree.children[0].phrase
+    example = Example(phrase, world, tuple(Correspondence.ACTIVE for _ in world.meanable))
+    features, weight = schooled.features, torch.from_numpy(schooled.features.pairs).double().repeat(2, 1, 1)
+    weight[0] *= -0.3
+    pairs = torch.from_numpy(features.pairs)
+    anew = objective(weight, encode([example], features, schooled.loglinear), pairs, 0.2)[0]
+    tables = Reader().statistics([example], features, BINARY).under(features, schooled.known_types)
+    assert float(objective(weight, tables, pairs, 0.2)[0]) == pytest.approx(float(anew), rel=1e-12)
 
 
 def test_statistics_are_the_same_however_often_they_are_made(schooled: LexicalModel) -> None:

@@ -19,7 +19,8 @@ VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "abo
 SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
 FRAMES = ("side", "side seen", "side spoken")
 """Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = ("closest", "farthest")
+_ORDERS = {"closest": NEAREST, "farthest": 1}
+"""Order by distance -> how many ranks of it are features."""
 
 
 def _names() -> dict[str, list[str]]:
@@ -27,8 +28,8 @@ def _names() -> dict[str, list[str]]:
     bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for order in _ORDERS:
-        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
+    for order, named in _ORDERS.items():
+        families[order] = [f"{order} {k}" for k in range(1, named + 1)]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
     families["direction"] = ["along", "rather along", "aslant", "against"]
@@ -149,11 +150,11 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     ahead = -(offset * heading[:, None, :]).sum(axis=2)
     value = np.where(where.direction[first][:, None], ahead, distance)
     found = {}
-    for order, sign in zip(_ORDERS, (1.0, -1.0), strict=True):
+    for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
         signed = np.where(exists, sign * value, math.inf)
         less = signed[:, None, :] < signed[:, :, None] - TIE
         before = (less & alike[None]).sum(axis=2)
-        compared = exists & alike.any(axis=1, keepdims=True).T & (before < NEAREST)
+        compared = exists & alike.any(axis=1, keepdims=True).T & (before < named)
         found[order] = np.where(compared, before, -1)
     return found
 
