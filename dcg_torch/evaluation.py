@@ -11,12 +11,15 @@ from typing import Any
 import numpy as np
 
 from dcg_torch.episodes import Episode, workspace
+from dcg_torch.features import GROUNDING_OF
 from dcg_torch.graph import Solution
+from dcg_torch.learning import labelled
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+from dcg_torch.relational import coordinated
 from dcg_torch.report.intervals import wilson
 from dcg_torch.supervised import Lesson, teach
-from dcg_torch.symbols import WorldModel
+from dcg_torch.symbols import Child, Example, Grounding, GroundingKind, PhraseKind, WorldModel
 from dcg_torch.trial.command import Parse, Parser
 
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
@@ -139,9 +142,11 @@ class Evaluation:
             self.model.taught(sorted(self._meant), nouns, colors)
         if generated:
             teach(self.model, [replace(lesson, weight=_GENERATED) for lesson in generated], rounds=2)
+        lessons = [Lesson(r.tree, self.world(e), frozenset(e.target)) for e, r in read if r.tree is not None]
+        self.model.corpus += [example for lesson in lessons for example in _acted(self.model, lesson)]
         teach(
             self.model,
-            [Lesson(r.tree, self.world(e), frozenset(e.target)) for e, r in read if r.tree is not None],
+            lessons,
             known_types=known_types,
             known_colors=known_colors,
             rounds=rounds,
@@ -186,6 +191,23 @@ class Evaluation:
                 self.model.learn(solution, max_steps=_LEARNING_STEPS)
             seconds = Seconds(read - began, grounded - read, time.perf_counter() - grounded)
             yield Answer(episode, reading, solution, kind, form, _shared(episode), seconds)
+
+
+def _acted(model: GroundingModel, lesson: Lesson) -> list[Example]:
+    """What a lesson about one object teaches of its verb and preposition: that they are about the object meant."""
+    if len(lesson.targets) != 1 or len(coordinated(lesson.tree)) != 1:
+        return []
+    path, node = [], model.readable(lesson.tree)
+    while node.phrase.kind is not PhraseKind.NOUN and node.children:
+        path.append(node.phrase)
+        node = node.children[0]
+    meant = next(o for o in lesson.world.objects if o.id in lesson.targets)
+    child, found = Child(Grounding(GroundingKind.OBJECT, meant)), []
+    for phrase in reversed(path):
+        above = Child(Grounding(GROUNDING_OF[phrase.kind], meant))
+        found.append(labelled(phrase, above, (child,), lesson.world))
+        child = above
+    return found
 
 
 def _counted(said: Iterable[tuple[str | None, Collection[str | None]]]) -> dict[str, Counter[str]]:

@@ -18,8 +18,12 @@ import pytest
 from dcg_torch import load
 from dcg_torch.episodes import Episode
 from dcg_torch.evaluate import main
-from dcg_torch.evaluation import Answer, Seconds, calibration_error, summarise
+from dcg_torch.evaluation import Answer, Evaluation, Seconds, calibration_error, summarise
+from dcg_torch.features import Group
+from dcg_torch.graph import FactorGraph
+from dcg_torch.language import Parser
 from dcg_torch.lexical import LexicalModel
+from dcg_torch.model import TrainingSet, Variant
 from dcg_torch.trial.command import Parse
 
 COLORS = ("red", "green", "teal")
@@ -264,3 +268,23 @@ def test_the_calibration_error_is_that_of_its_definition(monkeypatch: pytest.Mon
             gap = abs(sum(p for p, _ in inside) / len(inside) - sum(r for _, r in inside) / len(inside))
             expected += len(inside) / len(found) * gap
     assert calibration_error(found) == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_clear_command_is_answered_with_the_probability_of_its_noun_phrase(
+    parser: Parser, training: TrainingSet
+) -> None:
+    """Verb and preposition are taught to be about the object meant: no belief leaks to the twenty others."""
+    rng = np.random.default_rng(2)
+    train = [Episode.model_validate(episode(k, rng, "cube", "cube", COLORS[k % 3])) for k in range(120)]
+    variant = Variant(groups=frozenset(Group) - {Group.OPEN}, hypothetical=False, l2=0.2, synonyms=0.8)
+    evaluation = Evaluation(train, training, variant, parser.parse, rounds=1)
+    row = episode(0, rng, "cube", "cube", "red")
+    more = [{"id": f"x{k}", "type": "prism", "color": "teal", "position": [k, 9.0]} for k in range(20)]
+    asked = Episode.model_validate({**row, "objects": [*row["objects"], *more]})
+    (answer,) = evaluation.answers([asked])
+    assert answer.solution is not None
+    (verb,) = [answer.solution.tree]
+    noun = FactorGraph(verb.children[0], answer.solution.world)
+    alone = noun.solve(evaluation.model.features, evaluation.model.loglinear).probabilities["o0"]
+    assert answer.correct
+    assert answer.probability == pytest.approx(alone, abs=0.05)
