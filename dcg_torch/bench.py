@@ -110,6 +110,45 @@ def bench_model() -> Iterator[Result]:
     yield _result("parsing a command", [_milliseconds(parse, text, model.symbols) for text in texts])
 
 
+_SCRAPS = """
+go to the of on and one that is you not red cube , . move left from it all 2 dark don't 's which behind pick closest
+most held between same ' " - ; DROP TABLE <b> {{7*7}} ../ %s \\ ((( \U0001f916 куб 立方体 مكعب \u202e a\u0301 ½ row
+group facing without nothing each other
+"""
+_PIECES = [*_SCRAPS.split(), "\x00", "\ud800", "\n", "\t", ""]
+
+
+def hostile(rng: np.random.Generator) -> str:
+    """A string that no person would say: noise, scraps of commands, one phrase for ever, words that nobody knows."""
+    size = int(2 ** rng.uniform(0, 9))
+    letters = "".join(map(chr, rng.integers(97, 123, 8 * size)))
+    kind = rng.integers(7)
+    if kind == 0:
+        return "".join(map(chr, rng.integers(0, 0x2FFF, size)))
+    if kind == 1:
+        return str(rng.choice(["", " ", "\t"])).join(rng.choice(_PIECES, size))
+    if kind == 2:
+        joint = rng.choice(["on", "and", ",", ".", "not on", "that is", "of", "go to", "which has nothing on"])
+        return "go to the cube" + f" {joint} the cube" * (size // 4)
+    if kind == 3:
+        return letters[: 8 * size]
+    if kind == 4:
+        length = int(rng.integers(1, 9))
+        return " ".join(letters[k : k + length] for k in range(0, min(len(letters), 400), length))
+    if kind == 5:
+        return "a" * int(rng.integers(1, 100_000))
+    stop = str(rng.choice([". ", "! ", ", ", "; "]))
+    return stop.join(letters[4 * k : 4 * k + 4] for k in range(min(size, 66)))
+
+
+def bench_hostile(count: int = 2_000) -> Result:
+    """Each of `count` hostile strings, all different; the highest is the worst case."""
+    rng = np.random.default_rng(0)
+    parse = default_parser().parse
+    parse("go to the cube", TYPES)
+    return _result("a hostile string", [_milliseconds(parse, hostile(rng), TYPES) for _ in range(count)], goal=50)
+
+
 def bench_robot() -> Iterator[Result]:
     """The simulated robot in the committed worlds: load, look, turn one step, drive to every object in view."""
     times: dict[str, list[float]] = {"loading a world": [], "perceiving": [], "turning 20 degrees": [], "a drive": []}
@@ -211,6 +250,7 @@ def run_benchmarks() -> Iterator[Result]:
     torch.set_num_threads(1)
     yield bench_start()
     yield from bench_model()
+    yield bench_hostile()
     yield from bench_robot()
     yield peak_memory()
     yield from bench_fit(1_000, 7)

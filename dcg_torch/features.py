@@ -111,6 +111,7 @@ def _fixed_groundings() -> Iterator[Feature]:
     yield Group.HYPOTHETICAL, "hypothetical: yes"
     for name in (*space.RELATION_NAMES, *FEW.values(), *space.STATES, *space.RANKS):
         yield Group.RELATION, name
+    yield Group.RELATION, "kind: place"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -222,7 +223,8 @@ class FeatureSet:
     def pairs(self) -> NDArray[np.bool_]:
         """(L, G): which pairs of columns are features."""
         families = [name.partition(":")[0] for name in self.grounding]
-        rows = [[f in PAIRS[name.partition(":")[0]] for f in families] for name in self.language]
+        met = {family: [f in others for f in families] for family, others in PAIRS.items()}
+        rows = [met[name.partition(":")[0]] for name in self.language]
         return np.array(rows, dtype=np.bool_).reshape(self.shape)
 
     @property
@@ -246,7 +248,8 @@ class FeatureSet:
         if phrase.color is not None:
             stated = f"color: {phrase.color}"
             names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
-            names += [f"color: {word}" for word in phrase.words]  # "the red and blue tower"
+            if Group.RELATION in self.groups:
+                names += [f"color: {word}" for word in phrase.words]  # "the red and blue tower"
         return [name for name in names if name in self.language]
 
     def object_names(self, obj: Object, colors: Sequence[str] = ()) -> list[str]:
@@ -256,8 +259,8 @@ class FeatureSet:
             names.append("hypothetical: yes")
             if LOOKED_ROUND in obj.attributes:
                 names.append(f"hypothetical: {LOOKED_ROUND}")
-        for own in (f"color: {color}" for color in (colors or (obj.color,)) if color is not None):
-            names.append(own if own in self.grounding else "color: unknown")
+        own = [f"color: {color}" for color in (colors or (obj.color,)) if color is not None]
+        names += [name if name in self.grounding else "color: unknown" for name in own]
         return [name for name in dict.fromkeys(names) if name in self.grounding]
 
     def encode_phrases(self, phrases: Sequence[Phrase]) -> Bag:
@@ -321,6 +324,8 @@ class FeatureSet:
         if Group.RELATION in self.groups:
             for own, more in zip(names, space.states(where), strict=True):
                 own += more
+            for own in names[len(world.meanable) :]:
+                own.append("kind: place")
         bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
         if ranking is None or Group.RELATION not in self.groups:
             return bag

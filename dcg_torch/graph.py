@@ -215,34 +215,18 @@ class FactorGraph:
         ranked = [] if root is None else self._best(root, root.scores.size)
         return next((h for h in ranked if _meant(h) != _meant(ranked[0])), None)
 
-    def landmarks(
-        self, thing: int, features: FeatureSet, model: LogLinearModel, *, beam: int = 8
-    ) -> list[tuple[float, Hypothesis]]:
-        """What the modifiers of a noun phrase rest on, given that it means a certain thing: p(landmark | thing).
-
-        The tree's root must be the noun phrase.
-
-        Args:
-            thing: its number in the world.
-
-        Returns:
-            For every modifier and every choice of its landmarks, the probability and the hypothesis.
-        """
-        found = []
-        for modifier in self._pass(features, model, beam)[0].modifiers:
-            column = modifier.mixture[:, thing]
-            for combo, probability in enumerate(np.exp(column - np.logaddexp.reduce(column))):
-                found.append((float(probability), modifier.hypothesis(thing, self.world.things[thing], combo)))
-        return found
+    def modifiers(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Sequence[Placed]:
+        """The factors of the modifiers of the root, which must be a noun phrase."""
+        return self._pass(features, model, beam)[0].modifiers
 
     def _pass(self, features: FeatureSet, model: LogLinearModel, beam: int) -> dict[int, _Scored]:
         """From the leaves to the root, number 0: the scores of every phrase but the modifiers."""
         beams: dict[int, list[Hypothesis]] = {}
-        placed: dict[int, _Placed] = {}
+        placed: dict[int, Placed] = {}
         scored: dict[int, _Scored] = {}
         for level in _levels(self.phrases):
             for node, of_node in self._score_level(level, beams, placed, features, model, beam).items():
-                if isinstance(of_node, _Placed):
+                if isinstance(of_node, Placed):
                     placed[node] = of_node
                 else:
                     scored[node] = of_node
@@ -258,11 +242,11 @@ class FactorGraph:
         self,
         level: Sequence[int],
         beams: Mapping[int, Sequence[Hypothesis]],
-        placed: Mapping[int, _Placed],
+        placed: Mapping[int, Placed],
         features: FeatureSet,
         model: LogLinearModel,
         beam: int,
-    ) -> dict[int, _Scored | _Placed]:
+    ) -> dict[int, _Scored | Placed]:
         """Scores of every configuration of the phrases of one level, from one evaluation of all their factors."""
         trees: list[ParseTree] = [self.phrases.nodes[node]["tree"] for node in level]
         below = [list(self.phrases.predecessors(node)) for node in level]
@@ -274,7 +258,7 @@ class FactorGraph:
         phrase = np.repeat(np.arange(len(level)), [r.shape[0] * r.shape[1] for r in rows])
         language = features.encode_phrases([tree.phrase for tree in trees])
         log_psi = model.log_psi(language, flat, phrase).numpy()
-        out: dict[int, _Scored | _Placed] = {}
+        out: dict[int, _Scored | Placed] = {}
         for which, node in enumerate(level):
             table = log_psi[phrase == which].reshape(*rows[which].shape[:2], -1)
             kind = trees[which].phrase.kind
@@ -284,7 +268,7 @@ class FactorGraph:
                 asserted = Correspondence.INACTIVE if negated else Correspondence.ACTIVE
                 mixture = table[:, :, model.correspondences.index(asserted)]
                 mixture = mixture + (scores - np.logaddexp.reduce(scores))[:, None]
-                out[node] = _Placed(trees[which], combos[which], mixture)
+                out[node] = Placed(trees[which], combos[which], mixture)
                 continue
             meant = [c for c in model.correspondences if c is not Correspondence.INACTIVE]
             if kind is PhraseKind.NOUN:
@@ -304,7 +288,12 @@ class FactorGraph:
             above = [self.phrases.nodes[up]["tree"].phrase.kind for up in self.phrases.successors(node)]
             if isinstance(of_node, _Scored) and PhraseKind.MODIFIER not in above:
                 meanable = len(self.world.meanable)
-                out[node] = replace(of_node, scores=of_node.scores[:, :meanable], log_fit=of_node.log_fit[:meanable])
+                scores, fit = of_node.scores[:, :meanable], of_node.log_fit[:meanable]
+                if self.world.meant is not None:
+                    ruled_out = np.array([o.id not in self.world.meant for o in self.world.meanable])
+                    scores = np.where(ruled_out[None, :, None], -np.inf, scores)
+                    fit = np.where(ruled_out, -np.inf, fit)
+                out[node] = replace(of_node, scores=scores, log_fit=fit)
         return out
 
     def _encode(
@@ -345,11 +334,11 @@ class _Scored:
     meant: Sequence[Correspondence]
     scores: NDArray[np.float64]
     log_fit: NDArray[np.float64]
-    modifiers: Sequence[_Placed] = ()
+    modifiers: Sequence[Placed] = ()
 
 
 @dataclass(frozen=True)
-class _Placed:
+class Placed:
     """A modifier's factors, for every thing that its noun phrase may mean.
 
     A modifier describes, it does not pick: many things may stand next to a cube. So of its correspondences only
@@ -360,6 +349,7 @@ class _Placed:
     with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
 
     Attributes:
+        combos: hypotheses of the landmarks; one for each child.
         mixture: (combos, things) the logarithm of the summands.
     """
 
@@ -372,6 +362,11 @@ class _Placed:
         """(things,) log Psi(thing)."""
         total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
         return total
+
+    @property
+    def posterior(self) -> NDArray[np.float64]:
+        """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
+        return np.exp(self.mixture - self.log_psi)
 
     def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
         """That the thing j stands so, to its best landmarks or to those of a given combo."""

@@ -247,7 +247,7 @@ def objective(
         residual = log_psi.exp() * table.count.sum(0) - table.count
         spread = torch.zeros_like(by_phrase).index_add_(1, flat, residual.repeat_interleave(k, dim=1))
         gradient += (table.language.T @ spread.view(len(weight), len(table.language), -1))[:, :, :-1]
-    return value, gradient * pairs + l2 * weight
+    return value, (gradient + l2 * weight) * pairs
 
 
 def fit(
@@ -258,6 +258,7 @@ def fit(
     tolerance: float = 1e-7,
     max_steps: int = 500,
     history: int = 20,
+    free: NDArray[np.bool_] | None = None,
 ) -> FitResult:
     """Maximise the penalised likelihood by L-BFGS from the model's present weights, in place.
 
@@ -270,6 +271,7 @@ def fit(
         tolerance: stop when the gradient's max-norm, per unit of the examples' weight, falls below it.
         max_steps: L-BFGS iterations at the most.
         history: curvature pairs kept.
+        free: (L, G) the features whose weights may change, the others stay as they are; None: all.
 
     Raises:
         ValueError: l2 is not positive.
@@ -278,7 +280,14 @@ def fit(
         raise ValueError(f"l2 must be positive, not {l2}: without it the optimum is not unique")
     began = time.perf_counter()
     tolerance *= max(1.0, sum(float(table.count.sum()) for table in tables))
-    weight = model.weight.clone().requires_grad_()
+    pairs = model.pairs if free is None else model.pairs & torch.from_numpy(free)
+    every = None if free is None else pairs.expand_as(model.weight)
+
+    def whole(moving: torch.Tensor) -> torch.Tensor:
+        return moving if every is None else model.weight.masked_scatter(every, moving)
+
+    # What stays as it is costs the optimiser nothing: it moves the free weights alone.
+    weight = (model.weight.clone() if every is None else model.weight[every]).requires_grad_()
     # A fresh optimiser a fit: torch's keeps curvature in the old shape.
     optimizer = torch.optim.LBFGS(
         [weight],
@@ -292,14 +301,15 @@ def fit(
 
     def closure() -> float:
         with torch.no_grad():
-            value, weight.grad = objective(weight, tables, model.pairs, l2)
+            value, gradient = objective(whole(weight), tables, pairs, l2)
+            weight.grad = gradient if every is None else gradient[every]
         return float(value)
 
     optimizer.step(closure)  # type: ignore[no-untyped-call]
     state = optimizer.state[weight]
     with torch.no_grad():
-        value, gradient = objective(weight, tables, model.pairs, l2)
-    model.weight = weight.detach()
+        model.weight = whole(weight.detach())
+        value, gradient = objective(model.weight, tables, pairs, l2)
     norm = float(gradient.abs().max()) if gradient.numel() else 0.0
     steps = int(state["n_iter"])
     limit = steps >= max_steps or state["func_evals"] >= 2 * max_steps

@@ -84,6 +84,11 @@ _PLACE_WEIGHT = 0.1
 """Of the hand-made examples of places: people differ about which side is the back, so a corpus must be able to say."""
 
 
+PLACE_WORDS = frozenset(_PLACE_WORDS)
+"""Nouns for places."""
+PLACE_TYPES = frozenset(kind for kind, _ in _PLACE_WORDS.values())
+
+
 def place_symbols() -> list[Symbol]:
     """The words for places that are known from the start."""
     return [Symbol(word, kind) for word, (kind, _) in _PLACE_WORDS.items()]
@@ -166,6 +171,18 @@ def furnished(world: WorldModel, workspace: Workspace | None = None) -> WorldMod
     if bounds is None and there:
         bounds = space.scene_bounds(there, world.robot)
     return replace(world, places=space.places(bounds, world.robot, world.speaker), unit=workspace.unit)
+
+
+def mobile_places(world: WorldModel) -> tuple[Object, ...]:
+    """The places of a world without edges: the robot, the speaker, and the directions from them.
+
+    A speaker of whom nothing is known is taken to stand with the robot, and to speak of the robot's left and right.
+    """
+    found = space.places(None, world.robot, world.speaker)
+    if world.speaker is None:
+        robot = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
+        found += tuple(robot)
+    return found
 
 
 def grouped(world: WorldModel, tree: ParseTree) -> WorldModel:

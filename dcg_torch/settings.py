@@ -72,8 +72,7 @@ class OpenWorldSettings:
 class ModelSettings:
     """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
 
-    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial;
-    with `looks_round` it looks all round before it decides.
+    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial.
     """
 
     name: str = "dcg_upup_away_color"
@@ -86,7 +85,6 @@ class ModelSettings:
     beam: int = 8
     synonyms: float | None = None
     lessons: int = 0
-    looks_round: bool = False
     posterior: bool = False
     open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 
@@ -202,6 +200,8 @@ def check(settings: Settings) -> None:
     for name, share in shares.items():
         if not 0.0 <= share <= 1.0:
             raise SettingsError(f"{name}={share}: a share lies between 0 and 1")
+    if settings.model.lessons < 0:
+        raise SettingsError(f"model.lessons={settings.model.lessons}: give a number of at least 0")
     if not settings.model.l2 > 0.0:
         raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
     if not 0.0 < abs(settings.simulator.spin_step) <= 57.0:

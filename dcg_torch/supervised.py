@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
-from dcg_torch.graph import FactorGraph, Hypothesis
+from dcg_torch.graph import FactorGraph, Hypothesis, Placed
 from dcg_torch.loglinear import FitResult
 from dcg_torch.model import GroundingModel
 from dcg_torch.relational import coordinated, grouped, is_group
@@ -133,11 +133,10 @@ def _expect(model: GroundingModel, part: _Part, beam: int) -> list[Example]:
         for j in meant:
             labels[j] = Correspondence.ACTIVE
         examples.append(Example(noun.phrase, world, tuple(labels), weight=share))
-        for j in meant if noun.children else ():
-            for weight, hypothesis in graph.landmarks(j, model.features, model.loglinear, beam=beam):
-                if weight > _NEGLIGIBLE:
-                    targets = {world.things[k].id for k in meant} | part.targets
-                    examples += _modifier(hypothesis, noun.phrase, world, share * weight / len(meant), targets)
+        if noun.children:
+            open_ = {j for j, o in enumerate(world.things) if o.id in part.targets}
+            for modifier in graph.modifiers(model.features, model.loglinear, beam=beam):
+                examples += _placed(modifier, noun.phrase, world, share, meant, open_)
     return examples
 
 
@@ -160,31 +159,56 @@ def _choices(model: GroundingModel, part: _Part, graph: FactorGraph) -> list[tup
     return [(s / sum(shares), [j]) for s, j in zip(shares, meant, strict=True) if s > _NEGLIGIBLE * sum(shares)]
 
 
-def _modifier(
-    hypothesis: Hypothesis, head: Phrase, world: WorldModel, weight: float, targets: Collection[str]
+def _placed(
+    modifier: Placed, head: Phrase, world: WorldModel, share: float, meant: Sequence[int], spared: Collection[int]
 ) -> list[Example]:
-    """What a modifier and its landmarks teach: the thing meant stands so, those that the head allows too do not."""
-    meant = hypothesis.child.grounding.object
-    near: list[Correspondence | None] = [None] * len(world.things)
-    far = list(near)
-    for j, thing in enumerate(world.things):
-        if thing.id == meant.id:
-            near[j] = Correspondence.ACTIVE
-        elif thing.id not in targets and j < len(world.meanable):
-            (near if _alike(head, thing, meant) else far)[j] = Correspondence.INACTIVE
-    phrase, children = hypothesis.tree.phrase, tuple(h.child for h in hypothesis.children)
-    examples = [
-        Example(phrase, world, tuple(near), children, weight),
-        Example(phrase, world, tuple(far), children, weight * _FAR_NEGATIVE),
-    ]
-    for landmark in hypothesis.children:
-        chosen = landmark.child.grounding.object
-        labels = tuple(
-            Correspondence.ACTIVE if thing.id == chosen.id else Correspondence.INACTIVE for thing in world.things
-        )
-        examples.append(Example(landmark.tree.phrase, world, labels, (), weight))
-        for below in landmark.children:
-            examples += _modifier(below, landmark.tree.phrase, world, weight, ())
+    """What a modifier and its landmarks teach: the things meant stand so, others that the head allows do not.
+
+    Of both, the landmarks are those that the present model takes them to rest on. So what speaks most for a wrong
+    thing is what is learned to speak against it.
+    """
+    things = world.things
+    alike = [any(_alike(head, o, things[k]) for k in meant) for o in world.meanable]
+    posterior = modifier.posterior
+    examples = []
+    for c, combo in enumerate(modifier.combos):
+        labels: list[Correspondence | None] = [None] * len(things)
+        weights = [0.0] * len(things)
+        for j in range(len(world.meanable)):
+            if j in meant:
+                labels[j], weights[j] = Correspondence.ACTIVE, posterior[c, j] / len(meant)
+            elif j not in spared:
+                near = posterior[c, j] * (1.0 if alike[j] else _FAR_NEGATIVE)
+                labels[j], weights[j] = Correspondence.INACTIVE, near
+        taught = [w > _NEGLIGIBLE * _FAR_NEGATIVE for w in weights]
+        children = tuple(h.child for h in combo)
+        kept = tuple(label if t else None for label, t in zip(labels, taught, strict=True))
+        if any(taught):
+            examples.append(Example(modifier.tree.phrase, world, kept, children, share, tuple(weights)))
+        weight = share * float(posterior[c, list(meant)].mean())
+        if weight > share * _NEGLIGIBLE:
+            for landmark in combo:
+                examples += _landmark(landmark, world, weight)
+    return examples
+
+
+def _landmark(landmark: Hypothesis, world: WorldModel, weight: float) -> list[Example]:
+    """What a phrase for a landmark teaches, and what is said of the landmark in turn."""
+    chosen = landmark.child.grounding.object
+    active, inactive = Correspondence.ACTIVE, Correspondence.INACTIVE
+    labels = tuple(active if thing.id == chosen.id else inactive for thing in world.things)
+    examples = [Example(landmark.tree.phrase, world, labels, (), weight)]
+    at = next(j for j, thing in enumerate(world.things) if thing.id == chosen.id)
+    for below in landmark.children:
+        near: list[Correspondence | None] = [None] * len(world.things)
+        for j, thing in enumerate(world.meanable):
+            if _alike(landmark.tree.phrase, thing, chosen):
+                near[j] = inactive
+        near[at] = active
+        children = tuple(h.child for h in below.children)
+        examples.append(Example(below.tree.phrase, world, tuple(near), children, weight))
+        for further in below.children:
+            examples += _landmark(further, world, weight)
     return examples
 
 

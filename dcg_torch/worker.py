@@ -33,7 +33,7 @@ from dcg_torch.training import TrainingFileError, initial_training
 from dcg_torch.training.relations import relational_lessons
 from dcg_torch.trial.asking import Asking
 from dcg_torch.trial.command import Look
-from dcg_torch.trial.explore import Explorer, LookBefore, TurnInPlace, Worth
+from dcg_torch.trial.explore import Explorer, LookBefore, Worth
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands, trial_generators
 from dcg_torch.trial.robot import FakeRobot, Robot
@@ -137,11 +137,22 @@ def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look
 
 
 @functools.cache
-def _taught(chosen: Variant, lessons: int) -> GroundingModel:
-    """A model after the initial training and so many generated lessons on relations: the same for every trial."""
-    model = GroundingModel.trained(_initial_training(), chosen)
-    if lessons:
-        teach(model, relational_lessons(lessons))
+def _taught(chosen: Variant, lessons: int, assumed: OpenWorld | None) -> GroundingModel:
+    """A model after the initial training and so many generated lessons on relations: the same for every trial.
+
+    Args:
+        assumed: of a model that keeps a posterior; None: one that learns by the paper's rule.
+    """
+    training = _initial_training()
+    model = (
+        GroundingModel.trained(training, chosen)
+        if assumed is None
+        else OpenWorldModel.trained(training, chosen, assumed)
+    )
+    if lessons and Group.RELATION in chosen.groups:
+        teach(model, relational_lessons(lessons), rounds=2)
+    if isinstance(model, OpenWorldModel):
+        model.settle()
     return model
 
 
@@ -152,19 +163,18 @@ def untaught(settings: ModelSettings) -> GroundingModel:
         SettingsError: a feature group that does not exist.
     """
     if not settings.posterior:
-        return copy.deepcopy(_taught(variant(settings), settings.lessons))
+        return copy.deepcopy(_taught(variant(settings), settings.lessons, None))
     chosen = settings.open_world
     prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
     assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
-    return OpenWorldModel.trained(_initial_training(), variant(settings), assumed)
+    return copy.deepcopy(_taught(variant(settings), settings.lessons, assumed))
 
 
 def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:
     """Looking before deciding, for the model that can tell what it is unsure of."""
     chosen = settings.model.open_world
     if not isinstance(model, OpenWorldModel):
-        step = math.radians(settings.simulator.spin_step)
-        return functools.partial(TurnInPlace, step, always=True) if settings.model.looks_round else None
+        return None
     sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
     worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
     return functools.partial(LookBefore, model.beliefs_of, worth)

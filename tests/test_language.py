@@ -178,7 +178,7 @@ def test_two_colors_keep_the_first(parser: Parser) -> None:
         ("🤖🔥", "no object phrase found"),
         ("иди к красному кубу", "no object phrase found"),
         ("go to the cube " * 40, "the command is longer than 400 characters"),
-        ("a b " * 60, "the command is longer than 80 words"),
+        ("a b " * 60, "the command is longer than 64 words"),
     ],
 )
 def test_refusals(parser: Parser, text: str, problem: str) -> None:

@@ -15,7 +15,7 @@ from dcg_torch import space
 from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
 from dcg_torch.evaluation import Evaluation, summarise
 from dcg_torch.explanation import explain
-from dcg_torch.features import Group
+from dcg_torch.features import Group, ranking
 from dcg_torch.graph import FactorGraph
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel, TrainingSet, Variant, encode
@@ -57,13 +57,15 @@ def cubes(*places: tuple[str, str, float, float]) -> WorldModel:
 def test_contexts_say_what_is_done_and_what_is_compared() -> None:
     tree = relational(go_to(np_("cube", "red", pp("near", np_("sphere")))))
     nodes = {node.phrase.kind: node for node in tree.walk()}
-    assert nodes[PhraseKind.MODIFIER].phrase.context == ("of kind", "to a thing")
+    assert nodes[PhraseKind.MODIFIER].phrase.context == ("to a thing",)
+    assert nodes[PhraseKind.MODIFIER].phrase.among == "kind"
     contexts = [n.phrase.context for n in tree.walk() if n.phrase.kind is PhraseKind.NOUN]
     assert contexts == [("object of go", "object"), ("landmark of near", "landmark")]
     anything = relational(go_to(np_("thing", None, pp("in", np_("corner")))))
     noun = next(n for n in anything.walk() if n.phrase.kind is PhraseKind.NOUN)
     assert noun.phrase.noun is None
-    assert noun.children[0].phrase.context == ("of all", "to a place", "to corner")
+    assert noun.children[0].phrase.context == ("to a place", "to corner")
+    assert noun.children[0].phrase.among == "all"
 
 
 def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> None:
@@ -74,7 +76,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     modifier, landmark = noun.children[0], noun.children[0].children[0]
     psi = {}
     for node in (noun, landmark):
-        bag = taught.features.encode_things(world, space.layout(world), ranked=False)
+        bag = taught.features.encode_things(world, space.layout(world), None)
         language = taught.features.encode_phrases([node.phrase])
         psi[node.phrase] = taught.loglinear.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
     n = len(world.things)
@@ -85,7 +87,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     for j in range(len(world.objects)):
         mixture = 0.0
         for k in range(n):
-            row = taught.features.encode_placed(space.layout(world), [[k]])[0, j : j + 1]
+            row = taught.features.encode_placed(space.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
             active = float(taught.loglinear.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
         score.append(math.exp(odds[noun.phrase][j]) * mixture)
@@ -130,9 +132,11 @@ def test_the_landmark_is_inferred_from_the_object_meant(taught: GroundingModel) 
     """Two spheres: the lesson does not say which is spoken of, the relation learned elsewhere does."""
     world = cubes(("red", "cube", 2, 0), ("red", "cube", 6, 3), ("blue", "sphere", 2.8, 0), ("green", "sphere", 6, 3.8))
     noun = relational(go_to(np_("cube", "red", pp("next to", np_("sphere"))))).children[0].children[0]
-    found = FactorGraph(noun, world).landmarks(0, taught.features, taught.loglinear)
-    best = max(found, key=lambda pair: pair[0])[1]
-    assert best.children[0].child.grounding.object.id == "blue sphere 2"
+    (modifier,) = FactorGraph(noun, world).modifiers(taught.features, taught.loglinear)
+    posterior = modifier.posterior
+    assert posterior.sum(axis=0) == pytest.approx(np.ones(len(world.things)))
+    best = modifier.combos[int(posterior[:, 0].argmax())]
+    assert best[0].child.grounding.object.id == "blue sphere 2"
 
 
 def test_explanations_add_up(taught: GroundingModel) -> None:
@@ -140,7 +144,7 @@ def test_explanations_add_up(taught: GroundingModel) -> None:
     solution = taught.ground(go_to(np_("cube", "red")), world)
     assert solution.best is not None
     hypothesis = next(h for h in solution.best.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
-    bag = taught.features.encode_things(world, space.layout(world), ranked=False)[:1]
+    bag = taught.features.encode_things(world, space.layout(world), None)[:1]
     language = taught.features.encode_phrases([hypothesis.tree.phrase])
     table = taught.loglinear.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
     moved = sum(r.log_odds for r in explain(taught, solution) if r.phrase == hypothesis.tree.phrase.text)
@@ -154,6 +158,49 @@ def test_a_plural_means_a_set(taught: GroundingModel) -> None:
     for phrase in (two, every):
         solution = taught.ground(go_to(phrase), world)
         assert {o.id for o in solution.objects} == {"red cube 0", "red cube 1"}
+
+
+def test_several_noun_phrases_mean_several_objects(taught: GroundingModel) -> None:
+    world = cubes(("red", "cube", 2, 0), ("green", "cube", 2, 2), ("blue", "sphere", 6, -5))
+    to = pp("to", np_("cube", "red"), np_("sphere", "blue"))
+    solution = taught.ground(ParseTree(Phrase(PhraseKind.VERB, "go", ("go",)), (to,)), world)
+    assert {o.id for o in solution.objects} == {"red cube 0", "blue sphere 2"}
+    alone = taught.ground(go_to(np_("cube", "red")), world)
+    assert solution.probability is not None
+    assert alone.probability is not None
+    assert solution.probability <= alone.probability
+
+
+def test_a_group_means_its_members(taught: GroundingModel) -> None:
+    spheres = [("red", "sphere", 4.0, y) for y in (-2.0, 0.0, 2.0)]
+    world = cubes(*spheres, ("red", "sphere", 9, 9), ("blue", "cube", 2, -6))
+    row = ParseTree(Phrase(PhraseKind.NOUN, "row of spheres", ("row",), "sphere", plural=True))
+    solution = taught.ground(go_to(row), world)
+    assert [o.id for o in solution.objects] == ["red sphere 0", "red sphere 1", "red sphere 2"]
+    assert taught.ground(go_to(np_("sphere")), world).world.groups == ()
+
+
+def test_a_negated_modifier_is_the_others(taught: GroundingModel) -> None:
+    world = cubes(("red", "cube", 2, 0), ("red", "cube", 8, 6), ("blue", "sphere", 2.8, 0))
+    near = taught.ground(go_to(np_("cube", "red", pp("next to", np_("sphere")))), world)
+    not_near = taught.ground(go_to(np_("cube", "red", pp("not next to", np_("sphere")))), world)
+    assert near.object is not None
+    assert not_near.object is not None
+    assert (near.object.id, not_near.object.id) == ("red cube 0", "red cube 1")
+
+
+def test_between_two_of_one_kind_has_two_landmarks() -> None:
+    spheres = ParseTree(Phrase(PhraseKind.NOUN, "the two spheres", noun="sphere", plural=True, count=2))
+    tree = relational(go_to(np_("cube", None, pp("between", spheres))))
+    modifier = next(n for n in tree.walk() if n.phrase.kind is PhraseKind.MODIFIER)
+    assert [n.phrase.noun for n in modifier.children] == ["sphere", "sphere"]
+
+
+def test_nothing_on_it_is_a_word_and_no_landmark() -> None:
+    tree = relational(go_to(np_("cube", None, pp("with", np_("nothing", None, pp("on", np_(None)))))))
+    noun = tree.children[0].children[0]
+    assert noun.phrase.words == ("nothing on it",)
+    assert noun.children == ()
 
 
 def test_relations_can_be_taught_from_scratch(training: TrainingSet) -> None:

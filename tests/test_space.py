@@ -20,21 +20,29 @@ def thing(name: str, position: Point, kind: str = "cube", color: str = "red") ->
     return Object(name, kind, known=True, color=color, position=position)
 
 
-def values(objects: Sequence[Object], landmark: int, robot: Pose | None = None) -> list[dict[str, str]]:
+def values(
+    objects: Sequence[Object], landmark: int, robot: Pose | None = None, among: str = "all"
+) -> list[dict[str, str]]:
     """For every object, the relation families that fire and their values."""
-    found = space.relations(space.layout(WorldModel(tuple(objects), robot)), [[landmark]])
-    out: list[dict[str, str]] = [{} for _ in objects]
-    for family, table in found.items():
-        for j, value in enumerate(table[0]):
-            if value >= 0:
-                out[j][family] = space.RELATIONS[family][value].split(", ")[1]
-    return out
+    return fired(WorldModel(tuple(objects), robot), [landmark], among)
+
+
+def fired(world: WorldModel, landmarks: Sequence[int], among: str = "all") -> list[dict[str, str]]:
+    """For every thing, relation family -> value."""
+    bag = space.relations(space.layout(world), [landmarks], among)[0]
+    names = [[space.RELATION_NAMES[k].removeprefix("relation: ") for k in row if k >= 0] for row in bag]
+    return [dict(name.split(", ") for name in row) for row in names]
+
+
+def ranked(world: WorldModel, among: str, **counted: int) -> list[set[str]]:
+    """For every thing, the rank features that fire."""
+    bag = space.ranks(space.layout(world), among, **counted)
+    return [{space.RANKS[k].removeprefix("rank: ") for k in row if k >= 0} for row in bag]
 
 
 def test_a_block_on_another_covers_it() -> None:
     low, high, aside = thing("low", (0, 0, 0)), thing("high", (0, 0, 1)), thing("aside", (3, 0, 0))
-    where = space.layout(WorldModel((low, high, aside)))
-    states = space.states((low, high, aside), where)
+    states = space.states(space.layout(WorldModel((low, high, aside))))
     assert "state: covered" in states[0]
     assert "state: clear" in states[1]
     assert "state: on something" in states[1]
@@ -72,44 +80,134 @@ def test_the_closest_of_its_kind_need_not_be_the_closest_of_all() -> None:
         thing("near", (2, 0, 0)),
         thing("far", (3, 0, 0)),
     )
-    found = values(objects, 0)
-    assert found[1]["closest of all"] == "closest 1 of all"
-    assert found[2]["closest of all"] == "closest 2 of all"
-    assert found[2]["closest of kind"] == "closest 1 of kind"
-    assert found[3]["closest of kind"] == "closest 2 of kind"
+    of_all, of_kind = values(objects, 0, among="all"), values(objects, 0, among="kind")
+    assert [of_all[j]["closest"] for j in (1, 2)] == ["closest 1", "closest 2"]
+    assert [of_kind[j]["closest"] for j in (1, 2, 3)] == ["closest 1", "closest 1", "closest 2"]
+    assert of_kind[3]["farthest"] == "farthest 1"
+    assert "farthest" not in of_kind[2]
 
 
 def test_between_two_landmarks() -> None:
     objects = (thing("a", (0, 0, 0)), thing("b", (4, 0, 0)), thing("in", (2, 0.2, 0)), thing("out", (2, 3, 0)))
-    found = space.relations(space.layout(WorldModel(objects)), [[0, 1]])["between"][0]
-    assert found.tolist() == [-1, -1, 0, 1]
+    found = [values.get("between") for values in fired(WorldModel(objects), [0, 1])]
+    assert found == [None, None, "between", "not between"]
 
 
 def test_ranks_name_the_leftmost_and_the_nearest() -> None:
     objects = (thing("left", (2, 1, 0)), thing("right", (1, -1, 0)), thing("blue", (3, 3, 0), color="blue"))
-    names = space.ranks(objects, space.layout(WorldModel(objects, Pose(0, 0, 0))))
-    assert "rank: left 1 of kind" in names[0]
-    assert "rank: left 2 of type" in names[0]
-    assert "rank: near 1 of all" in names[1]
-    assert "rank: left 1 of all" in names[2]
+    world = WorldModel(objects, Pose(0, 0, 0))
+    assert "left 1" in ranked(world, "kind")[0]
+    of_type = ranked(world, "type")
+    assert "left 2" in of_type[0]
+    assert {"near 1", "robot 1"} <= of_type[1]
+    assert "left 1" in of_type[2]
+
+
+def test_ranks_count_as_far_as_the_phrase_does() -> None:
+    world = WorldModel(tuple(thing(str(y), (2, y, 0)) for y in (5, 4, 3, 2, 1)), Pose(0, 0, 0))
+    fourth = ranked(world, "type", ordinal=4)
+    assert [j for j, names in enumerate(fourth) if "left nth" in names] == [3]
+    assert [j for j, names in enumerate(fourth) if "right nth" in names] == [1]
+    two = ranked(world, "type", count=2)
+    assert [j for j, names in enumerate(two) if "right first" in names] == [3, 4]
+
+
+def test_big_and_tall_are_measured() -> None:
+    sizes = {"wide": (2.0, 2.0, 0.5), "tall": (0.5, 0.5, 3.0), "small": (0.5, 0.5, 0.5)}
+    objects = tuple(Object(n, "cube", True, position=(2, k, 0), size=s) for k, (n, s) in enumerate(sizes.items()))
+    wide, tall, small = ranked(WorldModel(objects, Pose(0, 0, 0)), "type")
+    assert "big 1" in wide
+    assert "tall 1" in tall
+    assert {"small 1", "short 1"} <= small
+    assert "big 1" not in tall | small
 
 
 def test_the_second_corner_of_a_workspace() -> None:
     found = {o.id: o for o in space.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0, 0), Pose(1, 1))}
-    assert found["place: far left corner"].position == (8.0, 4.0, 0.0)
-    assert found["place: near right corner"].attributes == {"near side", "right side"}
+    assert found["place: far side left side corner"].position == (8.0, 4.0, 0.0)
+    assert found["place: near side right side corner"].attributes == {"near side", "right side"}
     assert found["place: middle"].position == (4.0, 0.0, 0.0)
-    assert {"place: robot", "place: speaker"} <= set(found)
-    assert len(found) == 4 + 4 + 1 + 2
-    assert space.places(None, None, None) == ()
+    assert {"place: robot", "place: speaker", "place: ground"} <= set(found)
+    assert sum(o.type == "direction" for o in found.values()) == 2 * 4
+    assert [o.id for o in space.places(None, None, None)] == ["place: ground"]
 
 
 def test_an_edge_is_as_near_as_its_nearest_point() -> None:
     block = thing("block", (8.0, 3.0, 0))
     world = WorldModel((block,), Pose(0, 0), None, space.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0), None))
-    far = next(j for j, o in enumerate(world.things) if o.id == "place: far edge")
-    value = space.relations(space.layout(world), [[far]])["place distance"][0, 0]
-    assert space.RELATIONS["place distance"][value].endswith(f"to {space.DISTANCES[0]:g} m")
+    found = fired(world, [number(world, "place: far side edge")])[0]
+    assert found["place distance"] == "to 0.6"
+    assert found["part"] == "in another part"  # the only block is the middle of all
+
+
+def number(world: WorldModel, name: str) -> int:
+    return next(j for j, o in enumerate(world.things) if o.id == name)
+
+
+@pytest.mark.parametrize(
+    ("side", "mine"),
+    [("left", (2, 3, 0)), ("right", (2, -3, 0)), ("far", (5, 0, 0)), ("near", (-4, 0, 0))],
+)
+def test_whose_left_it_is(side: str, mine: Point) -> None:
+    """Robot and speaker face each other over the objects: the left of one is the right of the other."""
+    objects = (thing("mine", mine), thing("other", (4 - mine[0], -mine[1], 0)))
+    robot, speaker = Pose(0, 0, 0), Pose(4, 0)
+    world = WorldModel(objects, robot, speaker, space.places(None, robot, speaker))
+    yours = fired(world, [number(world, f"place: {side} side of robot direction")])
+    assert yours[0]["direction"] in ("along", "rather along")
+    assert yours[0]["closest"] == "closest 1"
+    assert yours[1]["direction"] in ("aslant", "against")
+    speakers = fired(world, [number(world, f"place: {side} side of speaker direction")])
+    assert speakers[1]["closest"] == "closest 1"
+    assert speakers[1]["direction"] in ("along", "rather along")
+
+
+def test_on_the_floor_is_a_relation_to_the_ground() -> None:
+    world = WorldModel((thing("low", (1, 1, 0)), thing("high", (1, 1, 1))), places=space.places(None, None, None))
+    low, high, _ = fired(world, [number(world, "place: ground")])
+    assert (low["vertical"], high["vertical"]) == ("on top", "higher over")
+
+
+def test_rows_stacks_and_clusters() -> None:
+    row = [thing(f"row {k}", (3 + 0.5 * k, 2 * k, 0), "barrel") for k in range(4)]
+    stack = [thing(f"stack {k}", (9, 0, k), color="blue" if k else "red") for k in range(3)]
+    heap = [thing(f"heap {k}", (15 + x, y, 0), "cone") for k, (x, y) in enumerate([(0, 0), (1, 0.3), (0.4, 1.1)])]
+    found = space.groups([*row, *stack, *heap])
+    by_members = {frozenset(g.members): g for g in found}
+    barrels = by_members[frozenset(o.id for o in row)]
+    assert barrels.attributes == {"row", "of 4"}
+    assert (barrels.type, barrels.color) == ("barrel", "red")
+    tower = by_members[frozenset(o.id for o in stack)]
+    assert tower.attributes == {"stack", "of 3"}
+    assert tower.color is None
+    assert "cluster" in by_members[frozenset(o.id for o in heap)].attributes
+
+
+def test_a_row_is_one_step_apart_and_straight() -> None:
+    assert not space.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (0, 7, 0))])
+    assert not space.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (2, 2.5, 0))])
+
+
+def test_members_of_a_row_are_ranked_within_it() -> None:
+    row = [thing(f"row {k}", (3, 2.0 * k, 0), "cone") for k in range(3)]
+    objects = (*row, thing("apart", (3, 20, 0), "cone"))
+    groups = space.groups(row)
+    world = WorldModel(objects, Pose(0, 0, 0), groups=groups)
+    second = ranked(world, "type", ordinal=2)
+    assert [j for j, names in enumerate(second) if "left nth of its row" in names] == [1]
+    assert next(j for j, names in enumerate(second) if "left nth" in names) == 2  # of all cones it is another
+    inside = fired(world, [len(objects)])
+    assert [v.get("member") for v in inside[:4]] == ["member"] * 3 + ["no member"]
+    assert [v.get("member place") for v in inside[:3]] == ["end member", "middle member", "end member"]
+
+
+def test_lengths_are_measured_in_the_units_of_the_world() -> None:
+    """A scene ten times as large with a unit ten times as long is the same scene."""
+    points = [(1.0, 0.5), (2.0, -1.0), (1.5, 1.2)]
+    small = WorldModel(tuple(thing(str(k), (x, y, 0)) for k, (x, y) in enumerate(points)))
+    large = WorldModel(tuple(thing(str(k), (10 * x, 10 * y, 0)) for k, (x, y) in enumerate(points)), unit=10.0)
+    assert fired(small, [0]) == fired(large, [0])
+    assert space.states(space.layout(small)) == space.states(space.layout(large))
 
 
 coordinate = st.floats(-5, 5, allow_nan=False).map(lambda v: round(v, 2))
@@ -132,7 +230,7 @@ def test_turning_and_moving_the_whole_world_changes_nothing(
     a = space.layout(WorldModel(tuple(here), Pose(-7, 0, 0)))
     b = space.layout(WorldModel(tuple(there), Pose(-7 * c, -7 * s, quarter * math.pi / 2)))
     np.testing.assert_allclose(a.position, b.position, atol=1e-9)
-    assert space.states(here, a) == space.states(there, b)
+    assert space.states(a) == space.states(b)
 
 
 @given(scene)
@@ -140,16 +238,17 @@ def test_every_family_fires_at_most_one_value_and_never_for_the_landmark(
     rows: list[tuple[float, float, str, str]],
 ) -> None:
     objects = tuple(thing(str(k), (x, y, 0), t, col) for k, (x, y, t, col) in enumerate(rows))
-    for family, table in space.relations(space.layout(WorldModel(objects)), [[0]]).items():
-        assert table.shape == (1, len(objects))
-        assert table[0, 0] == -1
-        assert table.max() < len(space.RELATIONS[family])
+    bag = space.relations(space.layout(WorldModel(objects)), [[0]], "all")
+    assert bag.shape == (1, len(objects), len(space.RELATIONS))
+    assert bag[0, 0].max() == -1
+    for table, names in zip(bag[0].T, space.RELATIONS.values(), strict=True):
+        assert {space.RELATION_NAMES[k] for k in table if k >= 0} <= set(names)
 
 
 def test_a_hypothetical_object_fires_nothing() -> None:
     unseen = Object("unseen", "cube", known=True, hypothetical=True)
     objects = (thing("landmark", (0, 0, 0)), unseen)
-    where = space.layout(WorldModel(objects))
-    assert space.states(objects, where)[1] == []
-    assert space.ranks(objects, where)[1] == []
+    world = WorldModel(objects)
+    assert space.states(space.layout(world))[1] == []
+    assert ranked(world, "type")[1] == set()
     assert values(objects, 0)[1] == {}

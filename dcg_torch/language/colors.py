@@ -38,7 +38,8 @@ _THINGS = word_set(
     """
 )
 _SPELLINGS = {"grey": "gray", "greyish": "grayish", "golden": "gold", "silvery": "silver", "gray": "gray"}
-_FILLERS = frozenset({"colored", "coloured", "color", "colour"})
+PLURALS = {f"{color}s": color for color in BASIC}
+FILLERS = frozenset({"colored", "coloured", "color", "colour"})
 
 
 def normal_color(name: str) -> str:
@@ -91,6 +92,6 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
     if not end:
         return None
     name = normal_color(" ".join(words[stop - shades : end]))
-    if end < len(words) and words[end] in _FILLERS:
+    if end < len(words) and words[end] in FILLERS:
         end += 1
     return name, end

@@ -37,4 +37,6 @@ class Item:
     pronoun: bool = False  # it, one, that: stands for something else
     participle: bool = False  # a verb's -ed or -ing form
     determined: bool = False  # has an article
+    negative: bool = False  # "no cube"
+    beside: bool = False  # "and" or a comma joins it to the noun phrase before
     children: list[Item] = field(default_factory=list)

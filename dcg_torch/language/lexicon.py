@@ -39,7 +39,8 @@ GO = word_set(
 REACH = word_set(
     """
     approach find reach locate visit see seek meet follow target hit touch face check inspect examine identify
-    choose select avoid dodge evade leave pass circle look search want need show spot watch point enter explore
+    choose select click tap mark highlight indicate avoid dodge evade leave pass circle look search want need show
+    spot watch point enter explore
     """
 )
 LOOK = word_set("turn look face rotate spin point watch see swivel pivot orient align notice")
@@ -47,7 +48,7 @@ SHUN = frozenset(["avoid", "dodge", "evade", "leave", "pass", "circle"])
 COMMANDS = PUT | TAKE | GO | REACH | LOOK
 COPULAS = word_set("be is are 's 're was were being am 'm lie lies re")
 # Tagged as nouns often; a verb of these stands at the start of a clause.
-NEGATIONS = frozenset({"not", "n't", "never", "nt", "dont", "don't"})
+NEGATIONS = frozenset({"neither", "nor", "not", "n't", "never", "nt", "dont", "don't"})
 
 # Words of noun phrases that are never part of the noun.
 ORDINALS = word_set(
@@ -64,15 +65,22 @@ ADJECTIVES = word_set(
     bottommost frontmost uppermost lowermost rearmost backmost foremost other another same single double only
     lone alone different metal wooden plastic rubber cardboard glass steel upside old new nearby exposed
     opposite whole entire top remaining identical central outer inner extreme very visible hidden empty full
+    medium average giant massive middlemost centermost
     cubic conical cylindrical spherical solid striped shiny light dark
     """
 )
-MODIFIERS = ORDINALS | SIDES | ADJECTIVES
-QUANTIFIERS = frozenset(["all", "every", "each", "both", "any", "some", "several"])
+SIZES = word_set("big large small little tiny huge tall short wide narrow long thin thick medium mid average normal")
+# "large-ish", "largish" and "large-sized" mean large.
+SIZED = {f"{size}{ending}": size for size in SIZES for ending in ("ish", "-sized")} | {
+    "largish": "large", "biggish": "big", "widish": "wide",
+}  # fmt: skip
+MODIFIERS = ORDINALS | SIDES | ADJECTIVES | SIZED.keys()
+QUANTIFIERS = frozenset(["all", "either", "every", "each", "both", "any", "some", "several"])
 NUMBERS = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10}
 GROUPS = word_set(
     """
-    row line column stack pile group bunch set pair couple tower cluster collection array heap
+    row line column stack pile group bunch set pair couple tower cluster collection array heap circle ring series
+    trio formation arrangement
     """
 )
 # "go to the position of the cone" means the cone.
@@ -89,6 +97,7 @@ DIRECTIONS = word_set(
     """
 )
 ROBOT = frozenset(["robot", "turtlebot", "bot", "yourself", "you", "machine", "rover"])
+HOLDERS = ROBOT | {"arm", "hand", "gripper", "claw"}
 PRONOUNS = {
     "me": "me", "myself": "me", "i": "me", "mine": "me", "us": "me", "you": "you", "yourself": "you",
     "yours": "you", "it": None, "itself": None, "them": None, "they": None, "this": None, "that": None, "these": None,
@@ -97,7 +106,8 @@ PRONOUNS = {
 NORMAL_WORDS = {
     "nearest": "closest", "nearer": "closer", "furthest": "farthest", "further": "farther", "centre": "center",
     "1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth", "holding": "held",
-    "uppermost": "topmost", "rear": "back", "backmost": "rearmost", "center": "center",
+    "uppermost": "topmost", "rear": "back", "backmost": "rearmost", "centermost": "middlemost",
+    "forwards": "forward", "backwards": "backward", **SIZED,
 }  # fmt: skip
 ADVERBS = word_set(
     """
@@ -106,6 +116,21 @@ ADVERBS = word_set(
     back over up down out off around along so still diagonally diametrically clockwise
     """
 )
+
+OPENINGS = word_set("ok okay alright hey hi hello yes yeah yep no nope so")  # said before the command begins
+FILLERS = word_set("um uh uhm umm uhh er erm hm hmm hmmm ah oh eh")
+WAYS = word_set("left right forward forwards backward backwards front back away up down sideways")
+ALONE_RE = re.compile(r"(?:all )?(?:alone|by (?:itself|themselves)|on its own)(?= |$)")
+# "facing left" is how a thing stands, and a word of its noun phrase; "facing the wall" has a landmark.
+FACING_RE = re.compile(
+    r"(?P<verb>facing|faces|face|pointing|pointed|points|looking|looks|turned|oriented|angled)"
+    rf"(?: to(?:wards?)?)?(?: the| my| your)? (?P<way>{'|'.join(sorted(WAYS, key=len, reverse=True))})"
+    r"(?= (?!of |side )|$)"
+)
+
+_VIEW = r"(?:perspective|point of view|viewpoint|view|angle)"
+_NO_VIEW = rf"(?! (?:my|your) {_VIEW})"
+VIEW_RE = re.compile(rf"(?:from|in) (?P<owner>my|your) {_VIEW}(?= |$)")
 
 # Prepositions, read on the words of the command; the first pattern that fits wins. The normal form follows.
 _THE = r"(?:the |your |its |my |a )?"
@@ -116,18 +141,24 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"from (?=(?:above|behind|under|underneath|below|beside|near|between|next|in front|over|inside) )", ""),
     (r"(?:to |on |onto |on to |at |in |over )?(?:the )?top (?:side |part )?of", "on top of"),
     (r"(?:up )?on top(?= the )|atop(?: of)?|ontop(?: of)?", "on top of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where)", "left of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where)", "right of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "left of"),
+    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "right of"),
     (r"left(?: hand)?(?: side)? of|left to(?= )", "left of"),
     (r"right(?: hand)?(?: side)? of|right to(?= (?:the |a )?\w+ ?(?:\w+ )?)", "right of"),
     (rf"(?:in|at|to|on|into) {_THE}front(?: side)? of|infront(?: of)?|front of", "in front of"),
     (rf"(?:in|at|to|on) {_THE}(?:back|rear)(?: side)? of|in back of|back of", "behind"),
+    (rf"(?:in|at|to|on) {_THE}bottom of(?= (?:the |a )?(?:{'|'.join(sorted(GROUPS))})(?: |$))", "at the bottom of"),
     (rf"(?:in|at|to|on) {_THE}bottom of|underneath|beneath|under(?:neath)?|below", "under"),
     (rf"(?:in|at|to|into) {_THE}(?:middle|cent(?:er|re)) (?:of|between)", "in the middle of"),
+    (r"all the way(?= )|(?:way|right|just|directly|immediately) (?=(?:over|on|at|in|to|behind|next|under|above) )", ""),
+    (r"(?:facing|pointing) (?:to|at|towards?)|(?:facing|pointing)(?= away from )", "facing"),
+    (r"(?:of |with )?the same colou?r as", "same color as"),
+    (r"(?:of |with )?the same size as", "same size as"),
+    (r"(?:of |with )?the same (?:shape|kind|type) as", "same shape as"),
     (r"in between|inbetween|between", "between"),
     (r"in the midst of|among(?:st)?", "among"),
     (r"(?:the )?(?:closest|nearest|near most) (?:to|from|by)", "closest to"),
-    (r"(?:closest|nearest)(?= (?:the|you|me|your|my) )", "closest to"),
+    (r"closest|nearest", "closest to"),
     (r"(?:the )?(?:farthest|furthest|most distant) (?:away )?(?:from|to)", "farthest from"),
     (r"(?:closer|nearer) to|nearer", "closer to"),
     (r"(?:farther|further) (?:away )?from", "farther from"),
@@ -142,6 +173,7 @@ PREPOSITIONS: tuple[tuple[str, str], ...] = (
     (r"(?:over|up|across|back|on|out|down) to(?= the)|up (?:un)?to|(?:over|back|down|across) to|unto", "to"),
     (r"to where|until|till", "to"),
     (r"ahead of", "ahead of"),
+    (r"diagonal(?:ly)? (?:to|from|across from)", "diagonal to"),
     (r"across from|opposite(?: to| of| from)?(?= (?:the|you|me|your) )", "opposite"),
     (r"on ?to", "onto"),
     (r"in ?to", "into"),

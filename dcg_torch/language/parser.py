@@ -8,15 +8,16 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
-from dcg_torch.language.attachment import build, split
+from dcg_torch.language.attachment import build
 from dcg_torch.language.chunks import items
+from dcg_torch.language.clauses import split
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.reader import Reader
 from dcg_torch.language.target import root
 from dcg_torch.symbols import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 400
-MAX_WORDS = 80
+MAX_WORDS = 64  # twice the longest of two thousand human commands; the time goes with the number of words
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +41,8 @@ class Parse:
 
 def target_phrase(tree: ParseTree) -> ParseTree:
     """The noun phrase that the root's action is about: the first below the root, depth first.
+
+    Objects named beside it ("the cube and the cone") are the noun phrases that follow it among its parent's children.
 
     Raises ValueError if the tree has no noun phrase.
     """

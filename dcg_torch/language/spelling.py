@@ -6,8 +6,10 @@ exists is never changed: "brick" is no misspelt "block".
 
 from __future__ import annotations
 
-from collections import defaultdict
+import functools
 from collections.abc import Collection, Sequence
+
+import numpy as np
 
 SHORTEST, LONGEST = 4, 20  # letters of a word that may be mended: three could be anything, twenty are a cat on the keys
 
@@ -30,6 +32,11 @@ def edits(a: str, b: str, limit: int) -> int:
     return min(row[-1], limit + 1)
 
 
+def _letters(word: str) -> int:
+    """The letters of a word as bits; letters beyond a to z share them, which can only make words seem nearer."""
+    return functools.reduce(lambda bits, letter: bits | 1 << (ord(letter) & 31), word, 0)
+
+
 class Speller:
     """Mends words towards groups of known words, the likelier group first; words in `english` stay.
 
@@ -40,12 +47,15 @@ class Speller:
     def __init__(self, groups: Sequence[Collection[str]], english: Collection[str]) -> None:
         self._english = english
         self._known = frozenset().union(*groups)
-        self._by_length: dict[int, list[tuple[str, int, frozenset[str]]]] = defaultdict(list)
-        for rank, group in enumerate(groups):
-            for word in sorted(group):
-                # The words of commands are many: the short ones are too near one another to choose from.
-                if len(word) >= SHORTEST + (rank > 0):
-                    self._by_length[len(word)].append((word, rank, frozenset(word)))
+        # The words of commands are many: the short ones are too near one another to choose from.
+        self._words = [
+            (word, rank)
+            for rank, group in enumerate(groups)
+            for word in sorted(group)
+            if len(word) >= SHORTEST + (rank > 0)
+        ]
+        self._lengths = np.array([len(word) for word, _ in self._words], dtype=np.int64)
+        self._letters = np.array([_letters(word) for word, _ in self._words], dtype=np.uint32)
 
     def correct(self, word: str) -> str:
         """The known word that `word` misspells, or `word` itself.
@@ -57,17 +67,20 @@ class Speller:
             return word
         if word in self._english or word.removesuffix("s") in self._english:
             return word
-        letters = frozenset(word)
+        limits = np.where(np.minimum(self._lengths, len(word)) >= 7, 2, 1)
+        letters = np.uint32(_letters(word))
+        # An edit adds at most one letter and takes at most one away: cheaper to see than the table of edits.
+        near = (
+            (np.abs(self._lengths - len(word)) <= limits)
+            & (np.bitwise_count(letters & ~self._letters) <= limits)
+            & (np.bitwise_count(self._letters & ~letters) <= limits)
+        )
         best: list[tuple[int, int, bool, str]] = []
-        for length in range(len(word) - 2, len(word) + 3):
-            limit = 2 if min(length, len(word)) >= 7 else 1
-            for candidate, rank, others in self._by_length.get(length, ()):
-                # An edit adds at most one letter and takes at most one away: cheaper to see than the table of edits.
-                if len(letters - others) > limit or len(others - letters) > limit:
-                    continue
-                distance = edits(word, candidate, limit)
-                if distance <= limit:
-                    best.append((distance, rank, candidate[0] != word[0], candidate))
+        for at in np.flatnonzero(near):
+            candidate, rank = self._words[at]
+            distance = edits(word, candidate, int(limits[at]))
+            if distance <= limits[at]:
+                best.append((distance, rank, candidate[0] != word[0], candidate))
         best.sort()
         if not best or (len(best) > 1 and best[0][:3] == best[1][:3]):
             return word

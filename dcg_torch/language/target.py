@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language import lexicon as lx
-from dcg_torch.language.attachment import Clause, main_object
+from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
 
@@ -61,7 +61,7 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
     """The tree of the clause that names the object meant, or None if none does.
 
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
-    "it" stands for the noun phrase before.
+    "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
     found = choices(clauses)
     if not found:
@@ -69,7 +69,8 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
     best = max(choice.score for choice in found)
     top = [choice for choice in found if choice.score == best]
     chosen = top[0] if best == 5.0 else top[-1]
-    if chosen.noun.pronoun and chosen.noun.color is None and not chosen.noun.words and not chosen.noun.children:
+    empty = chosen.noun.color is None and not chosen.noun.words and not chosen.noun.children
+    if chosen.noun.pronoun and (empty or chosen.noun.text in {"it", "they", "them"}):
         earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
         if earlier:
             chosen = max(earlier, key=lambda choice: (choice.score, found.index(choice)))
@@ -83,6 +84,8 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
         if not chosen.clause.places:
             children += _later_destination(chosen, clauses)
     _describe_later(chosen, clauses)
+    if chosen.noun.noun is None:
+        _one_of_several(chosen.noun, clauses)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
     phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
@@ -91,7 +94,11 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
 def _beside(chosen: Choice) -> list[Item]:
     objects = chosen.clause.objects
     at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
-    return [noun for noun in objects[at + 1 :] if not noun.pronoun and chosen.clause.verb is not None]
+    later = objects[at + 1 :]
+    if chosen.clause.verb is None:
+        later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
+    named = [noun for noun in later if not noun.pronoun or noun.color is not None or noun.words]
+    return [noun for noun in named if noun.noun not in lx.DIRECTIONS or noun.children]
 
 
 def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
@@ -105,11 +112,42 @@ def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
 
 
 def _describe_later(chosen: Choice, clauses: Sequence[Clause]) -> None:
-    """ "Go to the cone. It is behind the cube.": a statement about "it" tells the object apart as well."""
+    """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
     for clause in clauses:
-        if clause.statement and clause is not chosen.clause and clause.objects and clause.objects[0].pronoun:
-            for child in clause.objects[0].children:
-                chosen.noun.children.append(child)
+        if clause is chosen.clause or not clause.objects or clause.verb is not None:
+            continue
+        more = clause.objects[0]
+        if not more.pronoun or not (clause.statement or len(clause.objects) == 1):
+            continue
+        if more.color is None or chosen.noun.color is None:
+            chosen.noun.color = chosen.noun.color or more.color
+            chosen.noun.words += more.words
+            chosen.noun.children += more.children
+
+
+def _one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
+    """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
+    places = [child for clause in clauses for place in clause.places for child in place.children]
+    named = [noun for clause in clauses for noun in clause.objects] + places
+    several = [noun for noun in named if noun.plural and noun.noun is not None and noun.start < one.start]
+    several = [noun for noun in several if all(node is not one for node in _below(noun))]
+    if not several:
+        return
+    group = max(several, key=lambda noun: noun.start)
+    one.noun, one.pronoun = group.noun, False
+    one.color = one.color or group.color
+    if lx.GROUPS.isdisjoint(group.words):
+        one.children += group.children
+    else:
+        one.children.append(
+            Item(Kind.PREPOSITION, group.start, group.stop, group.head, "in", ("in",), children=[group])
+        )
+
+
+def _below(item: Item) -> Iterator[Item]:
+    yield item
+    for child in item.children:
+        yield from _below(child)
 
 
 def freeze(item: Item) -> ParseTree:

@@ -60,6 +60,7 @@ def soft_examples(
     looked: frozenset[str],
     strength: float = 5.0,
     forgotten: Collection[str] = (),
+    unnamed: bool = False,
 ) -> list[Example]:
     """Equation (2) as examples.
 
@@ -70,8 +71,11 @@ def soft_examples(
         looked: the attributes of hypothetical objects once the robot has looked round.
         strength: curvature of each pair's likelihood, in examples.
         forgotten: nouns that have columns and no meaning any more: they are as if never heard.
+        unnamed: also show phrases without a noun ("the red one", "the thing"), which may mean anything.
     """
     pairs = [*_nouns(nouns, forgotten), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
+    if unnamed:
+        pairs += _unnamed(nouns, colors, unseen, looked)
     return list(pair_examples(pairs, strength))
 
 
@@ -104,6 +108,21 @@ def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[s
                 yield Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
 
 
+def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[Pair]:
+    """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
+    said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
+    if colors.posterior.words:
+        row = colors.said_of()[0][0]
+        color = colors.posterior.types[int(row.argmax())]
+        said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
+    for word, color_of, odds, ahead in said:
+        for type_ in nouns.posterior.types:
+            yield Pair(_phrase(None, word), _object(type_, color_of), odds)
+        for _, type_, _ in _anchors(nouns):
+            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
+                yield Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
+
+
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
     """A known noun with its type, and an unheard one with a type not met: on these, all else is shown."""
     table, new = nouns.said_of()
@@ -114,8 +133,8 @@ def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
     yield NEVER_HEARD, UNMET, float(new[-1])
 
 
-def _phrase(noun: str, color: str | None = None) -> Phrase:
-    return Phrase(PhraseKind.NOUN, noun if color is None else f"{color} {noun}", noun=noun, color=color)
+def _phrase(noun: str | None, color: str | None = None) -> Phrase:
+    return Phrase(PhraseKind.NOUN, " ".join(filter(None, (color, noun or "one"))), noun=noun, color=color)
 
 
 def _object(

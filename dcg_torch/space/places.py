@@ -144,11 +144,12 @@ def _rows(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
 
 
 def _clusters(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
-    """Connected neighbours, at least `_LEAST` of them."""
+    """Connected neighbours on at least `_LEAST` spots."""
     points = position[list(among), :2]
-    near = np.linalg.norm(points[None] - points[:, None], axis=2) < NEXT
-    for members in _components(near):
-        if len(members) >= _LEAST:
+    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
+    for members in _components(apart < NEXT):
+        spots = _components(apart[np.ix_(members, members)] < SAME_SPOT)
+        if len(list(spots)) >= _LEAST:
             yield frozenset(among[k] for k in members)
 
 

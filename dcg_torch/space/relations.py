@@ -30,6 +30,7 @@ def _names() -> dict[str, list[str]]:
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
     for order, named in _ORDERS.items():
         families[order] = [f"{order} {k}" for k in range(1, named + 1)]
+    families["itself"] = ["itself"]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
     families["direction"] = ["along", "rather along", "aslant", "against"]
@@ -89,6 +90,8 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools)
         "place distance": np.where(of_place, steps, -1),
         "vertical": _vertical(where, first, distance, offset[..., 2], exists),
     }
+    itself = first[:, None] == np.arange(len(position))[None, :]
+    found["itself"] = np.where(itself & solid, 0, -1)
     found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
     found |= _orders(where, first, distance, exists, alike)
     if where.place[first].any():
@@ -116,7 +119,7 @@ def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: 
     )
     on_ground = np.where(where.over.any(axis=1), VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
     value = np.where(where.ground[first][:, None], on_ground, value)
-    out: Ints = np.where(exists & (~where.place | where.ground)[first][:, None], value, -1)
+    out: Ints = np.where(exists & (where.solid | where.ground)[first][:, None], value, -1)
     return out
 
 

@@ -33,7 +33,7 @@ def states(where: Layout) -> list[list[str]]:
         column = other & (where.apart < SAME_SPOT)
         beside = other & (where.apart < NEXT)
     above, below = where.over.sum(axis=0), where.over.sum(axis=1)
-    neighbours, stack, rows = beside.sum(axis=1), column.sum(axis=1), where.member.any(axis=0)
+    neighbours, stack, rows = beside.sum(axis=1), column.sum(axis=1), where.member.sum(axis=0)
     out = []
     for j, thing in enumerate(things):
         names = [f"state: {a}" for a in sorted(thing.attributes)]

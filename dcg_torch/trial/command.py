@@ -171,12 +171,10 @@ def carry_out(
 
 
 def _told(world: WorldModel, asked: Question, answer: Answer) -> WorldModel:
-    """Upsilon after an answer: the object that is meant, or all but those that are not."""
-    return replace(
-        world,
-        objects=tuple(
-            o
-            for o in world.objects
-            if (o.id == answer.meant if answer.meant is not None else o.id not in asked.candidates)
-        ),
-    )
+    """Upsilon after an answer: only the object that is meant may be, or all but those that are not.
+
+    The others stay in the world: what is meant may stand next to them.
+    """
+    before = {o.id for o in world.objects} if world.meant is None else world.meant
+    left = before - set(asked.candidates) if answer.meant is None else {answer.meant}
+    return replace(world, meant=frozenset(left))

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.graph import Solution
-from dcg_torch.symbols import Percept
+from dcg_torch.symbols import Percept, PhraseKind
 from dcg_torch.trial.robot import FIELD_OF_VIEW, Robot
 
 Point = tuple[float, float]
@@ -39,20 +39,18 @@ class TurnInPlace:
 
     Args:
         step: radians between two looks; positive turns left.
-        always: turn full circle whatever the grounding: a relation is judged by all there is.
     """
 
     looked = False  # the paper's world model doesn't tell
 
-    def __init__(self, step: float, *, always: bool = False) -> None:
+    def __init__(self, step: float) -> None:
         self._step = step
-        self._always = always
         self._remaining = math.tau
 
     def move(self, solution: Solution, percepts: Sequence[Percept], robot: Robot) -> bool:
         """Turn by a step, if what is meant hasn't been seen."""
         missing = solution.object is not None and solution.object.hypothetical
-        if self._remaining <= 1e-9 or not (missing or self._always):
+        if self._remaining <= 1e-9 or not missing:
             return False
         step = min(abs(self._step), self._remaining)
         self._remaining -= step
@@ -86,7 +84,7 @@ class Worth:
 
 @dataclass
 class LookBefore:
-    """Look round while more than one thing may be meant; then drive to where unseen ground is.
+    """Look round while more than one thing may be meant, or more must be seen; then drive to where unseen ground is.
 
     A turn of 360 degrees less the width of the view, in equal steps no wider than the view, shows all round.
 
@@ -131,6 +129,8 @@ class LookBefore:
         return True
 
     def _worth_turning(self, solution: Solution) -> bool:
+        if compares(solution):
+            return True
         noun = None if solution.noun is None else solution.noun.noun
         if noun is None:
             return solution.object is not None and solution.object.hypothetical
@@ -138,6 +138,12 @@ class LookBefore:
             return True
         unsure = self.worth.sure is not None and max_seen(solution) < self.worth.sure
         return unsure and missing(solution) > 0.02
+
+
+def compares(solution: Solution) -> bool:
+    """Is the object meant told by what else there is? Then all of that must be seen: "farthest", "next to the cube"."""
+    noun = next((node for node in solution.tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    return noun is not None and bool(noun.phrase.words or noun.children)
 
 
 def missing(solution: Solution) -> float:

@@ -1,4 +1,4 @@
-"""The model that does not lock in its mistakes: `model=open_world`.
+"""The model of `model=open_world`.
 
 It is the paper's log-linear factor graph, with one difference in what it is trained on. The paper's robot adds its
 own guess to the training set and believes it for ever. This one keeps a posterior over what each word names
@@ -6,97 +6,40 @@ own guess to the training set and believes it for ever. This one keeps a posteri
 anew from the posterior before every fit. When later evidence contradicts an earlier one, the weights of the wrong
 columns fade. Every type met and every word heard has columns, whether or not their bond is known yet.
 
+With the feature group `relation` it reads relations too, once it has been taught them (`supervised.teach`). Their
+weights are a block of their own (`blocks`), which the posterior does not move, and they say which things a word may
+have been said of (`hearing`).
+
 Grounding is still that of `graph.FactorGraph`, and nothing else decides.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field, replace
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 
 from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
 from dcg_torch.graph import Solution
 from dcg_torch.loglinear import TERNARY, FitResult, LogLinearModel, fit
-from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence, Prior
+from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence
 from dcg_torch.meaning.lexicon import Entry, lexicon
-from dcg_torch.meaning.soft import Unseen, soft_examples
+from dcg_torch.meaning.soft import soft_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
-from dcg_torch.symbols import Example, Percept, PhraseKind, Pose, Symbol, WorldModel
+from dcg_torch.open_world.blocks import Blocks
+from dcg_torch.open_world.hearing import described_fit, landmark_fits, target
+from dcg_torch.open_world.mind import Mind, OpenWorld
+from dcg_torch.relational import PLACE_WORDS, Workspace, group_nouns, mobile_places, place_examples, place_symbols
+from dcg_torch.symbols import Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
 from dcg_torch.world.upsilon import world_model
 
 LOOKED = frozenset({LOOKED_ROUND})
 _SURE = 0.95  # probability from which on the robot uses a word itself
 HELD = 0.5
 """Probability from which on a word counts among `symbols`."""
-
-
-@dataclass(frozen=True, slots=True)
-class Census:
-    """How many objects there are in a world that was looked at all round.
-
-    Attributes:
-        objects, cells: objects found, and pairs of type and colour that were looked for.
-        again, found: objects found of a type and colour of which one was there already, and all that were found.
-
-    The defaults are what is assumed before the first world, and give way to what is counted.
-    """
-
-    objects: float = 1.5
-    cells: float = 10.0
-    again: float = 0.25
-    found: float = 10.0
-
-    @property
-    def rate(self) -> float:
-        """Expected objects of one type and colour."""
-        return self.objects / self.cells
-
-    @property
-    def repeats(self) -> float:
-        """Expected further objects of a type and colour of which one is there."""
-        return self.again / self.found
-
-    def count(self, percepts: Collection[Percept], cells: int) -> Census:
-        """With one more world."""
-        repeated = len(percepts) - len({(p.type, p.color) for p in percepts})
-        n = len(percepts)
-        return Census(self.objects + n, self.cells + cells, self.again + repeated, self.found + n)
-
-
-@dataclass(frozen=True, slots=True)
-class OpenWorld:
-    """What is assumed of the world and of speakers.
-
-    Attributes:
-        nouns: of nouns.
-        colors: of colour words, which are hardly ever wrong.
-        hidden: number of objects of a type and colour to be expected though the robot has looked round: hidden
-            ones, and such that a speaker believes to be there.
-        strength: see `soft.soft_examples`.
-    """
-
-    nouns: Prior = field(default_factory=Prior)
-    colors: Prior = field(default_factory=lambda: Prior(slip=0.005))
-    hidden: float = 0.01
-    strength: float = 5.0
-
-
-@dataclass(frozen=True)
-class Mind:
-    """All that an open-world model has learned; its weights follow from it.
-
-    Attributes:
-        beliefs: what the nouns name.
-        color_beliefs: what the colour words name.
-        assumed: what it takes for granted.
-        census: how many objects there are.
-    """
-
-    beliefs: Beliefs
-    color_beliefs: Beliefs
-    assumed: OpenWorld = OpenWorld()
-    census: Census = Census()
+_PLACE_WEIGHT = 3.0
+"""Of the examples of words for places: "you" and "left" are what they are; no corpus will say otherwise."""
+_TAUGHT_L2 = 0.2
+"""Penalty on the weights that are taught by lessons."""
 
 
 class OpenWorldModel(GroundingModel):
@@ -115,9 +58,12 @@ class OpenWorldModel(GroundingModel):
         loglinear: LogLinearModel,
         *,
         mind: Mind,
+        corpus: Iterable[Example] = (),
     ) -> None:
-        super().__init__(variant, symbols, examples, features, loglinear)
+        super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.mind = mind
+        self._blocks: Blocks | None = None
+        self._fitted_corpus: list[Example] = []
 
     @classmethod
     def trained(
@@ -132,7 +78,13 @@ class OpenWorldModel(GroundingModel):
         variant = variant or Variant()
         variant = replace(variant, groups=variant.groups | PAPER | {Group.OPEN}, ternary=True)
         kept = [e for e in training.examples if not _is_plain_noun(e)]
-        features = FeatureSet.initial(variant.groups, training.symbols, training.colors, kept)
+        words, corpus = list(training.symbols), []
+        if Group.RELATION in variant.groups:
+            words += place_symbols()
+            corpus = [replace(e, weight=_PLACE_WEIGHT) for e in place_examples()]
+        features = FeatureSet.initial(variant.groups, words, training.colors, [*kept, *corpus])
+        if Group.RELATION in variant.groups:
+            features = features.include(nouns=group_nouns())
         model = cls(
             variant,
             training.symbols,
@@ -144,6 +96,7 @@ class OpenWorldModel(GroundingModel):
                 Beliefs.start({c: c for c in training.colors}, assumed.colors),
                 assumed,
             ),
+            corpus=corpus,
         )
         model.train()
         return model
@@ -181,6 +134,7 @@ class OpenWorldModel(GroundingModel):
         speaker: Pose | None = None,
         *,
         looked: bool = False,
+        workspace: Workspace | None = None,
     ) -> WorldModel:
         """Upsilon; its hypothetical objects say whether the robot has looked round."""
         unseen = LOOKED if looked else frozenset()
@@ -198,37 +152,58 @@ class OpenWorldModel(GroundingModel):
             The command's word, if this command moved its probability above `HELD`.
         """
         phrase = solution.noun
-        if scene is None or phrase is None or phrase.noun is None or not self.variant.learns:
+        relations = Group.RELATION in self.variant.groups
+        if scene is None or phrase is None or not self.variant.learns or (phrase.noun is None and not relations):
             return None
         self._meet(scene)
-        before = self.symbols.get(phrase.noun)
-        self._hear(phrase.noun, phrase.color, scene)
+        before = self.symbols.get(phrase.noun or "")
+        fit_of = described_fit(solution, self.features, self.loglinear, self.variant.beam) if relations else None
+        landmarks = self._landmarks(solution) if relations else []
+        self._hear(phrase.noun, phrase.color, scene, fit_of)
+        for word, by_type in landmarks:
+            unseen = self.mind.expected_unseen(looked=scene.looked)
+            self.mind = replace(self.mind, beliefs=self.beliefs.weigh(Evidence(word, by_type, unseen, scene.source)))
         self._renew(max_steps)
-        now = self.symbols.get(phrase.noun)
+        now = self.symbols.get(phrase.noun or "")
         return now if now != before else None
 
+    def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+        """[phi*, gamma*]; where landmarks are spoken of, the robot, the speaker and their sides may be such."""
+        relative = any(node.phrase.kind is PhraseKind.MODIFIER for node in self.readable(tree).walk())
+        return super().ground(tree, replace(world, places=mobile_places(world)) if relative else world)
+
     def train(self, *, max_steps: int = 500) -> FitResult:
-        """Fit from the present weights, on the training set and on the posterior."""
-        colors = max(1, len(self.mind.color_beliefs.types))
-        unseen = Unseen(
-            ahead=_rivals((self.mind.census.rate * (colors - 1) + self.mind.census.repeats) * _UNSEEN)
-            + self.mind.assumed.hidden,
-            ahead_colored=_rivals(self.mind.census.repeats * _UNSEEN) + self.mind.assumed.hidden,
-            left=self.mind.assumed.hidden,
-        )
+        """Fit from the present weights: what is believed to the posterior, and a new corpus to its examples.
+
+        The two are blocks of weights, each fitted as the other stands (`blocks`).
+        """
+        if self._blocks is None or self._blocks.whole is not self.features:
+            self._blocks = Blocks.of(self.features)
+        blocks = self._blocks
         soft = soft_examples(
             self.beliefs,
             self.mind.color_beliefs,
-            unseen,
+            self.mind.unseen,
             looked=LOOKED,
             strength=self.mind.assumed.strength,
-            forgotten=sorted(self.features.nouns - set(self.beliefs.posterior.words)),
+            forgotten=sorted(blocks.believed.nouns - set(self.beliefs.posterior.words)),
+            unnamed=Group.RELATION in self.variant.groups,
         )
-        tables = encode([*self.examples, *soft], self.features, self.loglinear)
+        part = blocks.part(self.loglinear)
+        tables = encode([*self.examples, *soft], blocks.believed, part)
         # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds
         tolerance = 0.01 * self.mind.assumed.strength / sum(float(table.count.sum()) for table in tables)
-        self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
+        self.fitted = fit(part, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
+        blocks.put(part, self.loglinear)
+        if self.corpus and self.corpus is not self._fitted_corpus:
+            tables = encode(self.corpus, self.features, self.loglinear)
+            fit(self.loglinear, tables, l2=_TAUGHT_L2, free=blocks.taught, tolerance=1e-5, max_steps=max_steps)
+            self._fitted_corpus = self.corpus
         return self.fitted
+
+    def settle(self) -> None:
+        """Keep what the corpus has taught and let go of its examples: the posterior does not move those weights."""
+        self.corpus = self._fitted_corpus = []
 
     def beliefs_of(self, word: str) -> dict[str, float]:
         """type -> probability that a noun names it."""
@@ -257,26 +232,47 @@ class OpenWorldModel(GroundingModel):
             census = census.count(scene.percepts, len(beliefs.types) * max(1, len(colors.types)))
         self.mind = replace(self.mind, beliefs=beliefs, color_beliefs=colors, census=census)
 
-    def _hear(self, noun: str, color: str | None, scene: Scene) -> None:
-        """Weigh a noun in the light of the colour said, and the colour in the light of the noun."""
+    def _landmarks(self, solution: Solution) -> list[tuple[str, dict[str, float]]]:
+        """Of every landmark whose noun isn't settled: the noun, and how probably which type was the landmark."""
+        settled = self.beliefs.settled.keys() | PLACE_WORDS
+        if all(node.phrase.noun is None or node.phrase.noun in settled for node in _below_target(solution.tree)):
+            return []
+        type_of = {o.id: o.type for o in solution.world.objects if not o.hypothetical and o.type is not None}
+        out = []
+        for word, fits in landmark_fits(solution, self.features, self.loglinear, self.variant.beam):
+            if word in settled:
+                continue
+            by_type: dict[str, float] = {}
+            for id_, amount in fits.items():
+                if id_ in type_of:
+                    by_type[type_of[id_]] = by_type.get(type_of[id_], 0.0) + amount
+            out.append((word, by_type))
+        return out
+
+    def _hear(self, noun: str | None, color: str | None, scene: Scene, fit_of: Mapping[str, float] | None) -> None:
+        """Weigh a noun in the light of the colour said, the colour in the light of the noun, both in that of the rest.
+
+        Args:
+            fit_of: object id -> how well the rest of the command fits it; None: it says nothing.
+        """
         colors = self.mind.color_beliefs
         meant = [p for p in scene.percepts if scene.meant is None or p.id in scene.meant]
         by_color = dict[str, float]()
         by_type = dict[str, float]()
-        said_of = _said(self.beliefs, noun)
+        said_of = {} if noun is None else _said(self.beliefs, noun)
         color_of = None if color is None else _said(colors, color)
         for p in meant:
+            fits = 1.0 if fit_of is None else fit_of.get(p.id, 0.0)
             as_colored = 1.0 if color_of is None or p.color is None else color_of.get(p.color, 0.0)
-            by_type[p.type] = by_type.get(p.type, 0.0) + as_colored
+            by_type[p.type] = by_type.get(p.type, 0.0) + fits * as_colored
             if p.color is not None:
-                by_color[p.color] = by_color.get(p.color, 0.0) + said_of.get(p.type, 0.0)
-        unseen = 0.0
-        if not scene.certain:
-            unseen = (
-                self.mind.assumed.hidden * self.mind.census.rate if scene.looked else self.mind.census.rate * _UNSEEN
-            )
-        several = 1 if color is not None else max(1, len(colors.types))
-        beliefs = self.beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
+                as_named = 1.0 if noun is None else said_of.get(p.type, 0.0)
+                by_color[p.color] = by_color.get(p.color, 0.0) + fits * as_named
+        unseen = 0.0 if scene.certain else self.mind.expected_unseen(looked=scene.looked)
+        beliefs = self.beliefs
+        if noun is not None and noun not in PLACE_WORDS:
+            several = 1 if color is not None else self.mind.colors
+            beliefs = beliefs.weigh(Evidence(noun, by_type, unseen * several, scene.source))
         if color is not None:
             colors = colors.weigh(Evidence(color, by_color, unseen, scene.source))
         self.mind = replace(self.mind, beliefs=beliefs, color_beliefs=colors)
@@ -294,18 +290,6 @@ class OpenWorldModel(GroundingModel):
         self.train(max_steps=max_steps)
 
 
-_UNSEEN = 1.0 - 57.0 / 360.0
-"""Share of the ground that is out of view before the robot turns."""
-
-
-def _rivals(expected: float) -> float:
-    """The odds of the unseen objects of a kind against one that is seen, when each is meant as likely as any other.
-
-    With n of them, n Poisson, that one is meant with probability E[1 / (1 + n)], which is more than 1 / (1 + E[n]).
-    """
-    return expected / -math.expm1(-expected) - 1.0 if expected > 1e-9 else expected / 2.0
-
-
 def _said(beliefs: Beliefs, word: str) -> dict[str, float]:
     """How readily a word is said of each type (or colour) met."""
     table, new = beliefs.said_of()
@@ -317,3 +301,9 @@ def _said(beliefs: Beliefs, word: str) -> dict[str, float]:
 def _is_plain_noun(example: Example) -> bool:
     phrase = example.phrase
     return phrase.kind is PhraseKind.NOUN and not phrase.words and not example.children
+
+
+def _below_target(tree: ParseTree) -> list[ParseTree]:
+    """The landmarks of the object meant."""
+    noun = target(tree)
+    return [] if noun is None else [landmark for modifier in noun.children for landmark in modifier.children]

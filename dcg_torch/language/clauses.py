@@ -1,0 +1,131 @@
+"""Phrases in their order -> clauses: one main verb each, with all that follows it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+from dcg_torch.language import lexicon as lx
+from dcg_torch.language.items import Item, Kind
+
+
+@dataclass(slots=True, eq=False)
+class Clause:
+    """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases."""
+
+    verb: Item | None = None
+    negated: bool = False
+    objects: list[Item] = field(default_factory=list)
+    places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
+    fronted: bool = False
+    statement: bool = False
+
+
+def main_object(clause: Clause) -> Item | None:
+    """The direct object that is a thing: not the robot itself, a person spoken to, a measure or a direction."""
+    for noun in clause.objects:
+        if noun.noun not in lx.ROBOT | {"me", "way"} and (noun.noun not in lx.DIRECTIONS or noun.children):
+            return noun
+    return None
+
+
+def split(items: Sequence[Item]) -> list[list[Item]]:
+    """Cut a command into clauses: one main verb with all that follows it."""
+    clauses: list[list[Item]] = [[]]
+    relative = False
+    for k, item in enumerate(items):
+        before = items[k - 1] if k else None
+        if item.kind is Kind.STOP:
+            relative = False
+            if _is_fragment(items[k + 1 :]) and clauses[-1]:
+                clauses[-1].append(replace(item, kind=Kind.COMMA))
+            else:
+                clauses.append([])
+            continue
+        if item.kind is Kind.RELATIVE:
+            relative = True
+        elif item.kind is Kind.COMMA and relative:
+            relative = False
+        elif (
+            item.kind is Kind.VERB
+            and _is_main(items, k, relative)
+            and not _is_statement(clauses[-1], items, k)
+            and not _is_inverted(clauses[-1], item)
+        ):
+            relative = False
+            tail: list[Item] = []
+            # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
+            while clauses[-1] and clauses[-1][-1].kind in {Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB}:
+                tail.insert(0, clauses[-1].pop())
+            clauses.append([*tail, item])
+            continue
+        elif item.kind is Kind.NOUN and before is not None and before.kind is Kind.NOUN and _subject(items, k):
+            relative = True  # "the block you are holding"
+        clauses[-1].append(item)
+    return [clause for clause in clauses if clause]
+
+
+def _is_fragment(after: Sequence[Item]) -> bool:
+    """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
+    first = next((item for item in after if item.kind is not Kind.COMMA), None)
+    for item in after:
+        if item.kind is Kind.STOP:
+            break
+        if item.kind in {Kind.VERB, Kind.RELATIVE, Kind.NEGATION}:
+            return False
+    if first is None:
+        return False
+    described = first.kind is Kind.NOUN and first.pronoun and (first.color or first.words) and not first.determined
+    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or bool(described)
+
+
+def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
+    """ "The cone is behind the cube": the copula says something of the noun phrase before it."""
+    if items[k].words[0] != "be" or any(item.kind is Kind.VERB for item in clause):
+        return False
+    after = items[k + 1] if k + 1 < len(items) else None
+    named = after is not None and after.kind is Kind.NOUN and after.noun is not None
+    return not named and any(item.kind is Kind.NOUN and item.noun not in {"you", "me"} for item in clause)
+
+
+def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
+    """ "Behind the cube is a cone": what follows the copula is where the beginning says."""
+    kinds = [item.kind for item in clause if item.kind not in {Kind.COMMA, Kind.ADVERB, Kind.AND}]
+    return verb.words[0] == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
+
+
+def _subject(items: Sequence[Item], k: int) -> bool:
+    after = items[k + 1] if k + 1 < len(items) else None
+    if after is None or after.kind is not Kind.VERB or items[k - 1].stop != items[k].start:
+        return False
+    if items[k].text in {"it", "they"}:
+        return after.words[0] == "be"  # "the ball it is on the cube"
+    return items[k].noun in {"you", "me"} and items[k - 1].noun not in lx.ROBOT
+
+
+_PEOPLE = frozenset({"i", "you", "we", "they", "he", "she", "it", "me"})
+
+
+def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
+    item = items[k]
+    before = items[k - 1] if k else None
+    lemma = item.words[0].split()[0]
+    if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
+        # "the block being held", "the cube is placed on ...", but "you are looking for"
+        subject = items[k - 2]
+        if subject.kind is Kind.NOUN and subject.text not in _PEOPLE:
+            return False
+    if relative:
+        # "... that is near you and put it there": a command verb after "and" ends the relative clause.
+        joined = before is not None and before.kind in {Kind.AND, Kind.COMMA}
+        return joined and not item.participle and lemma in lx.COMMANDS
+    if before is not None and before.kind is Kind.ADVERB and k > 1:
+        before = items[k - 2]
+    if lemma == "be" and before is not None and before.kind is Kind.NOUN and before.noun not in {"you", "me"}:
+        # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
+        clause = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
+        if any(other.kind is Kind.VERB for other in clause):
+            return False
+    return not (
+        item.participle and before is not None and before.kind is Kind.NOUN and before.noun not in {"you", "me"}
+    )
