@@ -46,12 +46,22 @@ def settings_of(config: DictConfig) -> Settings:
         SettingsError: a value makes no sense, or is of no use to any setting.
         OmegaConfBaseException: a value is missing, or refers to one that does not exist.
     """
-    for key in flatten(cast(dict[str, Any], OmegaConf.to_container(config))):
-        if key not in _keys(Settings):  # Hydra's "+key=value" adds what the schema doesn't have
-            raise SettingsError(_unknown_key(key))
+    _refuse_added(config, Settings)
     settings = cast(Settings, OmegaConf.to_object(config))
     check(settings)
     return settings
+
+
+def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
+    """The same for `evaluate`, whose values are checked against the episodes."""
+    _refuse_added(config, EvaluateSettings)
+    return cast(EvaluateSettings, OmegaConf.to_object(config))
+
+
+def _refuse_added(config: DictConfig, schema: type) -> None:
+    for key in flatten(cast(dict[str, Any], OmegaConf.to_container(config))):
+        if key not in _keys(schema):  # Hydra's "+key=value" adds what the schema doesn't have
+            raise SettingsError(_unknown_key(key))
 
 
 def save_composed(config: DictConfig, directory: Path) -> None:
@@ -88,7 +98,7 @@ def explain(error: Exception) -> str:
 
 
 def _unknown_key(key: str) -> str:
-    near = difflib.get_close_matches(key, _keys(Settings), n=1)
+    near = difflib.get_close_matches(key, (*_keys(Settings), *_keys(EvaluateSettings)), n=1)
     hint = f"did you mean {near[0]}?" if near else "python -m dcg_torch --help lists all"
     return f"{key}: there is no such setting; {hint}"
 

@@ -54,3 +54,37 @@ class CommandBar:
         self._right += sum(row.correct for row in rows)
         accuracy = f"{100 * self._right / self._done:.1f} %" if self._done else "-"
         self._bar.update(self._task, completed=self._done, accuracy=accuracy)
+
+
+class Bar:
+    """A progress bar on a terminal, and nothing elsewhere.
+
+    Args:
+        total: how many steps there are.
+    """
+
+    def __init__(self, description: str, total: int, console: Console) -> None:
+        self._bar = Progress(
+            "{task.description}",
+            BarColumn(),
+            MofNCompleteColumn(),
+            TimeElapsedColumn(),
+            TimeRemainingColumn(),
+            console=console,
+            transient=True,
+            disable=not console.is_terminal,
+        )
+        self._task = self._bar.add_task(description, total=total)
+
+    def __enter__(self) -> Bar:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+    def advance(self, _: object = None) -> None:
+        """Count one step as done."""
+        self._bar.advance(self._task)

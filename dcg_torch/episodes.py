@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -22,25 +22,39 @@ class _Record(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
 
 
-class _Robot(_Record):
+class _Place(_Record):
     x: float
     y: float
     yaw: float = 0.0
 
 
-class _Point(_Record):
-    x: float
-    y: float
+_Positive = Annotated[float, Field(gt=0.0)]
 
 
 class EpisodeObject(_Record):
-    """One object: metres; `size` are its extents, if known."""
+    """One object: metres; `size` are its extents, one number for all three, or a word, if known."""
+
+    model_config = ConfigDict(extra="allow")
 
     id: str
     type: str
     color: str | None = None
     position: tuple[float, float, float] | tuple[float, float]
-    size: tuple[float, float, float] | None = None
+    size: tuple[_Positive, _Positive, _Positive] | _Positive | str | None = None
+
+    @property
+    def extents(self) -> tuple[float, float, float] | None:
+        """Along x, y and z, if they are given as numbers."""
+        if isinstance(self.size, float):
+            return self.size, self.size, self.size
+        return self.size if isinstance(self.size, tuple) else None
+
+    @property
+    def attributes(self) -> frozenset[str]:
+        """Its further keys: "held" where true, "material: wood" where a string; numbers and all else are not."""
+        further = {**(self.model_extra or {}), "size": self.size}
+        named = {f"{key}: {value}" for key, value in further.items() if isinstance(value, str)}
+        return frozenset(named | {key for key, value in further.items() if value is True})
 
 
 class Episode(_Record):
@@ -54,8 +68,8 @@ class Episode(_Record):
     text: str
     objects: tuple[EpisodeObject, ...] = Field(min_length=1)
     target: tuple[str, ...] = Field(min_length=1)
-    robot: _Robot | None = None
-    speaker: _Point | None = None
+    robot: _Place | None = None
+    speaker: _Place | None = None
     holding: str | None = None
     group: str | None = None
 
@@ -67,7 +81,7 @@ class Episode(_Record):
     @property
     def speaker_pose(self) -> Pose | None:
         """Of the speaker, if it is not where the robot is."""
-        return None if self.speaker is None else Pose(self.speaker.x, self.speaker.y)
+        return None if self.speaker is None else Pose(self.speaker.x, self.speaker.y, self.speaker.yaw)
 
     def percepts(self) -> list[Percept]:
         """The objects, all of them perceived."""
@@ -77,8 +91,8 @@ class Episode(_Record):
                 o.type,
                 o.color,
                 (*o.position[:2], o.position[2] if len(o.position) == 3 else 0.0),
-                o.size,
-                frozenset({"held"}) if o.id == self.holding else frozenset(),
+                o.extents,
+                o.attributes | {"held"} if o.id == self.holding else o.attributes,
             )
             for o in self.objects
         ]
@@ -91,31 +105,67 @@ def read_episodes(path: Path) -> list[Episode]:
         EpisodeError: the file is absent or empty, or a line of it is not a valid episode; the line is named.
     """
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        text = path.read_text(encoding="utf-8-sig")
     except FileNotFoundError:
         raise EpisodeError(f"{path}: no such episode file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise EpisodeError(f"{path}: cannot be read as UTF-8 text: {error}") from None
-    episodes = [_parse(path, number, line) for number, line in enumerate(lines, start=1) if line.strip()]
+    except UnicodeDecodeError as error:
+        raise EpisodeError(f"{path}: not UTF-8 text ({error.reason}); unpack it, or save it as UTF-8") from None
+    except OSError as error:
+        raise EpisodeError(f"{path}: cannot be read: {error.strerror}") from None
+    episodes: list[Episode] = []
+    lines: dict[str, int] = {}
+    # Not str.splitlines, which also breaks lines at characters that may stand inside a JSON string.
+    for number, line in enumerate(text.split("\n"), start=1):
+        if not line.strip():
+            continue
+        episode = _parse(path, number, line)
+        first = lines.setdefault(episode.id, number)
+        if first != number:
+            raise EpisodeError(f"{path}, line {number}: id: {episode.id!r} is that of line {first} too; rename one")
+        episodes.append(episode)
     if not episodes:
         raise EpisodeError(f"{path}: holds no episodes; write one JSON object a line")
     return episodes
 
 
+_MEND = {
+    "the line": "write one JSON object a line",
+    "id": "write a text in quotes",
+    "type": "write a text in quotes",
+    "text": "write the command in quotes",
+    "objects": "give a list of objects, each with id, type and position",
+    "target": "give the ids of the objects meant, as a list",
+    "position": "give metres as [x, y, z], or [x, y]",
+    "size": "give metres above 0, as [x, y, z] or one number, or a word",
+    "color": "write a text in quotes, or null",
+    "robot": "give metres and radians, as {x, y, yaw}",
+    "speaker": "give metres and radians, as {x, y, yaw}",
+    "holding": "write the id of an object in quotes, or null",
+    "group": "write a text in quotes, or null",
+}
+"""How to mend each key of a line."""
+
+
 def _parse(path: Path, number: int, line: str) -> Episode:
     try:
-        episode = Episode.model_validate_json(line)
+        episode = Episode.model_validate_json(line, strict=True)
     except ValidationError as error:
         first: Any = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the line"
-        raise EpisodeError(f"{path}, line {number}: {where}: {first['msg']}") from None
+        # The innermost key that an episode has; what follows are pydantic's names for the choices it tried.
+        keys = [k for k, part in enumerate(first["loc"]) if part in _MEND]
+        where = ".".join(map(str, first["loc"][: keys[-1] + 1])) if keys else "the line"
+        said = "not understood" if where.endswith(("size", "position")) else first["msg"]
+        raise EpisodeError(f"{path}, line {number}: {where}: {said}; {_MEND[where.rpartition('.')[2]]}") from None
     ids = [o.id for o in episode.objects]
     if len(set(ids)) < len(ids):
-        raise EpisodeError(f"{path}, line {number}: objects: the id {_repeated(ids)!r} is there twice")
+        raise EpisodeError(
+            f"{path}, line {number}: objects: the id {_repeated(ids)!r} is there twice; give each object its own"
+        )
     for what, named in (("target", episode.target), ("holding", (episode.holding,))):
         for one in named:
             if one is not None and one not in ids:
-                raise EpisodeError(f"{path}, line {number}: {what}: {one!r} is no object of this episode")
+                some = ", ".join(ids[:8])
+                raise EpisodeError(f"{path}, line {number}: {what}: {one!r} is no object of this episode: {some}")
     return episode
 
 

@@ -6,37 +6,40 @@ import json
 import os
 import sys
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import hydra
 import numpy as np
 import torch
 from hydra.core.hydra_config import HydraConfig
-from omegaconf import DictConfig, OmegaConf
+from omegaconf import DictConfig
 from rich.console import Console
-from rich.progress import track
+from rich.markup import escape
 from rich.table import Table
 
 from dcg_torch.__main__ import refuse, run_application
-from dcg_torch.config import CONFIG_ERRORS, save_composed
+from dcg_torch.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
 from dcg_torch.config import explain as explain_error
-from dcg_torch.console import make_console
+from dcg_torch.console import Bar, make_console
 from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
 from dcg_torch.evaluation import CAUSES, Answer, Evaluation, summarise
-from dcg_torch.explanation import explain
+from dcg_torch.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
+from dcg_torch.store import save
 from dcg_torch.training import initial_training
 from dcg_torch.worker import variant
 
-PREDICTIONS = "predictions.jsonl"
+PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
 _REASONS = 8  # shown for each phrase
 
 
 def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> dict[str, object]:
-    """Train, ground, write `predictions.jsonl` into `directory`; the figures.
+    """Train, ground, write `predictions.jsonl` and the model into `directory`; the figures.
+
+    Files of an earlier run there are removed first, and each appears whole or not at all.
 
     Raises:
         EpisodeError: an episode file is missing or not valid.
@@ -44,41 +47,53 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     """
     torch.set_num_threads(1)
     pairs = _pairs(settings)
-    if settings.explain is not None and not any(e.id == settings.explain for _, test in pairs for e in test):
-        raise SettingsError(f"explain={settings.explain}: no test episode has this id")
+    _check(settings, pairs)
+    chosen = variant(settings.model)
     answers: list[Answer] = []
+    learned: dict[str, dict[str, str]] = {"nouns": {}, "colors": {}}
     train_seconds, baseline = 0.0, []
-    part = directory / f"{PREDICTIONS}.part"
     directory.mkdir(parents=True, exist_ok=True)
+    for name in (PREDICTIONS, SUMMARY):
+        (directory / name).unlink(missing_ok=True)
+    part = directory / f"{PREDICTIONS}.part"
     with part.open("w", encoding="utf-8") as file:
         for train, test in pairs:
             console.print(f"training on {len(train)} episodes, {settings.rounds} rounds")
-            evaluation = Evaluation(
-                train,
-                initial_training(),
-                variant(settings.model),
-                default_parser().parse,
-                known_types=settings.known_types,
-                rounds=settings.rounds,
-                progress=lambda number: console.print(f"round {number + 1} done"),
-            )
+            with Bar("training", settings.rounds, console) as bar:
+                evaluation = Evaluation(
+                    train,
+                    initial_training(),
+                    chosen,
+                    default_parser().parse,
+                    known_types=settings.known_types,
+                    known_colors=settings.known_colors,
+                    rounds=settings.rounds,
+                    progress=bar.advance,
+                )
             train_seconds += evaluation.train_seconds
-            found = evaluation.answers(test, learn=settings.learn)
-            for answer in track(found, "grounding", total=len(test), console=console):
-                answers.append(answer)
-                file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
-                if answer.episode.id == settings.explain and answer.solution is not None:
-                    _print_reasons(evaluation, answer, console)
-            if settings.learn:
-                words = {s.word: s.type for s in evaluation.model.symbols.values()}
-                console.print("words known at the end: " + ", ".join(f"{w} = {t}" for w, t in words.items()))
+            with Bar("grounding", len(test), console) as bar:
+                for answer in evaluation.answers(test, learn=settings.learn):
+                    answers.append(answer)
+                    file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
+                    if answer.episode.id == settings.explain:
+                        _print_reasons(evaluation, answer, console)
+                    bar.advance()
+            for kind, words in evaluation.learned.items():
+                learned[kind] |= words
             if settings.baseline:
                 from dcg_torch.baseline import bag_of_words
 
                 baseline += bag_of_words(train, test)
     os.replace(part, directory / PREDICTIONS)
+    if settings.save and not settings.folds:
+        save(evaluation.model, directory / MODEL)
+    figures = summarise(answers, train_seconds, by_color=settings.known_colors is not None)
     _print_errors(answers, console)
-    figures = summarise(answers, train_seconds)
+    if settings.learn:
+        figures["learned"] = learned
+        for kind, words in learned.items():
+            told = ", ".join(f"{word} = {meaning}" for word, meaning in words.items()) or "none"
+            console.print(f"{kind} learned: {told}", markup=False)
     if settings.baseline:
         figures["baseline_accuracy"] = sum(baseline) / len(baseline)
         console.print(f"logistic regression on words x object features: {figures['baseline_accuracy']:.4f}")
@@ -98,6 +113,38 @@ def _pairs(settings: EvaluateSettings) -> list[tuple[list[Episode], list[Episode
     return [(train, read_episodes(Path(settings.test).expanduser()))]
 
 
+def _check(settings: EvaluateSettings, pairs: Sequence[tuple[list[Episode], list[Episode]]]) -> None:
+    """See that the settings fit the episodes, before anything is written.
+
+    Raises:
+        SettingsError: one does not.
+    """
+    if settings.rounds < 1:
+        raise SettingsError(f"rounds={settings.rounds}: give a number of at least 1")
+    if not settings.model.l2 > 0.0:
+        raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
+    if settings.explain is not None and not any(e.id == settings.explain for _, test in pairs for e in test):
+        some = ", ".join(e.id for e in pairs[0][1][:5])
+        raise SettingsError(f"explain={settings.explain}: no test episode has this id; ids are {some} ...")
+    train = [e for episodes, _ in pairs for e in episodes]
+    meant = [o for e in train for o in e.objects if o.id in e.target]
+    for name, wanted, there in (
+        ("known_types", settings.known_types, {o.type for o in meant}),
+        ("known_colors", settings.known_colors, {o.color for o in meant if o.color is not None}),
+    ):
+        if wanted is None:
+            continue
+        strange = [one for one in wanted if one not in there]
+        if strange or not wanted:
+            what = f"{strange[0]!r} is meant in no training episode" if strange else "there is nothing to learn from"
+            raise SettingsError(f"{name}={wanted}: {what}; choose from {', '.join(sorted(there)) or 'none'}")
+    if settings.baseline:
+        try:
+            import sklearn  # noqa: F401
+        except ImportError:
+            raise SettingsError("baseline=true needs scikit-learn; install dcg-torch[bench]") from None
+
+
 def _print_errors(answers: Sequence[Answer], console: Console) -> None:
     counts = Counter(a.cause for a in answers if a.cause is not None)
     table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(answers)} commands")
@@ -109,29 +156,47 @@ def _print_errors(answers: Sequence[Answer], console: Console) -> None:
 
 
 def _print_reasons(evaluation: Evaluation, answer: Answer, console: Console) -> None:
-    assert answer.solution is not None
+    """Which phrases, which groundings, which features moved them; and what told the answer from the second best."""
     console.print(f"{answer.episode.id}: {answer.episode.text}", markup=False)
-    console.print(f"grounded to {list(answer.predicted)}, probability {answer.solution.probability:.3f}", markup=False)
-    table = Table(title="what moved it, as log-odds")
+    solution = answer.solution
+    if solution is None or solution.object is None:
+        console.print(f"not grounded: {answer.parse.problem}", markup=False)
+        return
+    console.print(f"grounded to {list(answer.predicted)}, probability {answer.probability:.3f}", markup=False)
+    _print_table("what moved it, as log-odds", explain(evaluation.model, solution), console)
+    second = rivalry(evaluation.model, solution)
+    if second is not None:
+        probability = solution.probabilities[second.object.id]
+        title = (
+            f"what told {solution.object.id} from the second best, {second.object.id} (probability {probability:.3f}): "
+            f"log-odds {second.log_odds:+.2f}"
+        )
+        _print_table(title, second.reasons, console)
+
+
+def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> None:
+    table = Table(title=title, title_justify="left")
     for column in ("phrase", "grounding", "feature of the phrase", "feature of the grounding", "log-odds"):
         table.add_column(column, justify="right" if column == "log-odds" else "left")
     shown: Counter[tuple[str, str]] = Counter()
-    for reason in explain(evaluation.model, answer.solution):
+    for reason in reasons:
         shown[reason.phrase, reason.grounding] += 1
         if shown[reason.phrase, reason.grounding] <= _REASONS:
-            table.add_row(reason.phrase, reason.grounding, reason.language, reason.feature, f"{reason.log_odds:+.2f}")
+            cells = (reason.phrase, reason.grounding, reason.language, reason.feature)
+            table.add_row(*map(escape, cells), f"{reason.log_odds:+.2f}")
     console.print(table)
 
 
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
     try:
-        settings = OmegaConf.to_object(config)
-        assert isinstance(settings, EvaluateSettings)
-        figures = evaluate(settings, directory, console)
+        figures = evaluate(evaluate_settings_of(config), directory, console)
         save_composed(config, directory)
-        (directory / "summary.json").write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-        print(json.dumps({**figures, "run_dir": str(directory)}), flush=True)
+        text = json.dumps({**figures, "run_dir": str(directory)})
+        part = directory / f"{SUMMARY}.part"
+        part.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
+        os.replace(part, directory / SUMMARY)
+        print(text, flush=True)
     except CONFIG_ERRORS as error:
         sys.exit(refuse(explain_error(error), directory))
     except (EpisodeError, SettingsError) as error:

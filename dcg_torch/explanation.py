@@ -1,13 +1,18 @@
-"""Why a command was grounded as it was: the features that moved each phrase towards its grounding, and by how much."""
+"""Why a command was grounded as it was: the features that moved each phrase towards its grounding, and by how much.
+
+And why not otherwise: the features by which the answer and the second best object differ.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
-from dcg_torch.graph import Solution
+from dcg_torch.encoding import example_bag
+from dcg_torch.graph import FactorGraph, Hypothesis, Solution
 from dcg_torch.learning import labelled
-from dcg_torch.model import GroundingModel, example_bag
-from dcg_torch.symbols import Correspondence
+from dcg_torch.model import GroundingModel
+from dcg_torch.symbols import Correspondence, Object, WorldModel
 
 
 @dataclass(frozen=True)
@@ -21,38 +26,69 @@ class Reason:
     log_odds: float
 
 
+@dataclass(frozen=True)
+class Rivalry:
+    """The second best object, and what told the best one from it.
+
+    Attributes:
+        object: the second best.
+        log_odds: of the best configuration about the best object over that about this one.
+        reasons: features that fired for one of the two alone, strongest first; above 0 they speak for the best.
+    """
+
+    object: Object
+    log_odds: float
+    reasons: tuple[Reason, ...]
+
+
 def explain(model: GroundingModel, solution: Solution) -> list[Reason]:
     """The reasons for the best configuration, phrase by phrase from the root, strongest first.
 
     The log-odds of a phrase's reasons add up to log Psi(correspondence) - log Psi(INACTIVE).
     """
-    reasons: list[Reason] = []
-    if solution.best is None:
-        return reasons
+    walk = [] if solution.best is None else solution.best.walk()
+    return [
+        reason
+        for hypothesis in walk
+        for reason in sorted(_reasons(model, hypothesis, solution.world), key=lambda r: -abs(r.log_odds))
+    ]
+
+
+def rivalry(model: GroundingModel, solution: Solution) -> Rivalry | None:
+    """What decided between the answer and the second best object; None if there is no other object.
+
+    Each phrase is compared with itself in the best configuration about the other object, whose landmarks may differ.
+    """
+    graph = FactorGraph(solution.tree, solution.world)
+    second = graph.runner_up(model.features, model.loglinear, beam=model.variant.beam)
+    if solution.best is None or second is None:
+        return None
+    found: list[Reason] = []
+    for ours, theirs in zip(solution.best.walk(), second.walk(), strict=True):
+        for_us = {(r.language, r.feature): r for r in _reasons(model, ours, solution.world)}
+        for_them = {(r.language, r.feature): r for r in _reasons(model, theirs, solution.world)}
+        found += [r for key, r in for_us.items() if key not in for_them]
+        found += [replace(r, log_odds=-r.log_odds) for key, r in for_them.items() if key not in for_us]
+    found.sort(key=lambda r: -abs(r.log_odds))
+    return Rivalry(second.child.grounding.object, solution.best.log_score - second.log_score, tuple(found))
+
+
+def _reasons(model: GroundingModel, hypothesis: Hypothesis, world: WorldModel) -> Iterator[Reason]:
+    """The features that fire for a phrase and its grounding, but those of weight zero."""
     languages, groundings = list(model.features.language), list(model.features.grounding)
-    for hypothesis in solution.best.walk():
-        example = labelled(
-            hypothesis.tree.phrase,
-            hypothesis.child,
-            hypothesis.factor_children,
-            solution.world,
-        )
-        sign = model.loglinear.correspondences.index(hypothesis.child.correspondence)
-        zero = model.loglinear.correspondences.index(Correspondence.INACTIVE)
-        odds = model.loglinear.weight[sign] - model.loglinear.weight[zero]
-        chosen = [thing.id for thing in solution.world.things].index(hypothesis.child.grounding.object.id)
-        row = example_bag(example, model.features)[chosen]
-        own = [
-            Reason(
-                hypothesis.tree.phrase.text or hypothesis.tree.phrase.kind,
-                hypothesis.child.grounding.object.id,
-                languages[language],
-                groundings[grounding],
-                float(odds[language, grounding]),
-            )
-            for language in model.features.encode_phrases([hypothesis.tree.phrase])[0]
-            for grounding in row[row >= 0]
-            if odds[language, grounding] != 0.0
-        ]
-        reasons += sorted(own, key=lambda reason: -abs(reason.log_odds))
-    return reasons
+    phrase, child = hypothesis.tree.phrase, hypothesis.child
+    sign = model.loglinear.correspondences.index(child.correspondence)
+    zero = model.loglinear.correspondences.index(Correspondence.INACTIVE)
+    odds = model.loglinear.weight[sign] - model.loglinear.weight[zero]
+    chosen = [thing.id for thing in world.things].index(child.grounding.object.id)
+    row = example_bag(labelled(phrase, child, hypothesis.factor_children, world), model.features)[chosen]
+    for language in model.features.encode_phrases([phrase])[0]:
+        for grounding in row[row >= 0]:
+            if language >= 0 and odds[language, grounding] != 0.0:
+                yield Reason(
+                    phrase.text or phrase.kind,
+                    child.grounding.object.id,
+                    languages[language],
+                    groundings[grounding],
+                    float(odds[language, grounding]),
+                )

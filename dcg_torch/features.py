@@ -158,15 +158,19 @@ class FeatureSet:
         return start.extended(symbols, colors, examples)
 
     def extended(self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example]) -> FeatureSet:
-        """Columns for a labelled corpus: its nouns and types, its colours, and the other words of its examples."""
+        """Columns for a labelled corpus: its nouns, types and colours, its other words, attributes of things."""
         new = self
         for symbol in symbols:
             new = new.grow(symbol)
         for color in colors:
             new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
+        examples = list(examples)
         words = [f for example in examples for f in _word_features(example.phrase)]
+        worlds = {id(example.world): example.world for example in examples}.values()
+        met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
+        further = [f"state: {attribute}" for attribute in sorted(met)]
         colored = [f"{of} color: {color}" for of in ("stack", "group") for color in colors]
-        return new._with(words, [(Group.RELATION, name) for name in colored])
+        return new._with(words, [(Group.RELATION, name) for name in (*further, *colored)])
 
     def grow(self, symbol: Symbol) -> FeatureSet:
         """Columns for a learned symbol: f_word, f_obj and f_color (Alg. 1, lines 20 to 22)."""
@@ -178,6 +182,12 @@ class FeatureSet:
             groundings.append((Group.COLOR, f"color: {symbol.color}"))
         return self._with(languages, groundings)
 
+    def name_color(self, word: str, color: str) -> FeatureSet:
+        """Columns for a learned colour: the word that is said, and the colour as it is perceived."""
+        of_others = [(Group.RELATION, f"{of} color: {color}") for of in ("stack", "group")]
+        seen = [(Group.COLOR, f"color: {color}"), *of_others]
+        return self._with([(Group.COLOR, f"color: {word}")], seen)
+
     def include(
         self, *, nouns: Iterable[str] = (), types: Iterable[str] = (), colors: Iterable[str] = ()
     ) -> FeatureSet:
@@ -187,6 +197,14 @@ class FeatureSet:
             [*((Group.DCG, f"noun: {n}") for n in nouns), *of_colors],
             [*((Group.DCG, f"type: {t}") for t in types), *of_colors],
         )
+
+    def joined(self, other: FeatureSet) -> FeatureSet:
+        """With the columns of another set of the same groups, behind its own."""
+        language, grounding = dict(self.language), dict(self.grounding)
+        for table, names in ((language, other.language), (grounding, other.grounding)):
+            for name in names:
+                table.setdefault(name, len(table))
+        return FeatureSet(self.groups, language, grounding)
 
     def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
         language, grounding = dict(self.language), dict(self.grounding)

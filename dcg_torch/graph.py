@@ -142,6 +142,12 @@ class Solution:
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
 
+def _meant(hypothesis: Hypothesis) -> Object:
+    """The object that the noun phrase of the action means, or where there is none, the action itself."""
+    walk = hypothesis.walk()
+    return next((h for h in walk if h.tree.phrase.kind is PhraseKind.NOUN), hypothesis).child.grounding.object
+
+
 class FactorGraph:
     """The correspondence variables and factors of one command in one world.
 
@@ -202,6 +208,12 @@ class FactorGraph:
             {o.id: float(p) for o, p in zip(meanable, probabilities, strict=True)},
             {} if noun is None else {o.id: float(p) for o, p in zip(meanable, np.exp(noun.log_fit), strict=True)},
         )
+
+    def runner_up(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Hypothesis | None:
+        """The best configuration whose noun phrase means another object than the best one's; None if there is none."""
+        root = self._pass(features, model, beam)[0] if self.world.objects else None
+        ranked = [] if root is None else self._best(root, root.scores.size)
+        return next((h for h in ranked if _meant(h) != _meant(ranked[0])), None)
 
     def modifiers(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Sequence[Placed]:
         """The factors of the modifiers of the root, which must be a noun phrase."""

@@ -147,14 +147,37 @@ class FitResult:
     seconds: float
 
 
-def tabulate(
+@dataclass(frozen=True)
+class Merged:
+    """Labelled factors with identical rows merged, as bags: a `Table` whose columns can still be renamed.
+
+    Attributes:
+        language: (A, k) bag of the distinct phrases.
+        grounding: (N, k') bag of the distinct factors.
+        phrase: (N,) the phrase of each factor.
+        count: (P, N) summed weights of the examples with each label.
+    """
+
+    language: Bag
+    grounding: Bag
+    phrase: NDArray[np.int64]
+    count: NDArray[np.float64]
+
+    def table(self, shape: tuple[int, int]) -> Table:
+        """As a table of (L, G) columns."""
+        languages, groundings = shape
+        position = self.phrase[:, None] * (groundings + 1) + self.grounding % (groundings + 1)
+        return Table(_dense(self.language, languages), torch.from_numpy(position), torch.from_numpy(self.count))
+
+
+def merge(
     language: Bag,
     grounding: Bag,
     phrase: NDArray[np.int64],
     label: NDArray[np.int64],
     weight: NDArray[np.float64],
-    shape: tuple[int, int, int],
-) -> Table:
+    correspondences: int,
+) -> Merged:
     """Merge labelled factors.
 
     Args:
@@ -163,16 +186,37 @@ def tabulate(
         phrase: (n,) the phrase of each factor.
         label: (n,) index into the P correspondences.
         weight: (n,) of each factor in the likelihood.
-        shape: (P, L, G).
+        correspondences: P.
     """
-    correspondences, languages, groundings = shape
-    a_rows, a_of = np.unique(_distinct(language), axis=0, return_inverse=True)
-    keyed = np.column_stack([a_of.reshape(-1)[phrase], _distinct(grounding)])
-    rows, which = np.unique(keyed, axis=0, return_inverse=True)
+    a_rows, a_of = _unique(_distinct(language))
+    rows, which = _unique(np.column_stack([a_of[phrase], _distinct(grounding)]))
     count = np.zeros((correspondences, len(rows)))
-    np.add.at(count, (label, which.reshape(-1)), weight)
-    position = rows[:, :1] * (groundings + 1) + rows[:, 1:] % (groundings + 1)
-    return Table(_dense(a_rows, languages), torch.from_numpy(position), torch.from_numpy(count))
+    np.add.at(count, (label, which), weight)
+    return Merged(a_rows, rows[:, 1:], rows[:, 0], count)
+
+
+def _unique(rows: Bag) -> tuple[Bag, NDArray[np.int64]]:
+    """`numpy.unique` of rows, with the inverse: most repeats fall away by a hash, before rows are sorted."""
+    factors = np.random.default_rng(0).integers(1, 2**63, size=rows.shape[1], dtype=np.uint64) | np.uint64(1)
+    hashed = (rows.astype(np.uint64) * factors).sum(axis=1, dtype=np.uint64)
+    _, first, group = np.unique(hashed, return_index=True, return_inverse=True)
+    group = group.reshape(-1)
+    if not np.array_equal(rows[first][group], rows):  # two rows with one hash
+        first, group = np.arange(len(rows)), np.arange(len(rows))
+    found, which = np.unique(rows[first], axis=0, return_inverse=True)
+    return found, which.reshape(-1)[group]
+
+
+def tabulate(
+    language: Bag,
+    grounding: Bag,
+    phrase: NDArray[np.int64],
+    label: NDArray[np.int64],
+    weight: NDArray[np.float64],
+    shape: tuple[int, int, int],
+) -> Table:
+    """`merge`, as a table of columns (P, L, G)."""
+    return merge(language, grounding, phrase, label, weight, shape[0]).table(shape[1:])
 
 
 def _dense(bag: Bag, columns: int) -> torch.Tensor:

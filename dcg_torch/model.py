@@ -8,14 +8,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
-from dcg_torch import space
-from dcg_torch.features import GROUNDING_OF, PAPER, FeatureSet, Group, Ranking, ranking
+from dcg_torch.encoding import encode, example_bag
+from dcg_torch.features import PAPER, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
-from dcg_torch.loglinear import BINARY, TERNARY, Bag, FitResult, LogLinearModel, Table, fit, tabulate
+from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
 from dcg_torch.relational import (
     Workspace,
     coordinated,
@@ -29,7 +26,6 @@ from dcg_torch.relational import (
 from dcg_torch.symbols import (
     Correspondence,
     Example,
-    GroundingKind,
     ParseTree,
     Percept,
     PhraseKind,
@@ -38,6 +34,8 @@ from dcg_torch.symbols import (
     WorldModel,
 )
 from dcg_torch.world.upsilon import world_model
+
+__all__ = ["GroundingModel", "Scene", "TrainingSet", "Variant", "encode", "example_bag"]
 
 
 @dataclass(frozen=True)
@@ -255,69 +253,6 @@ class GroundingModel:
 
     def _tables(self, examples: Sequence[Example]) -> list[Table]:
         return encode([contrast(e, self.symbols) for e in examples], self.features, self.loglinear)
-
-
-def encode(examples: Sequence[Example], features: FeatureSet, model: LogLinearModel) -> list[Table]:
-    """The labelled factors of `examples` under the given columns; rows of like width share a table."""
-    encoder = _Encoder(features)
-    alike: dict[int, list[tuple[Example, Bag]]] = {}
-    for example in examples:
-        bag = encoder.bag(example)
-        alike.setdefault(max(3, bag.shape[1].bit_length()), []).append((example, bag))
-    return [_tabulate(members, features, model) for members in alike.values()]
-
-
-def example_bag(example: Example, features: FeatureSet) -> Bag:
-    """(groundings, k) bag of the grounding columns that fire for every grounding of an example's phrase."""
-    return _Encoder(features).bag(example)
-
-
-class _Encoder:
-    """Encodes examples; what depends on the world alone is done once for all examples of a world."""
-
-    def __init__(self, features: FeatureSet) -> None:
-        self.features = features
-        self._things: dict[tuple[int, Ranking | None], Bag] = {}
-
-    def bag(self, example: Example) -> Bag:
-        """(groundings, k) bag of an example's factors."""
-        kind, world = GROUNDING_OF[example.phrase.kind], example.world
-        if kind is GroundingKind.OBJECT:
-            return self._of_things(world, ranking(example.phrase))
-        hypotheses: NDArray[np.int64]
-        if kind is GroundingKind.PLACED:
-            index = {thing.id: j for j, thing in enumerate(world.things)}
-            landmarks = [index[c.grounding.object.id] for c in example.children]
-            hypotheses = self.features.encode_placed(space.layout(world), [landmarks], ranking(example.phrase))
-        else:
-            hypotheses = self.features.encode_groundings(kind, world, [example.children])
-        return hypotheses.reshape(hypotheses.shape[1:])
-
-    def _of_things(self, world: WorldModel, counted: Ranking | None) -> Bag:
-        key = id(world), counted
-        if key not in self._things:
-            self._things[key] = self.features.encode_things(world, space.layout(world), counted)
-        return self._things[key]
-
-
-def _tabulate(encoded: Sequence[tuple[Example, Bag]], features: FeatureSet, model: LogLinearModel) -> Table:
-    bags, phrases, labels, weights = [], [], [], []
-    for k, (example, bag) in enumerate(encoded):
-        labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
-        bags.append(bag[labelled])
-        phrases += [k] * len(labelled)
-        labels += [model.correspondences.index(c) for c in example.correspondences if c is not None]
-        own = example.weights or (1.0,) * len(example.correspondences)
-        weights += [example.weight * own[j] for j in labelled]
-    width = max(b.shape[1] for b in bags)
-    return tabulate(
-        features.encode_phrases([example.phrase for example, _ in encoded]),
-        np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in bags]),
-        np.array(phrases, dtype=np.int64),
-        np.array(labels, dtype=np.int64),
-        np.array(weights),
-        (len(model.correspondences), *features.shape),
-    )
 
 
 def _restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:

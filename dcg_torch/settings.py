@@ -159,22 +159,26 @@ class EvaluateSettings:
     Attributes:
         train, test: the files (JSON lines).
         known_types: leave the training rows about other types out; null: keep all.
+        known_colors: leave the training rows about objects of other colours out; null: keep all.
         learn: learn after each test command, in file order, without seeing its target.
         explain: id of a test episode whose grounding is to be explained.
         rounds: of expectation-maximisation over the landmarks.
         folds: instead of `test`, cross-validate `train` in so many parts; episodes of one `group` stay together.
         baseline: also fit scikit-learn's logistic regression, on words x object features, to the same episodes.
+        save: write the model as it is at the end into `model/` of the run folder; not with folds.
     """
 
     train: str = "???"  # Hydra's mark of what must be given
     test: str | None = None
     model: ModelSettings = field(default_factory=ModelSettings)
     known_types: list[str] | None = None
+    known_colors: list[str] | None = None
     learn: bool = False
     explain: str | None = None
     rounds: int = 4
     folds: int = 0
     baseline: bool = False
+    save: bool = True
 
 
 def check(settings: Settings) -> None:

@@ -41,6 +41,7 @@ def teach(
     lessons: Sequence[Lesson],
     *,
     known_types: Collection[str] | None = None,
+    known_colors: Collection[str] | None = None,
     rounds: int = 4,
     beam: int = 12,
     progress: Callable[[int], None] | None = None,
@@ -49,12 +50,13 @@ def teach(
 
     Args:
         known_types: types that may become known; None: all that are meant in the lessons.
+        known_colors: the same of colours; a word for a colour that no lesson says of such an object is not known.
         rounds: of expectation and maximisation.
         beam: landmarks considered for each modifier.
         progress: called with the number of each round that is done.
     """
     prepared = [part for lesson in lessons for part in _parts(model, lesson)]
-    words, colors = _inventory(prepared, known_types)
+    words, colors = _inventory(prepared, known_types, known_colors)
     phrases = [Example(node.phrase, part.world, ()) for part in prepared for node in part.noun.walk()]
     for word in words:
         model.symbols.setdefault(word.word, word)
@@ -97,7 +99,9 @@ def _noun(tree: ParseTree) -> ParseTree | None:
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
 
-def _inventory(prepared: Sequence[_Part], known_types: Collection[str] | None) -> tuple[list[Symbol], list[str]]:
+def _inventory(
+    prepared: Sequence[_Part], known_types: Collection[str] | None, known_colors: Collection[str] | None
+) -> tuple[list[Symbol], list[str]]:
     """The symbols that the lessons make known, each noun for the type it means most, and their colours."""
     meant: dict[str, Counter[str]] = {}
     colors: dict[str, None] = {}
@@ -106,10 +110,10 @@ def _inventory(prepared: Sequence[_Part], known_types: Collection[str] | None) -
             if o.id in part.targets and o.type is not None and (known_types is None or o.type in known_types):
                 if part.noun.phrase.noun is not None and part.alone:
                     meant.setdefault(part.noun.phrase.noun, Counter())[o.type] += 1
-                if o.color is not None:
+                if o.color is not None and (known_colors is None or o.color in known_colors):
                     colors[o.color] = None
         for node in part.noun.walk():
-            if node.phrase.color is not None:
+            if node.phrase.color is not None and (known_colors is None or node is part.noun):
                 colors[node.phrase.color] = None
     return [Symbol(word, types.most_common(1)[0][0]) for word, types in meant.items()], list(colors)
 

@@ -44,7 +44,9 @@ class Unseen:
 
 
 @dataclass(frozen=True, slots=True)
-class _Pair:
+class Pair:
+    """A phrase and an object, and the odds for ACTIVE against INACTIVE that it is to have."""
+
     phrase: Phrase
     object: Object
     odds: float
@@ -74,10 +76,10 @@ def soft_examples(
     pairs = [*_nouns(nouns, forgotten), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
     if unnamed:
         pairs += _unnamed(nouns, colors, unseen, looked)
-    return list(_examples(pairs, strength))
+    return list(pair_examples(pairs, strength))
 
 
-def _nouns(nouns: Beliefs, forgotten: Collection[str]) -> Iterator[_Pair]:
+def _nouns(nouns: Beliefs, forgotten: Collection[str]) -> Iterator[Pair]:
     """Every noun with a perceived object of every type, no colour said."""
     table, new = nouns.said_of()
     things = [_object(type_) for type_ in nouns.posterior.types]
@@ -85,28 +87,28 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str]) -> Iterator[_Pair]:
     for word, row in zip((*nouns.posterior.words, *unheard), (*table, *([new] * len(unheard))), strict=True):
         phrase = _phrase(word)
         for thing, odds in zip(things, row.tolist(), strict=True):
-            yield _Pair(phrase, thing, odds)
+            yield Pair(phrase, thing, odds)
 
 
-def _colors(nouns: Beliefs, colors: Beliefs) -> Iterator[_Pair]:
+def _colors(nouns: Beliefs, colors: Beliefs) -> Iterator[Pair]:
     """Every colour word with every colour, on a known type and on one not met."""
     table, new = colors.said_of()
     for noun, type_, scale in _anchors(nouns):
         for word, row in zip((*colors.posterior.words, NEVER_HEARD), (*table, new), strict=True):
             for color, odds in zip(colors.posterior.types, row, strict=True):
-                yield _Pair(_phrase(noun, word), _object(type_, color), scale * float(odds))
+                yield Pair(_phrase(noun, word), _object(type_, color), scale * float(odds))
 
 
-def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[_Pair]:
+def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[Pair]:
     """Hypothetical objects, of a known type and of one not met, with a colour said and without."""
     color = next(iter(colors.posterior.words), None)
     for noun, type_, scale in _anchors(nouns):
         for said, ahead in ((None, unseen.ahead), (color, unseen.ahead_colored)):
             for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
-                yield _Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
+                yield Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
 
 
-def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[_Pair]:
+def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[Pair]:
     """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
     said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
     if colors.posterior.words:
@@ -115,10 +117,10 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
         said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
     for word, color_of, odds, ahead in said:
         for type_ in nouns.posterior.types:
-            yield _Pair(_phrase(None, word), _object(type_, color_of), odds)
+            yield Pair(_phrase(None, word), _object(type_, color_of), odds)
         for _, type_, _ in _anchors(nouns):
             for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
-                yield _Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
+                yield Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
 
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
@@ -143,9 +145,11 @@ def _object(
     return Object(name, type_ if met else None, met, hypothetical, color, attributes=attributes)
 
 
-def _examples(pairs: Iterable[_Pair], strength: float) -> Iterator[Example]:
-    """A soft label a pair, as two examples a phrase: its objects ACTIVE, and the same INACTIVE."""
-    by_phrase: dict[Phrase, list[_Pair]] = {}
+def pair_examples(pairs: Iterable[Pair], strength: float) -> Iterator[Example]:
+    """Examples from which the model gets the odds of the pairs.
+
+    A soft label a pair, as two examples a phrase: its objects ACTIVE, and the same INACTIVE."""
+    by_phrase: dict[Phrase, list[Pair]] = {}
     worlds: dict[tuple[str, ...], WorldModel] = {}  # shared, so that each is encoded once
     for pair in pairs:
         by_phrase.setdefault(pair.phrase, []).append(pair)
