@@ -65,9 +65,10 @@ PAIRS: dict[str, frozenset[str]] = {
     "verb": frozenset({"kind", "child"}),
     "preposition": frozenset({"kind", "child"}),
     "modifier": frozenset({"kind", "relation"}),
-    "word": frozenset({"rank", "state", "stack color", "group color"}),
+    "word": frozenset({"rank", "state", "part", "stack color", "group color"}),
     "context": frozenset({"kind", "state", "relation"}),
-    "noun": frozenset({"type", "state"}),
+    "landmark": frozenset({"kind"}),  # what states landmarks are in is chance, which a corpus has plenty of
+    "noun": frozenset({"type", "part"}),
     "noun known": frozenset({"known", "hypothetical"}),
     "color": frozenset({"color", "group color"}),
     "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
@@ -112,6 +113,7 @@ def _fixed_groundings() -> Iterator[Feature]:
     for name in (*space.RELATION_NAMES, *FEW.values(), *space.STATES, *space.RANKS):
         yield Group.RELATION, name
     yield Group.RELATION, "kind: place"
+    yield Group.RELATION, "kind: group"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
 
@@ -324,8 +326,8 @@ class FeatureSet:
         if Group.RELATION in self.groups:
             for own, more in zip(names, space.states(where), strict=True):
                 own += more
-            for own in names[len(world.meanable) :]:
-                own.append("kind: place")
+            for own, thing in zip(names[len(world.objects) :], world.things[len(world.objects) :], strict=True):
+                own.append("kind: group" if thing.members else "kind: place")
         bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
         if ranking is None or Group.RELATION not in self.groups:
             return bag
@@ -414,7 +416,7 @@ def _word_features(phrase: Phrase) -> Iterator[Feature]:
     if is_noun and len(words) > 1:
         yield Group.RELATION, f"word: {' '.join(words)}"
     for context in phrase.context:
-        yield Group.RELATION, f"context: {context}"
+        yield Group.RELATION, context if context.startswith("landmark: ") else f"context: {context}"
         if not is_noun:
             for word in words:
                 yield Group.RELATION, f"{phrase.kind}: {word}, {context}"

@@ -105,7 +105,7 @@ def place_examples() -> list[Example]:
     world = WorldModel((cube,), robot, speaker, things)
     phrases: list[tuple[Phrase, set[str], set[str]]] = []
     for noun, (kind, side) in _PLACE_WORDS.items():
-        phrase = Phrase(PhraseKind.NOUN, noun, noun=noun, context=("landmark",))
+        phrase = Phrase(PhraseKind.NOUN, noun, noun=noun, context=("landmark: of any",))
         phrases.append((phrase, {kind}, set() if side is None else {side}))
         if kind in ("corner", "edge") and side is None:
             phrases += [(replace(phrase, words=(word,)), {kind}, {of}) for word, of in _SIDE_WORDS.items()]
@@ -264,7 +264,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     words = tree.phrase.words
     if words[0].startswith(f"{NOT} "):
         words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
-    landmarks = [_noun(n, (f"landmark of {' '.join(words)}", "landmark")) for n in tree.children]
+    landmarks = [_noun(n, (f"landmark: of {' '.join(words)}", "landmark: of any")) for n in tree.children]
     if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None

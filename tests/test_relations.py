@@ -60,7 +60,7 @@ def test_contexts_say_what_is_done_and_what_is_compared() -> None:
     assert nodes[PhraseKind.MODIFIER].phrase.context == ("to a thing",)
     assert nodes[PhraseKind.MODIFIER].phrase.among == "kind"
     contexts = [n.phrase.context for n in tree.walk() if n.phrase.kind is PhraseKind.NOUN]
-    assert contexts == [("object of go", "object"), ("landmark of near", "landmark")]
+    assert contexts == [("object of go", "object"), ("landmark: of near", "landmark: of any")]
     anything = relational(go_to(np_("thing", None, pp("in", np_("corner")))))
     noun = next(n for n in anything.walk() if n.phrase.kind is PhraseKind.NOUN)
     assert noun.phrase.noun is None

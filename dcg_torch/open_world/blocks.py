@@ -18,10 +18,10 @@ from dcg_torch.features import FeatureSet, Group
 from dcg_torch.loglinear import LogLinearModel
 from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS, group_nouns
 
-_TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context"})
-_TAUGHT_GROUNDING = frozenset({"relation", "state", "rank", "stack color", "group color"})
+_TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})
+_TAUGHT_GROUNDING = frozenset({"relation", "state", "part", "rank", "stack color", "group color"})
 _PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *group_nouns())}
-_OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place"}
+_OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group"}
 
 
 @dataclass(frozen=True)
@@ -84,11 +84,11 @@ def _taught(language: list[str], grounding: list[str]) -> NDArray[np.bool_]:
     Not what a noun or an object of a verb is like by itself, nor how things stand in a context whatever the word: the
     lessons' worlds are random, it would be chance.
     """
-    of_context = np.array([name in {"kind: placed", "kind: place"} for name in grounding])
-    of_any = np.array([name == "kind: place" for name in grounding])
+    of_context = np.array([name in {"kind: placed", "kind: place", "kind: group"} for name in grounding])
+    of_any = np.array([name in {"kind: place", "kind: group"} for name in grounding])
     of_word = np.ones(len(grounding), dtype=np.bool_)
     rows = [
-        of_context if name.startswith("context:") else of_word if _is_taught_language(name) else of_any
+        of_context if name.startswith(("context:", "landmark:")) else of_word if _is_taught_language(name) else of_any
         for name in language
     ]
     return np.array(rows, dtype=np.bool_).reshape(len(language), len(grounding))

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dcg_torch.space.layout import NEAREST, NEXT, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
+from dcg_torch.space.layout import HEADINGS, NEAREST, NEXT, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
@@ -14,11 +14,12 @@ AXES = (
 )
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
-    *(f"state: {s}" for s in ("beside something", "held", "near side", "far side", "left side", "right side")),
-    *(f"state: {s}" for s in ("of robot", "of speaker", "row", "stack", "cluster", "in a row")),
-    *(f"state: of {n}" for n in range(2, 11)),
+    *(f"state: {s}" for s in ("beside something", "held", "in a row")),
+    *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", "row", "stack", "cluster")),
+    *(f"part: of {n}" for n in range(2, 11)),
 ]
-"""The states that are always features; further attributes of objects become features as they are met."""
+"""The states of objects, and what places and groups are, that are always features; further attributes of objects become
+features as they are met."""
 
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
 RANKS = [f"rank: {axis} {k}{row}" for row in ("", " of its row") for axis in AXES for k in (*_NUMBERED, "nth", "first")]
@@ -36,7 +37,7 @@ def states(where: Layout) -> list[list[str]]:
     neighbours, stack, rows = beside.sum(axis=1), column.sum(axis=1), where.member.sum(axis=0)
     out = []
     for j, thing in enumerate(things):
-        names = [f"state: {a}" for a in sorted(thing.attributes)]
+        names = [f"{'state' if solid[j] else 'part'}: {a}" for a in sorted(thing.attributes)]
         if solid[j] and thing.position is not None:
             names += [
                 "state: covered" if above[j] else "state: clear",
