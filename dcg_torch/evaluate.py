@@ -30,6 +30,7 @@ from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
 from dcg_torch.store import save
 from dcg_torch.training import initial_training
+from dcg_torch.training.generated import generated_lessons
 from dcg_torch.worker import variant
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
@@ -67,6 +68,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
                     default_parser().parse,
                     known_types=settings.known_types,
                     known_colors=settings.known_colors,
+                    generated=generated_lessons(default_parser().parse, settings.model.lessons),
                     rounds=settings.rounds,
                     progress=bar.advance,
                 )

@@ -23,7 +23,7 @@ from dcg_torch.symbols import Child, Example, Grounding, GroundingKind, PhraseKi
 from dcg_torch.trial.command import Parse, Parser
 
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
-_GENERATED = 0.1
+_GENERATED = 0.03
 """Weight of a generated lesson against one of people's."""
 _LEARNING_STEPS = 10  # L-BFGS iterations after a command: the optimum moves little, and is followed
 

@@ -6,6 +6,7 @@ of, and the groups that its objects form where the command speaks of one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from dcg_torch import space
@@ -69,6 +70,8 @@ _GROUP_WORDS = {
     "collection": ("cluster",),
 }
 """What people call groups."""
+_INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
+"""Prepositions by which a thing is one of a group."""
 _ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 _SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
@@ -226,8 +229,10 @@ def relational(tree: ParseTree) -> ParseTree:
     return replace(tree, children=(child,))
 
 
-def among(phrase: Phrase) -> str:
-    """What a noun phrase's object is one of: of those of its kind, type or colour, or of all."""
+def among(phrase: Phrase, modifiers: Sequence[ParseTree] = ()) -> str:
+    """What a noun phrase's object is one of: of those of its kind, type or colour, of all, or of its row."""
+    if any(m.phrase.words[0] in _INSIDE and is_group(m.children[0].phrase) for m in modifiers):
+        return "row"
     if phrase.noun is not None:
         return "kind" if phrase.color is not None else "type"
     return "color" if phrase.color is not None else "all"
@@ -244,20 +249,8 @@ def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
 def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in _ANYTHING else tree.phrase
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
-    if any(_is_bare(child) for child in described):
-        described = [child for child in described if not _is_bare(child)]
-        phrase = replace(phrase, words=(*phrase.words, _BARE))
-    modifiers = tuple(_modifier(child, phrase) for child in described)
-    return ParseTree(replace(phrase, context=context, among=among(phrase)), modifiers)
-
-
-_BARE = "nothing on it"
-"""Word of a noun phrase: "the cube with nothing on it"."""
-
-
-def _is_bare(tree: ParseTree) -> bool:
-    """ "with nothing on top": there is no landmark, the object is bare."""
-    return tree.children[0].phrase.noun in ("nothing", "anything") and tree.phrase.words[0] in ("with", "without")
+    phrase = replace(phrase, context=context, among=among(phrase, described))
+    return ParseTree(phrase, tuple(_modifier(child, phrase) for child in described))
 
 
 def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
@@ -274,6 +267,6 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
         words,
         count=several,
         context=_landmark_context(tree),
-        among=among(head),
+        among=head.among,
     )
     return ParseTree(phrase, tuple(landmarks))

@@ -72,7 +72,8 @@ class OpenWorldSettings:
 class ModelSettings:
     """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
 
-    `lessons` is the number of generated lessons on relations (`training.relations`) that it is taught before a trial.
+    `lessons` is the number of generated lessons on relations (`training.generated`) that it is taught before a trial,
+    or before the episodes of a corpus.
     """
 
     name: str = "dcg_upup_away_color"

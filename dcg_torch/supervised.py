@@ -16,12 +16,12 @@ from dcg_torch.graph import FactorGraph, Hypothesis, Placed
 from dcg_torch.loglinear import FitResult
 from dcg_torch.model import GroundingModel
 from dcg_torch.relational import coordinated, grouped, is_group
-from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.symbols import NOT, Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
 
 _NEGLIGIBLE = 0.02
 """Landmarks less probable than this teach nothing."""
 _FAR_NEGATIVE = 0.1
-"""Weight of the objects that the noun phrase rules out already, as negative examples of its modifiers."""
+"""Weight of the objects that the noun phrase may rule out by itself, as negative examples of its modifiers."""
 _STEPS = 300
 """L-BFGS iterations of the last round."""
 
@@ -170,16 +170,20 @@ def _placed(
     things = world.things
     alike = [any(_alike(head, o, things[k]) for k in meant) for o in world.meanable]
     posterior = modifier.posterior
+    told_apart = not head.words  # "the second cube in the row": the others are in it too
+    stands, differs = Correspondence.ACTIVE, Correspondence.INACTIVE
+    if NOT in modifier.tree.phrase.words:
+        stands, differs = differs, stands
     examples = []
     for c, combo in enumerate(modifier.combos):
         labels: list[Correspondence | None] = [None] * len(things)
         weights = [0.0] * len(things)
         for j in range(len(world.meanable)):
             if j in meant:
-                labels[j], weights[j] = Correspondence.ACTIVE, posterior[c, j] / len(meant)
+                labels[j], weights[j] = stands, posterior[c, j] / len(meant)
             elif j not in spared:
-                near = posterior[c, j] * (1.0 if alike[j] else _FAR_NEGATIVE)
-                labels[j], weights[j] = Correspondence.INACTIVE, near
+                near = posterior[c, j] * (1.0 if told_apart and alike[j] else _FAR_NEGATIVE)
+                labels[j], weights[j] = differs, near
         taught = [w > _NEGLIGIBLE * _FAR_NEGATIVE for w in weights]
         children = tuple(h.child for h in combo)
         kept = tuple(label if t else None for label, t in zip(labels, taught, strict=True))
@@ -200,11 +204,12 @@ def _landmark(landmark: Hypothesis, world: WorldModel, weight: float) -> list[Ex
     examples = [Example(landmark.tree.phrase, world, labels, (), weight)]
     at = next(j for j, thing in enumerate(world.things) if thing.id == chosen.id)
     for below in landmark.children:
+        stands, differs = (inactive, active) if NOT in below.tree.phrase.words else (active, inactive)
         near: list[Correspondence | None] = [None] * len(world.things)
         for j, thing in enumerate(world.meanable):
             if _alike(landmark.tree.phrase, thing, chosen):
-                near[j] = inactive
-        near[at] = active
+                near[j] = differs
+        near[at] = stands
         children = tuple(h.child for h in below.children)
         examples.append(Example(below.tree.phrase, world, tuple(near), children, weight))
         for further in below.children:

@@ -30,7 +30,7 @@ from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.store import save
 from dcg_torch.supervised import teach
 from dcg_torch.training import TrainingFileError, initial_training
-from dcg_torch.training.relations import relational_lessons
+from dcg_torch.training.generated import generated_lessons
 from dcg_torch.trial.asking import Asking
 from dcg_torch.trial.command import Look
 from dcg_torch.trial.explore import Explorer, LookBefore, Worth
@@ -150,7 +150,7 @@ def _taught(chosen: Variant, lessons: int, assumed: OpenWorld | None) -> Groundi
         else OpenWorldModel.trained(training, chosen, assumed)
     )
     if lessons and Group.RELATION in chosen.groups:
-        teach(model, relational_lessons(lessons), rounds=2)
+        teach(model, generated_lessons(default_parser().parse, lessons), rounds=2)
     if isinstance(model, OpenWorldModel):
         model.settle()
     return model

@@ -196,13 +196,6 @@ def test_between_two_of_one_kind_has_two_landmarks() -> None:
     assert [n.phrase.noun for n in modifier.children] == ["sphere", "sphere"]
 
 
-def test_nothing_on_it_is_a_word_and_no_landmark() -> None:
-    tree = relational(go_to(np_("cube", None, pp("with", np_("nothing", None, pp("on", np_(None)))))))
-    noun = tree.children[0].children[0]
-    assert noun.phrase.words == ("nothing on it",)
-    assert noun.children == ()
-
-
 def test_relations_can_be_taught_from_scratch(training: TrainingSet) -> None:
     """A made-up preposition, defined by examples alone: "zib" is what the lessons show."""
     model = GroundingModel.trained(training, Variant(groups=frozenset(Group), hypothetical=False, l2=0.1))

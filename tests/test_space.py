@@ -193,9 +193,9 @@ def test_members_of_a_row_are_ranked_within_it() -> None:
     objects = (*row, thing("apart", (3, 20, 0), "cone"))
     groups = space.groups(row)
     world = WorldModel(objects, Pose(0, 0, 0), groups=groups)
-    second = ranked(world, "type", ordinal=2)
-    assert [j for j, names in enumerate(second) if "left nth of its row" in names] == [1]
-    assert next(j for j, names in enumerate(second) if "left nth" in names) == 2  # of all cones it is another
+    in_row, of_all = ranked(world, "row", ordinal=2), ranked(world, "type", ordinal=2)
+    assert [j for j, names in enumerate(in_row) if "left nth" in names] == [1]
+    assert next(j for j, names in enumerate(of_all) if "left nth" in names) == 2  # of all cones it is another
     inside = fired(world, [len(objects)])
     assert [v.get("member") for v in inside[:4]] == ["member"] * 3 + ["no member"]
     assert [v.get("member place") for v in inside[:3]] == ["end member", "middle member", "end member"]

@@ -29,9 +29,9 @@ NEAREST = 3
 """Ranks that are told apart by their number."""
 TIE = 1e-6
 
-SETS = ("kind", "type", "color", "all")
-"""What a thing may be compared with: those of its type and colour, of its type, of its colour, or all. Which, depends
-on what the phrase says of it."""
+SETS = ("kind", "type", "color", "all", "row")
+"""What a thing may be compared with: those of its type and colour, of its type, of its colour, all, or those in its row
+or stack. Which, depends on what the phrase says of it."""
 
 DIRECTION = "direction"
 """Type of the places that are no point but a way to look: "on your left"."""
@@ -54,7 +54,6 @@ class Layout:
         member: (n, n) is j a member of the group i?
         over: (n, n) does i rest on j?
         alike: `SETS` -> (n, n) is j one of those that i is compared with?
-        mates: (n, n) is j in the same row or stack as i?
         middle: (2,) the middle of the objects.
         speaker: (2,) where the speaker is, or None.
         rows: what `relations` has computed, by the set compared with and the numbers of the landmarks.
@@ -72,7 +71,6 @@ class Layout:
     member: Bools
     over: Bools
     alike: dict[str, Bools]
-    mates: Bools
     middle: Floats
     speaker: Floats | None
     rows: dict[tuple[str, tuple[int, ...]], NDArray[np.int16]] = field(default_factory=dict, compare=False)
@@ -141,8 +139,7 @@ def layout(world: WorldModel) -> Layout:
         np.array([t in ("edge", "corner") for t in types], dtype=np.bool_) & place,
         member,
         over,
-        _alike(things, solid, group),
-        _mates(member),
+        {**_alike(things, solid, group), "row": _mates(member)},
         middle,
         None
         if world.speaker is None

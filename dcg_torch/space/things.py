@@ -22,7 +22,7 @@ STATES = [
 features as they are met."""
 
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
-RANKS = [f"rank: {axis} {k}{row}" for row in ("", " of its row") for axis in AXES for k in (*_NUMBERED, "nth", "first")]
+RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "first")]
 """By number, and by what the phrase asks for: the nth of a row, one of the first few."""
 
 
@@ -58,7 +58,7 @@ def _colors(where: Layout, of: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> li
 
 
 def ranks(where: Layout, among: str, *, ordinal: int | None = None, count: int | None = None) -> Ints:
-    """The rank features of every thing: its place along every axis, among those alike and in its row.
+    """The rank features of every thing: its place along every axis among those alike.
 
     Args:
         among: which of `SETS` it is compared with.
@@ -68,20 +68,18 @@ def ranks(where: Layout, among: str, *, ordinal: int | None = None, count: int |
     Returns:
         (n, k) bag of indices into `RANKS`, padded with -1.
     """
-    values = _values(where)
-    out = []
-    for s, alike in enumerate((where.alike[among], where.mates)):
-        values[AXES.index("middle")] = _from_middle(where, alike)
-        with np.errstate(invalid="ignore"):
-            less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
-        before = (less & alike[None]).sum(axis=2)  # (axes, n)
-        there = np.isfinite(values) & alike.any(axis=1, keepdims=True).T
-        first = (s * len(AXES) + np.arange(len(AXES)))[:, None] * (NEAREST + 2)
-        out.append(np.where(there & (before < NEAREST), first + before, -1))
-        if ordinal is not None:
-            out.append(np.where(there & (before == ordinal - 1), first + NEAREST, -1))
-        if count is not None and count > 1:
-            out.append(np.where(there & (before < count), first + NEAREST + 1, -1))
+    values, alike = _values(where), where.alike[among]
+    values[AXES.index("middle")] = _from_middle(where, alike)
+    with np.errstate(invalid="ignore"):
+        less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
+    before = (less & alike[None]).sum(axis=2)  # (axes, n)
+    there = np.isfinite(values) & alike.any(axis=1, keepdims=True).T
+    first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
+    out = [np.where(there & (before < NEAREST), first + before, -1)]
+    if ordinal is not None:
+        out.append(np.where(there & (before == ordinal - 1), first + NEAREST, -1))
+    if count is not None and count > 1:
+        out.append(np.where(there & (before < count), first + NEAREST + 1, -1))
     bag: Ints = np.concatenate(out).T
     return bag
 
