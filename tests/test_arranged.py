@@ -57,9 +57,9 @@ def test_groups_and_their_members_are_learned(parser: Parser, training: Training
     for name, make in (("row", row_scene), ("cluster", cluster_scene), ("table", table_scene)):
         for _ in range(30):
             right[name] += _is_right(model, parser, _spoken(make, rng), rng)
-    assert right["row"] >= 24
-    assert right["cluster"] >= 27
-    assert right["table"] >= 21
+    assert right["row"] >= 22
+    assert right["cluster"] >= 22
+    assert right["table"] >= 22
 
 
 def _spoken(make: object, rng: np.random.Generator) -> Scene:
