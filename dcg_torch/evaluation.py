@@ -132,11 +132,10 @@ class Evaluation:
         self.parse = parse
         kind = GroundingModel if variant.synonyms is None else LexicalModel
         self.model = kind.trained(initial, variant)
-        self._workspace = workspace(train)
+        self.model.workspace = workspace(train)
         self._meant = frozenset(t for e in kept for t in _types_meant(e))
         read = [(e, reading) for e in kept if (reading := parse(e.text, ())).tree is not None]
         if isinstance(self.model, LexicalModel):
-            self.model.workspace = self._workspace
             nouns = _counted((reading.noun, _types_meant(e)) for e, reading in read)
             colors = _counted((reading.color, _colors_meant(e)) for e, reading in read)
             self.model.taught(sorted(self._meant), nouns, colors)
@@ -165,7 +164,7 @@ class Evaluation:
     def world(self, episode: Episode) -> WorldModel:
         """Upsilon of an episode: everything is perceived, and there are places to speak of."""
         pose, speaker = episode.pose, episode.speaker_pose
-        world = self.model.world_model(episode.percepts(), pose, speaker, workspace=self._workspace)
+        world = self.model.world_model(episode.percepts(), pose, speaker)
         known = self._meant | set(self.model.known_types)
         objects = tuple(replace(o, known=o.type in known) for o in world.objects)
         return replace(world, objects=objects)

@@ -31,17 +31,14 @@ from dcg_torch.loglinear import FitResult, LogLinearModel
 from dcg_torch.meaning.beliefs import UNMET, Evidence
 from dcg_torch.meaning.soft import Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
-from dcg_torch.relational import Workspace, group_nouns, place_symbols
+from dcg_torch.relational import group_nouns, place_symbols
 from dcg_torch.symbols import (
     Correspondence,
     Example,
     Object,
     ParseTree,
-    Percept,
     Phrase,
-    Pose,
     Symbol,
-    WorldModel,
 )
 from dcg_torch.words import Words, apart, soft_labels
 
@@ -71,7 +68,6 @@ class LexicalModel(GroundingModel):
 
     Attributes:
         words: that evidence.
-        workspace: what its scenes have in common.
     """
 
     def __init__(
@@ -87,7 +83,6 @@ class LexicalModel(GroundingModel):
     ) -> None:
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.words = words or Words()
-        self.workspace = Workspace()
         self._reader = Reader()
         self._restored = statistics
         self._statistics: Statistics | None = None
@@ -106,18 +101,6 @@ class LexicalModel(GroundingModel):
     def known_types(self) -> tuple[str, ...]:
         """The types that have a name, or were in the training."""
         return tuple(dict.fromkeys((*super().known_types, *self.words.taught_types)))
-
-    def world_model(
-        self,
-        percepts: Iterable[Percept],
-        robot: Pose | None = None,
-        speaker: Pose | None = None,
-        *,
-        looked: bool = False,
-        workspace: Workspace | None = None,
-    ) -> WorldModel:
-        """Upsilon of a scene that is seen as a whole, in this model's workspace if none is given."""
-        return super().world_model(percepts, robot, speaker, looked=looked, workspace=workspace or self.workspace)
 
     def taught(
         self,

@@ -9,7 +9,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from dcg_torch.encoding import encode, example_bag
-from dcg_torch.features import PAPER, FeatureSet, Group
+from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
 from dcg_torch.graph import FactorGraph, Solution
 from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
@@ -113,6 +113,7 @@ class GroundingModel:
         symbols: every known word and its type, in the order of learning.
         examples: T, the training set so far.
         fitted: how the last training went; None for a model that was restored.
+        workspace: what the scenes have in common, for relations; None for a robot that drives about.
     """
 
     def __init__(
@@ -131,6 +132,7 @@ class GroundingModel:
         self.features = features
         self.loglinear = loglinear
         self.fitted: FitResult | None = None
+        self.workspace: Workspace | None = None
         self._encoded: _Encoded | None = None
 
     @classmethod
@@ -179,13 +181,11 @@ class GroundingModel:
         speaker: Pose | None = None,
         *,
         looked: bool = False,
-        workspace: Workspace | None = None,
     ) -> WorldModel:
         """Upsilon as this variant represents it (lines 8 and 9).
 
         Args:
             looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
-            workspace: what is known of where the objects are, for relations.
         """
         world = world_model(
             percepts,
@@ -194,8 +194,9 @@ class GroundingModel:
             hypothetical=self.variant.hypothetical,
             robot=robot,
             speaker=speaker,
+            unseen=frozenset({LOOKED_ROUND} if looked and Group.OPEN in self.variant.groups else ()),
         )
-        return furnished(world, workspace) if Group.RELATION in self.variant.groups else world
+        return furnished(world, self.workspace) if Group.RELATION in self.variant.groups else world
 
     def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11)."""

@@ -128,7 +128,7 @@ def load(directory: Path) -> GroundingModel:
             words=described.words,
             statistics=_statistics(described, tensors, directory),
         )
-        lexical.workspace = described.workspace or Workspace()
+        lexical.workspace = described.workspace
         return lexical
     return GroundingModel(
         described.variant, described.symbols, described.examples, features, loglinear, described.corpus

@@ -73,5 +73,6 @@ def _is_right(model: GroundingModel, parser: Parser, scene: Scene, rng: np.rando
     text, meant = scene.commands[int(rng.integers(len(scene.commands)))]
     tree = parser.parse(text, KINDS).tree
     assert tree is not None
-    world = model.world_model(scene.objects, scene.robot, workspace=scene.workspace)
+    model.workspace = scene.workspace
+    world = model.world_model(scene.objects, scene.robot)
     return {o.id for o in model.ground(tree, world).objects} == meant

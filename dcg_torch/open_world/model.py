@@ -28,9 +28,8 @@ from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
 from dcg_torch.open_world.blocks import Blocks
 from dcg_torch.open_world.hearing import described_fit, landmark_fits, target
 from dcg_torch.open_world.mind import Mind, OpenWorld
-from dcg_torch.relational import PLACE_WORDS, Workspace, furnished, group_nouns, place_examples, place_symbols
-from dcg_torch.symbols import Example, ParseTree, Percept, PhraseKind, Pose, Symbol, WorldModel
-from dcg_torch.world.upsilon import world_model
+from dcg_torch.relational import PLACE_WORDS, group_nouns, place_examples, place_symbols
+from dcg_torch.symbols import Example, ParseTree, PhraseKind, Symbol
 
 LOOKED = frozenset({LOOKED_ROUND})
 _SURE = 0.95  # probability from which on the robot uses a word itself
@@ -127,19 +126,6 @@ class OpenWorldModel(GroundingModel):
         sure = sorted((p, word, t) for word, (t, p) in best.items() if p >= _SURE and t != UNMET)
         return {t: word for _, word, t in sure}
 
-    def world_model(
-        self,
-        percepts: Iterable[Percept],
-        robot: Pose | None = None,
-        speaker: Pose | None = None,
-        *,
-        looked: bool = False,
-        workspace: Workspace | None = None,
-    ) -> WorldModel:
-        """Upsilon; its hypothetical objects say whether the robot has looked round."""
-        unseen = LOOKED if looked else frozenset()
-        return world_model(percepts, self.known_types, robot=robot, speaker=speaker, unseen=unseen)
-
     def learn(self, solution: Solution, scene: Scene | None = None, *, max_steps: int = 500) -> Symbol | None:
         """Weigh a command's evidence and train on the posterior that follows.
 
@@ -166,11 +152,6 @@ class OpenWorldModel(GroundingModel):
         self._renew(max_steps)
         now = self.symbols.get(phrase.noun or "")
         return now if now != before else None
-
-    def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
-        """[phi*, gamma*]; where landmarks are spoken of, the robot, the speaker and their sides may be such."""
-        relative = any(node.phrase.kind is PhraseKind.MODIFIER for node in self.readable(tree).walk())
-        return super().ground(tree, furnished(world) if relative else world)
 
     def train(self, *, max_steps: int = 500) -> FitResult:
         """Fit from the present weights: what is believed to the posterior, and a new corpus to its examples.
