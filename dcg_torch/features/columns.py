@@ -1,25 +1,8 @@
-"""Named binary features of phrases and of groundings, and the columns they have.
-
-A feature f of the paper is a pair (language feature, grounding feature). The feature groups of eqs. 4 to 9 say
-which names may fire:
-
-    F_DCG            the words of a phrase, the type of a known object, how a grounding relates to its children
-    F_U              is the noun known, is the object's type known
-    F_H              is the object hypothetical
-    F_C              the stated colour (f_word) and the object's colour (f_color)
-    relation         beyond the paper: how things stand by themselves, among those alike, and to landmarks (`space`)
-
-and `PAIRS` which of them meet: a noun with types, a stated colour with colours, a verb with the relation to its
-child. Without that restriction a word learned from one blue object would come to mean "blue" as well.
-
-What is known is a fact about the columns: a noun or colour without a column of its own fires the "unknown"
-feature instead. Columns are only ever appended, so old indices stay valid.
-"""
+"""The columns that named features have, and how phrases and groundings fire them."""
 
 from __future__ import annotations
 
-import enum
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -27,106 +10,28 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import space
+from dcg_torch.features.names import (
+    FEW,
+    LOOKED_ROUND,
+    PAIRS,
+    Feature,
+    Group,
+    Ranking,
+    child_feature,
+    fixed_groundings,
+    fixed_languages,
+    word_features,
+)
 from dcg_torch.loglinear import Bag
 from dcg_torch.symbols import (
-    NOT,
     Child,
-    Correspondence,
     Example,
-    Grounding,
     GroundingKind,
     Object,
     Phrase,
-    PhraseKind,
     Symbol,
     WorldModel,
 )
-
-
-class Group(enum.StrEnum):
-    """The feature groups; the first four are the paper's."""
-
-    DCG = "dcg"
-    UNKNOWN = "unknown"
-    HYPOTHETICAL = "hypothetical"
-    COLOR = "color"
-    RELATION = "relation"
-    OPEN = "open"  # what has never been heard or met has columns too, and so has a look all round
-
-
-LOOKED_ROUND = "looked round"
-"""Attribute of a hypothetical object, once the robot has seen all the ground that it can."""
-
-
-# The family of a feature is what stands before the colon of its name. A language family meets these grounding
-# families; all other pairs are no features and keep a weight of zero.
-PAIRS: dict[str, frozenset[str]] = {
-    "kind": frozenset({"kind", "known", "hypothetical", "child"}),
-    "verb": frozenset({"kind", "child"}),
-    "preposition": frozenset({"kind", "child"}),
-    "modifier": frozenset({"kind", "relation"}),
-    "word": frozenset({"rank", "state", "part", "stack color", "group color"}),
-    "context": frozenset({"kind", "state", "relation"}),
-    "landmark": frozenset({"kind"}),  # what states landmarks are in is chance, which a corpus has plenty of
-    "noun": frozenset({"type", "part"}),
-    "noun known": frozenset({"known", "hypothetical"}),
-    "color": frozenset({"color", "group color"}),
-    "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
-}
-
-FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
-"""Family of ranks by distance -> the name of the feature of the first few, as many as the phrase counts."""
-_ORDINALS = {
-    **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
-    **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
-}
-
-PAPER = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
-"""The feature groups of the paper's fullest model, DCG-UPUP-Away with colour."""
-
-GROUNDING_OF = {
-    PhraseKind.VERB: GroundingKind.ACTION,
-    PhraseKind.PREPOSITION: GroundingKind.REGION,
-    PhraseKind.NOUN: GroundingKind.OBJECT,
-    PhraseKind.MODIFIER: GroundingKind.PLACED,
-}
-
-Feature = tuple[Group, str]
-
-
-def child_feature(kind: GroundingKind, correspondence: Correspondence, same: bool) -> Feature:
-    """The relation of a grounding to one child grounding: of which kind, how it corresponds, same object?"""
-    return Group.DCG, f"child: {kind}, {'same' if same else 'other'}, {correspondence.name.lower()}"
-
-
-def _fixed_groundings() -> Iterator[Feature]:
-    """The grounding features that exist whatever has been learned."""
-    for kind in GroundingKind:
-        yield Group.DCG, f"kind: {kind}"
-        for correspondence in (Correspondence.ACTIVE, Correspondence.INVERTED):
-            for same in (True, False):
-                yield child_feature(kind, correspondence, same)
-    yield Group.UNKNOWN, "known: yes"
-    yield Group.UNKNOWN, "known: no"
-    yield Group.COLOR, "color: unknown"
-    yield Group.HYPOTHETICAL, "hypothetical: yes"
-    for name in (*space.RELATION_NAMES, *FEW.values(), *space.STATES, *space.RANKS):
-        yield Group.RELATION, name
-    yield Group.RELATION, "kind: place"
-    yield Group.RELATION, "kind: group"
-    yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
-    yield Group.OPEN, "type: (unmet)"
-
-
-def _fixed_languages() -> Iterator[Feature]:
-    """The language features that exist whatever has been learned."""
-    for kind in PhraseKind:
-        yield Group.DCG, f"kind: {kind}"
-    yield Group.UNKNOWN, "noun known: yes"
-    yield Group.UNKNOWN, "noun known: no"
-    yield Group.COLOR, "color: unknown"
-    yield Group.COLOR, "color stated: yes"
-    yield Group.OPEN, "noun: (unheard)"
 
 
 @dataclass(frozen=True)
@@ -156,7 +61,7 @@ class FeatureSet:
         Nouns, types and colours get columns from `symbols` and `colors` only, so that the invented ones of the
         examples that teach "unknown" stay unknown; verbs, prepositions and adjectives come from the examples.
         """
-        start = cls(frozenset(groups))._with(_fixed_languages(), _fixed_groundings())
+        start = cls(frozenset(groups))._with(fixed_languages(), fixed_groundings())
         return start.extended(symbols, colors, examples)
 
     def extended(self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example]) -> FeatureSet:
@@ -167,7 +72,7 @@ class FeatureSet:
         for color in colors:
             new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
         examples = list(examples)
-        words = [f for example in examples for f in _word_features(example.phrase)]
+        words = [f for example in examples for f in word_features(example.phrase)]
         worlds = {id(example.world): example.world for example in examples}.values()
         met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
         further = [f"state: {attribute}" for attribute in sorted(met)]
@@ -241,7 +146,7 @@ class FeatureSet:
 
     def language_names(self, phrase: Phrase) -> list[str]:
         """Names of the language features that fire for a phrase."""
-        names = [f"kind: {phrase.kind}", *(name for _, name in _word_features(phrase))]
+        names = [f"kind: {phrase.kind}", *(name for _, name in word_features(phrase))]
         if phrase.noun is not None:
             if self.knows_noun(phrase.noun):
                 names += [f"noun: {phrase.noun}", "noun known: yes"]
@@ -375,51 +280,6 @@ class FeatureSet:
     def _rank_of(self) -> NDArray[np.int64]:
         """Index into `space.RELATION_NAMES` -> the number of the value in its family."""
         return np.array([*(k for names in space.RELATIONS.values() for k in range(len(names))), 0])
-
-    def grounding_names(self, grounding: Grounding, children: Sequence[Child]) -> list[str]:
-        """Names of the grounding features that fire, for explanations."""
-        world = WorldModel(
-            tuple({o.id: o for o in (grounding.object, *(c.grounding.object for c in children))}.values())
-        )
-        names = list(self.grounding)
-        row = self.encode_groundings(grounding.kind, world, [children])[0, 0]
-        return [names[column] for column in row if column >= 0]
-
-
-@dataclass(frozen=True, slots=True)
-class Ranking:
-    """What a phrase counts: the nth (`ordinal`) or the first few (`count`) among those that it speaks of (`among`)."""
-
-    among: str
-    ordinal: int | None = None
-    count: int | None = None
-
-
-def ranking(phrase: Phrase) -> Ranking | None:
-    """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
-    if phrase.kind is PhraseKind.NOUN and not phrase.words:
-        return None
-    ordinal = next((_ORDINALS[word] for word in phrase.words if word in _ORDINALS), None)
-    return Ranking(phrase.among or "all", ordinal, phrase.count)
-
-
-def _word_features(phrase: Phrase) -> Iterator[Feature]:
-    """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
-
-    Words of a noun phrase also fire together ("second from the left"), and modifiers and such words together with
-    the context: what they compare the object with.
-    """
-    is_noun = phrase.kind is PhraseKind.NOUN
-    words = [word for word in phrase.words if word != NOT or phrase.kind is not PhraseKind.MODIFIER]
-    for word in words:
-        yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
-    if is_noun and len(words) > 1:
-        yield Group.RELATION, f"word: {' '.join(words)}"
-    for context in phrase.context:
-        yield Group.RELATION, context if context.startswith("landmark: ") else f"context: {context}"
-        if not is_noun:
-            for word in words:
-                yield Group.RELATION, f"{phrase.kind}: {word}, {context}"
 
 
 def _pad(rows: list[list[int]]) -> Bag:
