@@ -1,7 +1,7 @@
 """Learning from commands whose objects are known: the landmarks that they speak of are not, and are inferred.
 
 Expectation-maximisation over the landmarks. A lesson says which object a command means, not which cube "next to the
-cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier (`graph.landmarks`);
+cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier (`graph.Placed`);
 then examples weighted by it, and one fit of the log-linear model on all of them. The first turn knows no relations
 and spreads over all landmarks that the words allow.
 """
