@@ -25,14 +25,17 @@ from rich import box
 from rich.table import Table as Grid
 
 from dcg_torch.console import make_console
+from dcg_torch.features import PAPER, Group
 from dcg_torch.language import default_parser
 from dcg_torch.loglinear import TERNARY, LogLinearModel, fit, objective, tabulate
-from dcg_torch.model import GroundingModel
+from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
+from dcg_torch.supervised import teach
 from dcg_torch.symbols import Percept, Pose
 from dcg_torch.training import initial_training
+from dcg_torch.training.generated import generated_lessons
 from dcg_torch.trial.loop import run_trial
 from dcg_torch.trial.plan import trial_commands
 from dcg_torch.trial.robot import FakeRobot
@@ -108,6 +111,41 @@ def bench_model() -> Iterator[Result]:
     texts = [command.text for command in commands] * 5
     parse(texts[0], model.symbols)
     yield _result("parsing a command", [_milliseconds(parse, text, model.symbols) for text in texts])
+
+
+_RELATED = (
+    "go to the red cube next to the blue sphere",
+    "go to the sphere behind the green cylinder on your left",
+    "go to the second cube from the left in the row",
+    "go to the two cylinders between the red cube and the blue sphere",
+)
+
+
+def bench_relations() -> Iterator[Result]:
+    """Grounding of relational commands; each time the objects stand otherwise, as nothing of a world may be known."""
+    parse, rng = default_parser().parse, np.random.default_rng(0)
+    groups = PAPER | {Group.RELATION}
+    model = GroundingModel.trained(initial_training(), Variant(groups=groups, hypothetical=False, ternary=False))
+    teach(model, generated_lessons(parse, 200), rounds=1)
+    kinds = [("cube", "sphere", "cylinder")[k % 3] for k in range(25)]
+    for text in _RELATED:
+        tree = parse(text, model.symbols).tree
+        assert tree is not None
+        spent = []
+        for _ in range(40):
+            percepts = [
+                Percept(
+                    f"{k}",
+                    kind,
+                    COLORS[int(rng.integers(3))],
+                    (float(rng.uniform(-5.0, 5.0)), float(rng.uniform(-5.0, 5.0)), 0.0),
+                )
+                for k, kind in enumerate(kinds)
+            ]
+            spent.append(
+                _milliseconds(lambda p, t: model.ground(t, model.world_model(p, Pose(0.0, 0.0))), percepts, tree)
+            )
+        yield _result(f"grounding among {len(kinds)}, {text.removeprefix('go to ')!r}", spent[5:], goal=5)
 
 
 _SCRAPS = """
@@ -250,6 +288,7 @@ def run_benchmarks() -> Iterator[Result]:
     torch.set_num_threads(1)
     yield bench_start()
     yield from bench_model()
+    yield from bench_relations()
     yield bench_hostile()
     yield from bench_robot()
     yield peak_memory()

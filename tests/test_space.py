@@ -249,6 +249,6 @@ def test_a_hypothetical_object_fires_nothing() -> None:
     unseen = Object("unseen", "cube", known=True, hypothetical=True)
     objects = (thing("landmark", (0, 0, 0)), unseen)
     world = WorldModel(objects)
-    assert space.states(space.layout(world))[1] == []
+    assert space.states(space.layout(world))[1] == ()
     assert ranked(world, "type")[1] == set()
     assert values(objects, 0)[1] == {}

@@ -57,6 +57,7 @@ class Layout:
         middle: (2,) the middle of the objects.
         speaker: (2,) where the speaker is, or None.
         rows: what `relations` has computed, by the set compared with and the numbers of the landmarks.
+        states: what `states` has computed; empty until then.
     """
 
     things: tuple[Object, ...]
@@ -74,6 +75,7 @@ class Layout:
     middle: Floats
     speaker: Floats | None
     rows: dict[tuple[str, tuple[int, ...]], NDArray[np.int16]] = field(default_factory=dict, compare=False)
+    states: list[tuple[str, ...]] = field(default_factory=list, compare=False)
 
     @property
     def solid(self) -> Bools:

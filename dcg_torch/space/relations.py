@@ -208,20 +208,16 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
 
 def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
     """Is a thing between the first two landmarks: over their line, and not off to the side?"""
-    out = np.full((len(landmarks), len(position)), -1, dtype=np.int64)
-    for row, pair in enumerate(landmarks):
-        if len(pair) < 2 or pair[0] == pair[1]:
-            continue
-        a, b = position[pair[0], :2], position[pair[1], :2]
-        span = b - a
-        length = math.hypot(*span)
-        if not math.isfinite(length) or length < TIE:
-            continue
-        offset = position[:, :2] - a
-        along = offset @ span / length**2
-        aside = np.abs(offset @ np.array([-span[1], span[0]])) / length
-        with np.errstate(invalid="ignore"):
-            inside = (along > 0.05) & (along < 0.95) & (aside < max(SAME_SPOT, 0.35 * length))
-        out[row] = np.where(np.isfinite(along), np.where(inside, 0, 1), -1)
-        out[row, list(pair)] = -1
+    pairs = np.array([(of[0], of[1] if len(of) > 1 else of[0]) for of in landmarks], dtype=np.int64)
+    start, span = position[pairs[:, 0], :2], position[pairs[:, 1], :2] - position[pairs[:, 0], :2]
+    length = np.hypot(*span.T)
+    offset = position[None, :, :2] - start[:, None, :]  # (c, n, 2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        along = np.einsum("cnd,cd->cn", offset, span) / length[:, None] ** 2
+        aside = np.abs(offset[..., 1] * span[:, None, 0] - offset[..., 0] * span[:, None, 1]) / length[:, None]
+        inside = (along > 0.05) & (along < 0.95) & (aside < np.maximum(SAME_SPOT, 0.35 * length)[:, None])
+        apart = (pairs[:, 0] != pairs[:, 1]) & np.isfinite(length) & (length >= TIE)
+    numbers = np.arange(len(position))
+    end = (numbers[None] == pairs[:, :1]) | (numbers[None] == pairs[:, 1:])
+    out: Ints = np.where(apart[:, None] & ~end & np.isfinite(along), np.where(inside, 0, 1), -1)
     return out
