@@ -145,9 +145,14 @@ def _rows(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
 
 def _clusters(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
     """Connected neighbours on at least `_LEAST` spots."""
+    if len(among) < _LEAST:
+        return
     points = position[list(among), :2]
-    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
+    offset = points[None] - points[:, None]
+    apart = np.hypot(offset[..., 0], offset[..., 1])
     for members in _components(apart < NEXT):
+        if len(members) < _LEAST:
+            continue
         spots = _components(apart[np.ix_(members, members)] < SAME_SPOT)
         if len(list(spots)) >= _LEAST:
             yield frozenset(among[k] for k in members)
@@ -163,13 +168,14 @@ def _stacks(position: Floats) -> Iterable[frozenset[int]]:
 
 
 def _components(joined: Bools) -> Iterable[list[int]]:
+    neighbours = [row.nonzero()[0].tolist() for row in joined]
     left = set(range(len(joined)))
     while left:
-        front, members = [min(left)], set[int]()
+        front, members = [left.pop()], list[int]()
         while front:
             k = front.pop()
-            if k in left:
-                left.discard(k)
-                members.add(k)
-                front += [int(m) for m in np.flatnonzero(joined[k]) if m in left]
+            members.append(k)
+            new = [m for m in neighbours[k] if m in left]
+            left.difference_update(new)
+            front += new
         yield sorted(members)
