@@ -13,6 +13,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import signal
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
@@ -197,7 +198,9 @@ def run(settings: Settings, directory: Path, progress: Callable[[Sequence[Iterat
     with _ticking(lambda: progress(journal.advance())):
         jobs = (delayed(_run_trial)(settings, trial, directory, os.getpid()) for trial in open_trials)
         try:
-            for _ in Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)(jobs):
+            with _interrupts_wait():
+                results = Parallel(n_jobs=workers, return_as="generator_unordered", batch_size=1)(jobs)
+            for _ in results:
                 pass
         except BrokenProcessPool:
             raise WorkerKilledError(
@@ -214,6 +217,19 @@ def _run_trial(settings: Settings, trial: int, directory: Path, parent: int) -> 
     if os.getpid() != parent:
         end_with(parent)
     run_one(settings, trial, directory)
+
+
+@contextlib.contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """Hold back Ctrl-C until the end; the processes that are started meanwhile never hear of it.
+
+    They are in the terminal's group, and one that is still importing would print a traceback. This process ends them.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
 
 
 @contextlib.contextmanager
