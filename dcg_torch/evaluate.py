@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import json
 import os
 import sys
@@ -73,6 +74,8 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
                     progress=bar.advance,
                 )
             train_seconds += evaluation.train_seconds
+            gc.collect()
+            gc.freeze()  # the corpus lives on: walking it would stop a command for up to 0.1 s now and then
             with Bar("grounding", len(test), console) as bar:
                 for answer in evaluation.answers(test, learn=settings.learn):
                     answers.append(answer)
