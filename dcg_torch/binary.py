@@ -20,7 +20,7 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from dcg_torch.loglinear import BINARY, FitResult, LogLinearModel, Table
+from dcg_torch.loglinear import BINARY, FitResult, LogLinearModel, Table, lbfgs
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -141,15 +141,7 @@ def fit(
         moving.grad = torch.from_numpy(gradient[free])
         return value
 
-    optimizer = torch.optim.LBFGS(
-        [moving],
-        max_iter=max_steps,
-        max_eval=2 * max_steps,
-        history_size=history,
-        tolerance_grad=tolerance,
-        tolerance_change=1e-14,
-        line_search_fn="strong_wolfe",
-    )
+    optimizer = lbfgs(moving, tolerance, max_steps, history)
     steps = evaluations = 0
     if free.any():
         optimizer.step(closure)  # type: ignore[no-untyped-call]

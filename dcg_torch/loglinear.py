@@ -250,6 +250,24 @@ def objective(
     return value, (gradient + l2 * weight) * pairs
 
 
+def lbfgs(weight: torch.Tensor, tolerance: float, max_steps: int, history: int) -> torch.optim.LBFGS:
+    """L-BFGS with a strong Wolfe search over one tensor; to be made anew for each fit, as it remembers the old shape.
+
+    Args:
+        tolerance: of the gradient's max-norm.
+        history: curvature pairs kept.
+    """
+    return torch.optim.LBFGS(
+        [weight],
+        max_iter=max_steps,
+        max_eval=2 * max_steps,
+        history_size=history,
+        tolerance_grad=tolerance,
+        tolerance_change=1e-14,
+        line_search_fn="strong_wolfe",
+    )
+
+
 def fit(
     model: LogLinearModel,
     tables: Sequence[Table],
@@ -288,16 +306,7 @@ def fit(
 
     # What stays as it is costs the optimiser nothing: it moves the free weights alone.
     weight = (model.weight.clone() if every is None else model.weight[every]).requires_grad_()
-    # A fresh optimiser a fit: torch's keeps curvature in the old shape.
-    optimizer = torch.optim.LBFGS(
-        [weight],
-        max_iter=max_steps,
-        max_eval=2 * max_steps,
-        history_size=history,
-        tolerance_grad=tolerance,
-        tolerance_change=1e-14,
-        line_search_fn="strong_wolfe",
-    )
+    optimizer = lbfgs(weight, tolerance, max_steps, history)
 
     def closure() -> float:
         with torch.no_grad():
