@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from types import TracebackType
+from typing import Self
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
@@ -19,7 +20,22 @@ def make_console() -> Console:
     return console if console.is_terminal else Console(width=max(_LOG_WIDTH, console.width), highlight=False)
 
 
-class CommandBar:
+class _Shown:
+    """A bar that is shown within a `with` block."""
+
+    _bar: Progress
+
+    def __enter__(self) -> Self:
+        self._bar.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
+    ) -> None:
+        self._bar.stop()
+
+
+class CommandBar(_Shown):
     """A progress bar over commands, with the accuracy so far; call it with new rows.
 
     Args:
@@ -39,15 +55,6 @@ class CommandBar:
         self._task = self._bar.add_task("commands", total=total, accuracy="-")
         self._done = self._right = 0
 
-    def __enter__(self) -> CommandBar:
-        self._bar.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self._bar.stop()
-
     def __call__(self, rows: Sequence[Iteration]) -> None:
         """Count `rows` as done."""
         self._done += len(rows)
@@ -56,7 +63,7 @@ class CommandBar:
         self._bar.update(self._task, completed=self._done, accuracy=accuracy)
 
 
-class Bar:
+class Bar(_Shown):
     """A progress bar on a terminal, and nothing elsewhere.
 
     Args:
@@ -75,15 +82,6 @@ class Bar:
             disable=not console.is_terminal,
         )
         self._task = self._bar.add_task(description, total=total)
-
-    def __enter__(self) -> Bar:
-        self._bar.start()
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self._bar.stop()
 
     def advance(self, _: object = None) -> None:
         """Count one step as done."""

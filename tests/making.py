@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import random
-from collections.abc import Collection, Iterable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import pytest
 import torch
 from hypothesis import strategies as st
 from oracle import Oracle
@@ -231,3 +233,17 @@ trees = st.one_of(
     st.builds(ParseTree, verbs, st.tuples(noun_trees, noun_trees)),
     st.builds(ParseTree, verbs, st.tuples(noun_trees, preposition_trees)),
 )
+
+
+def typed(
+    capsys: pytest.CaptureFixture[str], main: Callable[[], int], program: str, *arguments: str
+) -> tuple[int, str, str]:
+    """A command line in this process: exit status, what it printed, its complaints."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "argv", [program, *arguments])
+        try:
+            status = main()
+        except SystemExit as leaving:
+            status = leaving.code if isinstance(leaving.code, int) else 1
+    printed = capsys.readouterr()
+    return status, printed.out, printed.err

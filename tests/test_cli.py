@@ -12,6 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 from pathlib import Path
 
 import pytest
+from making import typed
 
 from dcg_torch.__main__ import main
 from dcg_torch.console import make_console
@@ -42,14 +43,7 @@ WRONG = [
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
     """`python -m dcg_torch` in this process: exit status, what it printed, its complaints."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sys, "argv", ["dcg_torch", *arguments])
-        try:
-            status = main()
-        except SystemExit as leaving:
-            status = leaving.code if isinstance(leaving.code, int) else 1
-    printed = capsys.readouterr()
-    return status, printed.out, printed.err
+    return typed(capsys, main, "dcg_torch", *arguments)
 
 
 def contents(directory: Path) -> dict[str, bytes]:
@@ -175,7 +169,7 @@ def test_the_ablation_compares_the_four_variants(tmp_path: Path, capsys: pytest.
     assert [line.split()[0] for line in compared.splitlines() if line.strip().startswith("dcg")] == variants
 
 
-LONGER = ("simulator=fake", "trials=8", "iterations=4", "speaker=canonical", "figures=false", "tensorboard=false")
+LONGER = ("simulator=fake", "trials=30", "iterations=4", "speaker=canonical", "figures=false", "tensorboard=false")
 
 
 def start(directory: Path) -> subprocess.Popen[str]:

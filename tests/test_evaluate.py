@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from making import typed
 
 from dcg_torch import load
 from dcg_torch.episodes import Episode
@@ -62,14 +63,7 @@ def files(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Path]:
 
 def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
     """The command in this process: exit status, what it printed, its complaints."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sys, "argv", ["dcg_torch.evaluate", *arguments])
-        try:
-            status = main()
-        except SystemExit as leaving:
-            status = leaving.code if isinstance(leaving.code, int) else 1
-    printed = capsys.readouterr()
-    return status, printed.out, printed.err
+    return typed(capsys, main, "dcg_torch.evaluate", *arguments)
 
 
 WRONG = [

@@ -17,7 +17,6 @@ class Clause:
     negated: bool = False
     objects: list[Item] = field(default_factory=list)
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
-    fronted: bool = False
     statement: bool = False
 
 

@@ -15,7 +15,6 @@ Draw = ImageDraw.ImageDraw
 PAPER: Final[RGB] = (252, 252, 250)
 INK: Final[RGB] = (30, 30, 34)
 GREY: Final[RGB] = (125, 125, 128)
-LINE: Final[RGB] = (205, 205, 202)
 KNOWN: Final[RGB] = (0, 104, 170)
 UNKNOWN: Final[RGB] = (214, 110, 0)
 CHOICE: Final[RGB] = (255, 196, 0)
