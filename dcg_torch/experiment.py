@@ -18,9 +18,11 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures.process import BrokenProcessPool
 from dataclasses import asdict
+from multiprocessing import resource_tracker as mp_tracker
 from pathlib import Path
 
 from joblib import Parallel, delayed
+from joblib.externals.loky.backend import resource_tracker as loky_tracker
 
 from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.summary import flatten
@@ -225,6 +227,8 @@ def _interrupts_wait() -> Iterator[None]:
 
     They are in the terminal's group, and one that is still importing would print a traceback. This process ends them.
     """
+    for tracker in (mp_tracker, loky_tracker):  # at their own start these let interrupts through again
+        tracker.ensure_running()
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield
