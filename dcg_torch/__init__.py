@@ -11,10 +11,10 @@ How the paper is read here:
 * A command means one thing: phi* is sought among the configurations in which each phrase corresponds to exactly one
   grounding (`graph`).
 * "Known" is a fact about the training set, so an example recorded while "cone" was unknown changes its meaning when
-  the word is learned; `learning.replace_unknown` covers its negatives too. The hand-made examples that teach
+  the word is learned; `learning.commit_first.replace_unknown` covers its negatives too. The hand-made examples that teach
   "unknown" use invented nouns, which no later lesson can make known.
 * M.train takes all of M.Gamma: beside the object that was meant, training sees one of every other known type
-  (`learning.contrast`).
+  (`learning.commit_first.contrast`).
 * While the grounding is hypothetical the robot turns and grounds anew with what it has seen; lines 16 to 25 follow once
   a command, from the last grounding.
 
@@ -27,29 +27,29 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from dcg_torch.checkpoint import load, save
     from dcg_torch.explanation import explain
-    from dcg_torch.features import Group
-    from dcg_torch.graph import FactorGraph, Solution
+    from dcg_torch.grounding.features import Group
+    from dcg_torch.grounding.graph import FactorGraph, Solution
+    from dcg_torch.grounding.psi import FitResult, LogLinearModel
     from dcg_torch.language import Parse, Parser
     from dcg_torch.language import parse_command as parse
-    from dcg_torch.loglinear import FitResult, LogLinearModel
+    from dcg_torch.lessons import initial_training, read_training
     from dcg_torch.model import GroundingModel, TrainingSet, Variant
-    from dcg_torch.store import load, save
-    from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
-    from dcg_torch.training import initial_training, read_training
+    from dcg_torch.types import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
 
 __version__ = "0.1.0"
 
 _WHERE = {
     "explanation": "explain",
-    "features": "Group",
-    "graph": "FactorGraph Solution",
+    "grounding.features": "Group",
+    "grounding.graph": "FactorGraph Solution",
     "language": "Parse Parser",
-    "loglinear": "FitResult LogLinearModel",
+    "grounding.psi": "FitResult LogLinearModel",
     "model": "GroundingModel TrainingSet Variant",
-    "store": "load save",
-    "symbols": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
-    "training": "initial_training read_training",
+    "checkpoint": "load save",
+    "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
+    "lessons": "initial_training read_training",
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names.split()}
 

@@ -18,8 +18,8 @@ from omegaconf import DictConfig
 from rich.console import Console
 from rich.markup import escape
 
-from dcg_torch.config import CONFIG_ERRORS, explain, register, save_composed, settings_of
-from dcg_torch.console import CommandBar, make_console
+from dcg_torch.cli.config import CONFIG_ERRORS, explain, register, save_composed, settings_of
+from dcg_torch.cli.console import CommandBar, make_console
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 
@@ -28,7 +28,7 @@ _STARTED = time.perf_counter()
 
 def _application(config: DictConfig) -> None:
     """One experiment, in the folder that Hydra chose."""
-    from dcg_torch.experiment import WorkerKilledError, check_folder, run, user_errors
+    from dcg_torch.experiment.runner import WorkerKilledError, check_folder, run, user_errors
 
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
     sweep = HydraConfig.get().mode == RunMode.MULTIRUN
@@ -64,7 +64,7 @@ def _report(settings: Settings, directory: Path, console: Console, began: float 
 
     Its wall time counts from `began`; None for a run that was finished before, whose wall time stays.
     """
-    from dcg_torch.experiment import lexicon_of, read_run
+    from dcg_torch.experiment.runner import lexicon_of, read_run
     from dcg_torch.report import tables
     from dcg_torch.report.measures import measure
     from dcg_torch.report.seconds import summarise_seconds
@@ -97,7 +97,7 @@ def _report(settings: Settings, directory: Path, console: Console, began: float 
     tables.print_iterations(measures, console)
     tables.print_errors(measures, console)
     if (last := lexicon_of(directory, settings.trials - 1)).exists():
-        from dcg_torch.meaning.lexicon import lexicon_table, load_lexicon
+        from dcg_torch.learning.lexicon import lexicon_table, load_lexicon
 
         console.print(lexicon_table(load_lexicon(last), f"What the words mean to the robot of trial {last.stem}"))
     shown = escape(str(directory))

@@ -24,28 +24,28 @@ import torch
 from rich import box
 from rich.table import Table as Grid
 
-from dcg_torch.console import make_console
-from dcg_torch.features import PAPER, Group
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.cli.console import make_console
+from dcg_torch.experiment.plan import trial_commands
+from dcg_torch.experiment.trial import run_trial
+from dcg_torch.grounding.features import PAPER, Group
+from dcg_torch.grounding.psi import TERNARY, LogLinearModel, fit, objective, tabulate
 from dcg_torch.language import default_parser
-from dcg_torch.loglinear import TERNARY, LogLinearModel, fit, objective, tabulate
+from dcg_torch.lessons import initial_training
+from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
 from dcg_torch.supervised import teach
-from dcg_torch.symbols import Percept, Pose
-from dcg_torch.training import initial_training
-from dcg_torch.training.generated import generated_lessons
-from dcg_torch.trial.loop import run_trial
-from dcg_torch.trial.plan import trial_commands
-from dcg_torch.trial.robot import FakeRobot
+from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import COLORS, TYPES
 
 _L2 = 1.0
 _TOLERANCE = 1e-7  # of the gradient's max-norm, per row
 _COLD = (
-    "from dcg_torch.worker import _initial_training, default_parser; from dcg_torch.model import GroundingModel; "
+    "from dcg_torch.experiment.worker import _initial_training, default_parser; from dcg_torch.model import GroundingModel; "
     "default_parser().parse('go to the cube', ()); GroundingModel.trained(_initial_training())"
 )
 

@@ -20,19 +20,19 @@ from rich.markup import escape
 from rich.table import Table
 
 from dcg_torch.__main__ import refuse, run_application
-from dcg_torch.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
-from dcg_torch.config import explain as explain_error
-from dcg_torch.console import Bar, make_console
-from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
-from dcg_torch.evaluation import CAUSES, Answer, Evaluation, summarise
+from dcg_torch.checkpoint import save
+from dcg_torch.cli.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
+from dcg_torch.cli.config import explain as explain_error
+from dcg_torch.cli.console import Bar, make_console
+from dcg_torch.evaluation.episodes import Episode, EpisodeError, read_episodes, split_folds
+from dcg_torch.evaluation.protocol import CAUSES, Answer, Evaluation, summarise
+from dcg_torch.experiment.worker import variant
 from dcg_torch.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
+from dcg_torch.lessons import initial_training
+from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
-from dcg_torch.store import save
-from dcg_torch.training import initial_training
-from dcg_torch.training.generated import generated_lessons
-from dcg_torch.worker import variant
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
 _REASONS = 8  # shown for each phrase
@@ -86,7 +86,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
             for kind, words in evaluation.learned.items():
                 learned[kind] |= words
             if settings.baseline:
-                from dcg_torch.baseline import bag_of_words
+                from dcg_torch.evaluation.baseline import bag_of_words
 
                 baseline += bag_of_words(train, test)
     os.replace(part, directory / PREDICTIONS)

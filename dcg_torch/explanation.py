@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from dcg_torch.encoding import example_bag
-from dcg_torch.graph import FactorGraph, Hypothesis, Solution
-from dcg_torch.learning import labelled
+from dcg_torch.grounding.encoding import example_bag
+from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Solution
+from dcg_torch.learning.commit_first import labelled
 from dcg_torch.model import GroundingModel
-from dcg_torch.symbols import Correspondence, Object, WorldModel
+from dcg_torch.types import Correspondence, Object, WorldModel
 
 
 @dataclass(frozen=True)

@@ -22,17 +22,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.binary import Factors, fit
-from dcg_torch.encoding import Reader, Statistics, encode
-from dcg_torch.features import FeatureSet
-from dcg_torch.graph import FactorGraph, Solution
-from dcg_torch.learning import replace_unknown
-from dcg_torch.loglinear import FitResult, LogLinearModel
-from dcg_torch.meaning.beliefs import UNMET, Evidence
-from dcg_torch.meaning.soft import Pair, pair_examples
+from dcg_torch.grounding.binary import Factors, fit
+from dcg_torch.grounding.encoding import Reader, Statistics, encode
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.graph import FactorGraph, Solution
+from dcg_torch.grounding.psi import FitResult, LogLinearModel
+from dcg_torch.learning.beliefs import UNMET, Evidence
+from dcg_torch.learning.commit_first import replace_unknown
+from dcg_torch.learning.soft_labels import Pair, pair_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant
 from dcg_torch.relational import group_nouns, place_symbols
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Correspondence,
     Example,
     Object,

@@ -8,11 +8,11 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from dcg_torch.encoding import encode, example_bag
-from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
-from dcg_torch.graph import FactorGraph, Solution
-from dcg_torch.learning import contrast, new_symbol, replace_unknown, unsupervised_training
-from dcg_torch.loglinear import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
+from dcg_torch.grounding.encoding import encode, example_bag
+from dcg_torch.grounding.features import LOOKED_ROUND, PAPER, FeatureSet, Group
+from dcg_torch.grounding.graph import FactorGraph, Solution
+from dcg_torch.grounding.psi import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
+from dcg_torch.learning.commit_first import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.relational import (
     Workspace,
     coordinated,
@@ -23,7 +23,8 @@ from dcg_torch.relational import (
     place_symbols,
     relational,
 )
-from dcg_torch.symbols import (
+from dcg_torch.scene.upsilon import world_model
+from dcg_torch.types import (
     Correspondence,
     Example,
     ParseTree,
@@ -33,7 +34,6 @@ from dcg_torch.symbols import (
     Symbol,
     WorldModel,
 )
-from dcg_torch.world.upsilon import world_model
 
 __all__ = ["GroundingModel", "Scene", "TrainingSet", "Variant", "encode", "example_bag"]
 

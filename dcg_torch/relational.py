@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from dcg_torch import space
-from dcg_torch.symbols import (
+from dcg_torch import scene
+from dcg_torch.types import (
     NOT,
     Correspondence,
     Example,
@@ -103,7 +103,7 @@ def group_nouns() -> tuple[str, ...]:
 def place_examples() -> list[Example]:
     """Hand-made examples of what the words for places, for their sides, and for groups mean."""
     robot, speaker = Pose(0.0, 0.0), Pose(4.0, 0.0)
-    things = space.places((1.0, 7.0, -3.0, 3.0), robot, speaker)
+    things = scene.places((1.0, 7.0, -3.0, 3.0), robot, speaker)
     cube = Object("cube", "cube", known=True)
     world = WorldModel((cube,), robot, speaker, things)
     phrases: list[tuple[Phrase, set[str], set[str]]] = []
@@ -136,7 +136,7 @@ def _group_examples() -> list[Example]:
     stack = [Object(f"stack {k}", "cube", known=True, position=(8.0, 0.0, 1.0 * k)) for k in range(3)]
     heap = [Object(f"heap {k}", "cube", known=True, position=(14.0 + k % 2, 1.0 * (k // 2), 0.0)) for k in range(4)]
     objects = (*rows, *stack, *heap)
-    kept = [g for g in space.groups(objects) if {m.split()[0] for m in g.members} in ({"row"}, {"stack"}, {"heap"})]
+    kept = [g for g in scene.groups(objects) if {m.split()[0] for m in g.members} in ({"row"}, {"stack"}, {"heap"})]
     groups = tuple(g for g in kept if ("row" in g.attributes) == g.members[0].startswith("row"))
     world = WorldModel(objects, Pose(0.0, 0.0), groups=groups)
 
@@ -161,7 +161,7 @@ class Workspace:
         unit: metres that neighbours are apart.
     """
 
-    bounds: space.Bounds | None = None
+    bounds: scene.Bounds | None = None
     unit: float = 1.0
 
 
@@ -173,22 +173,22 @@ def furnished(world: WorldModel, workspace: Workspace | None = None) -> WorldMod
     the robot's left and right.
     """
     if workspace is None:
-        found = space.places(None, world.robot, world.speaker)
+        found = scene.places(None, world.robot, world.speaker)
         if world.speaker is None:
             here = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
             found += tuple(here)
         return replace(world, places=found)
     bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
     if bounds is None and there:
-        bounds = space.scene_bounds(there, world.robot)
-    return replace(world, places=space.places(bounds, world.robot, world.speaker), unit=workspace.unit)
+        bounds = scene.scene_bounds(there, world.robot)
+    return replace(world, places=scene.places(bounds, world.robot, world.speaker), unit=workspace.unit)
 
 
 def grouped(world: WorldModel, tree: ParseTree) -> WorldModel:
     """A world with the groups that its objects form, if the command speaks of any."""
     if not any(is_group(node.phrase) for node in tree.walk()):
         return world
-    return replace(world, groups=space.groups(world.objects, world.unit))
+    return replace(world, groups=scene.groups(world.objects, world.unit))
 
 
 def is_group(phrase: Phrase) -> bool:

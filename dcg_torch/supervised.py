@@ -12,11 +12,11 @@ from collections import Counter
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
-from dcg_torch.graph import FactorGraph, Hypothesis, Placed
-from dcg_torch.loglinear import FitResult
+from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Placed
+from dcg_torch.grounding.psi import FitResult
 from dcg_torch.model import GroundingModel
 from dcg_torch.relational import coordinated, grouped, is_group
-from dcg_torch.symbols import NOT, Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.types import NOT, Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
 
 _NEGLIGIBLE = 0.02
 """Landmarks less probable than this teach nothing."""

@@ -9,10 +9,10 @@ import math
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
-from dcg_torch.features import FeatureSet
-from dcg_torch.meaning.beliefs import Beliefs, Evidence, Prior
-from dcg_torch.meaning.soft import NEVER_HEARD, Pair
-from dcg_torch.symbols import Object, Phrase, PhraseKind
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.learning.beliefs import Beliefs, Evidence, Prior
+from dcg_torch.learning.soft_labels import NEVER_HEARD, Pair
+from dcg_torch.types import Object, Phrase, PhraseKind
 
 _SLIP = 0.1
 """Share of commands in which the rest of a command is taken to mean another object than it does."""

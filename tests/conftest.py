@@ -10,8 +10,8 @@ import torch
 from hypothesis import Phase, settings
 
 from dcg_torch.language import Parser, default_parser
+from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
-from dcg_torch.training import initial_training
 
 # Without hypothesis's explanations, which take minutes where an example is a whole trained model.
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate, Phase.shrink)

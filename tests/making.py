@@ -13,10 +13,11 @@ import torch
 from hypothesis import strategies as st
 from oracle import Oracle
 
-from dcg_torch.features import FeatureSet, Group
-from dcg_torch.loglinear import LogLinearModel
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.grounding.features import FeatureSet, Group
+from dcg_torch.grounding.psi import LogLinearModel
 from dcg_torch.model import GroundingModel, example_bag
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Child,
     Correspondence,
     Example,
@@ -28,7 +29,6 @@ from dcg_torch.symbols import (
     Symbol,
     WorldModel,
 )
-from dcg_torch.trial.robot import FakeRobot
 from dcg_torch.world.files import RobotStart, World, WorldObject
 
 KNOWN = ("cube", "sphere", "cylinder")

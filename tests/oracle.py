@@ -11,7 +11,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
-from dcg_torch.symbols import Child, Correspondence, Grounding, GroundingKind, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import Child, Correspondence, Grounding, GroundingKind, ParseTree, Phrase, PhraseKind, WorldModel
 
 KIND = {
     PhraseKind.VERB: GroundingKind.ACTION,

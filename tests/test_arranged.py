@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from dcg_torch.features import Group
+from dcg_torch.grounding.features import Group
 from dcg_torch.language import Parser
+from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.supervised import teach
-from dcg_torch.training.arranged import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
 
 
 @pytest.mark.parametrize("seed", range(25))

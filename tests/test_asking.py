@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from dcg_torch.graph import Solution
-from dcg_torch.symbols import Object, ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
-from dcg_torch.trial.asking import Answer, Asking, Question, candidates, describe, places, question, truthful
+from dcg_torch.agent.asking import Answer, Asking, Question, candidates, describe, places, question, truthful
+from dcg_torch.grounding.graph import Solution
+from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
 
 START = Pose(0.0, 0.0, 0.0)
 NAMES = {"cube": "cube", "sphere": "ball"}

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from dcg_torch.meaning.assignment import exact, marginals, propagate
+from dcg_torch.learning.assignment import exact, marginals, propagate
 
 Problem = tuple[NDArray[np.float64], float, NDArray[np.bool_]]
 
@@ -99,7 +99,7 @@ def test_clusters_are_summed_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
         psi[k : k + 2, k : k + 2] = block
     free = np.ones(12, dtype=np.bool_)
     truth = exact(psi, 0.02, free).word
-    monkeypatch.setattr("dcg_torch.meaning.assignment.EXACT_COST", 1_000)
+    monkeypatch.setattr("dcg_torch.learning.assignment.EXACT_COST", 1_000)
     assert np.abs(propagate(psi, 0.02, free).word - truth).max() > 0.02
     assert np.abs(marginals(psi, 0.02, free).word - truth).max() < 0.01
 

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.meaning.beliefs import SPREAD, UNMET, Beliefs, Evidence, Prior
-from dcg_torch.meaning.lexicon import lexicon
+from dcg_torch.learning.beliefs import SPREAD, UNMET, Beliefs, Evidence, Prior
+from dcg_torch.learning.lexicon import lexicon
 
 KNOWN = {"cube": "cube", "sphere": "sphere"}
 NEW = ("cone", "drill", "hydrant")

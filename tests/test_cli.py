@@ -15,8 +15,8 @@ import pytest
 from making import typed
 
 from dcg_torch.__main__ import main
-from dcg_torch.console import make_console
-from dcg_torch.experiment import ITERATIONS, PARTS, TIMINGS, part_of
+from dcg_torch.cli.console import make_console
+from dcg_torch.experiment.runner import ITERATIONS, PARTS, TIMINGS, part_of
 from dcg_torch.report.__main__ import main as report
 
 QUICK = ("simulator=fake", "workers=1", "trials=2", "iterations=2", "speaker=canonical", "figures=false")
@@ -136,7 +136,7 @@ def test_a_worker_that_is_killed_is_one_line(
 
         return call
 
-    monkeypatch.setattr("dcg_torch.experiment.Parallel", killed)
+    monkeypatch.setattr("dcg_torch.experiment.runner.Parallel", killed)
     status, _, err = run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")
     assert status == 1
     assert err.count("\n") == 1

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from dcg_torch.episodes import EpisodeError, read_episodes
-from dcg_torch.symbols import Pose
+from dcg_torch.evaluation.episodes import EpisodeError, read_episodes
+from dcg_torch.types import Pose
 
 OBJECT: dict[str, Any] = {"id": "a", "type": "cube", "position": [1, 2, 0]}
 

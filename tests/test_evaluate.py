@@ -17,15 +17,15 @@ import pytest
 from making import typed
 
 from dcg_torch import load
-from dcg_torch.episodes import Episode
+from dcg_torch.agent.command import Parse
 from dcg_torch.evaluate import main
-from dcg_torch.evaluation import Answer, Evaluation, Seconds, calibration_error, summarise
-from dcg_torch.features import Group
-from dcg_torch.graph import FactorGraph
+from dcg_torch.evaluation.episodes import Episode
+from dcg_torch.evaluation.protocol import Answer, Evaluation, Seconds, calibration_error, summarise
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.language import Parser
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import TrainingSet, Variant
-from dcg_torch.trial.command import Parse
 
 COLORS = ("red", "green", "teal")
 

@@ -7,10 +7,10 @@ import math
 import numpy as np
 import pytest
 
-from dcg_torch.graph import Solution
-from dcg_torch.symbols import Object, ParseTree, Percept, Phrase, PhraseKind, WorldModel
-from dcg_torch.trial.explore import LookBefore, Worth, in_sight, meanings_out_of_view, missing, next_place
-from dcg_torch.trial.robot import FIELD_OF_VIEW, FakeRobot
+from dcg_torch.agent.explore import LookBefore, Worth, in_sight, meanings_out_of_view, missing, next_place
+from dcg_torch.agent.robot import FIELD_OF_VIEW, FakeRobot
+from dcg_torch.grounding.graph import Solution
+from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, WorldModel
 from dcg_torch.world.files import World, WorldObject
 
 
@@ -94,8 +94,8 @@ def settle(probabilities: dict[str, float], meanings: dict[str, float], worth: W
 
 
 def _about_zorp(of: Solution) -> Solution:
-    from dcg_torch.graph import Hypothesis
-    from dcg_torch.symbols import Child, Grounding, GroundingKind
+    from dcg_torch.grounding.graph import Hypothesis
+    from dcg_torch.types import Child, Grounding, GroundingKind
 
     best = max(of.world.objects, key=lambda o: of.probabilities[o.id])
     child = Child(Grounding(GroundingKind.OBJECT, best))

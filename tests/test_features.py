@@ -21,10 +21,10 @@ from making import (
     verb_phrase,
 )
 
-from dcg_torch.features import GROUNDING_OF, FeatureSet
-from dcg_torch.loglinear import TERNARY
+from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet
+from dcg_torch.grounding.psi import TERNARY
 from dcg_torch.model import GroundingModel, TrainingSet
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Child,
     Correspondence,
     Grounding,

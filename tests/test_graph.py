@@ -32,10 +32,10 @@ from making import (
 )
 from oracle import KIND, Configuration
 
-from dcg_torch.features import Group
-from dcg_torch.graph import FactorGraph, Hypothesis, Solution
-from dcg_torch.loglinear import BINARY, TERNARY
-from dcg_torch.symbols import (
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Solution
+from dcg_torch.grounding.psi import BINARY, TERNARY
+from dcg_torch.types import (
     Child,
     Correspondence,
     Grounding,

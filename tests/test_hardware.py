@@ -9,16 +9,16 @@ from pathlib import Path
 import pytest
 from hydra import compose, initialize_config_dir
 
-from dcg_torch.config import register, settings_of
+from dcg_torch.cli.config import register, settings_of
+from dcg_torch.experiment.plan import trial_commands, trial_generators
+from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.records import Iteration
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
-from dcg_torch.symbols import Object
-from dcg_torch.trial.loop import run_trial
-from dcg_torch.trial.plan import trial_commands, trial_generators
+from dcg_torch.types import Object
 from dcg_torch.watch.recording import Recorder
 
 

@@ -160,12 +160,12 @@ def test_all_rooms_are_there_and_all_lines_are_of_rooms() -> None:
         ("experiment", "from hydra.core import hydra_config", "only __main__, config, evaluate may"),
         ("report.boardroom", "import torch.utils", "only"),
         ("loglinear", "from dcg_torch.world import files", "loglinear knows symbols"),
-        ("symbols", "from dcg_torch.features import Group", "features does not stand below symbols"),
+        ("symbols", "from dcg_torch.grounding.features import Group", "features does not stand below symbols"),
         ("symbols", "from dcg_torch import features", "features does not stand below symbols"),
         ("world.files", "from ..graph import FactorGraph", "graph does not stand below world"),
         ("graph", "def f():\n    from dcg_torch.model import GroundingModel", "model does not stand below graph"),
         ("speaker", "from dcg_torch import GroundingModel", "the public names are for users"),
-        ("experiment", "from dcg_torch.worker import run_one", "worker does not stand below experiment"),
+        ("experiment", "from dcg_torch.experiment.worker import run_one", "worker does not stand below experiment"),
         ("attic", "import math", "give it a line"),
     ],
 )
@@ -178,14 +178,14 @@ def test_the_checker_finds(module: str, source: str, says: str) -> None:
 
 
 def test_the_checker_finds_a_cycle() -> None:
-    found = violations({"symbols": "from dcg_torch.space import x", "space": "from dcg_torch.symbols import y"})
+    found = violations({"symbols": "from dcg_torch.scene import x", "space": "from dcg_torch.types import y"})
     assert any(line.startswith("a cycle") for line in found)
 
 
 @pytest.mark.parametrize(
     ("module", "source"),
     [
-        ("experiment", "def f():\n    from dcg_torch.worker import run_one"),
+        ("experiment", "def f():\n    from dcg_torch.experiment.worker import run_one"),
         ("language.reader", "import spacy"),
         ("report.board", "from torch.utils.tensorboard import SummaryWriter"),
         ("graph", "from . import loglinear"),
@@ -199,11 +199,11 @@ def test_the_checker_leaves_alone(module: str, source: str) -> None:
 def test_a_model_needs_no_simulator_no_parser_and_no_configuration() -> None:
     """Nor do worlds, speakers and reports need torch."""
     heavy = "pybullet", "spacy", "hydra", "omegaconf"
-    light = "dcg_torch.symbols, dcg_torch.world.files, dcg_torch.world.upsilon, dcg_torch.speaker, dcg_torch.report"
+    light = "dcg_torch.types, dcg_torch.world.files, dcg_torch.scene.upsilon, dcg_torch.speaker, dcg_torch.report"
     script = (
         f"import sys, {light}, dcg_torch.report.measures\n"
         "assert 'torch' not in sys.modules\n"
-        "import dcg_torch.model, dcg_torch.training, dcg_torch.store, dcg_torch.trial.loop\n"
+        "import dcg_torch.model, dcg_torch.lessons, dcg_torch.checkpoint, dcg_torch.agent.loop\n"
         f"print([m for m in {heavy} if m in sys.modules])\n"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)

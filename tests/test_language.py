@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from language_sentences import DEVELOPMENT, HELD_OUT, Sentence
 
 from dcg_torch.language import Parse, Parser, default_parser, target_phrase
-from dcg_torch.symbols import ParseTree, PhraseKind
+from dcg_torch.types import ParseTree, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder", "fire hydrant", "pyramid")
 

@@ -10,7 +10,7 @@ from language_descriptions import DEVELOPMENT, FRESH, HELD_OUT, Description
 
 from dcg_torch.bench import hostile
 from dcg_torch.language import Parser, default_parser, target_phrase
-from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder")
 FIELDS = ("noun", "color", "relations", "words", "count", "plural", "also")

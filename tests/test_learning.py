@@ -26,13 +26,24 @@ from making import (
     world_file,
 )
 
-from dcg_torch.features import Group
-from dcg_torch.graph import FactorGraph, Solution
+from dcg_torch.agent.command import carry_out
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.experiment.trial import run_trial
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.graph import FactorGraph, Solution
 from dcg_torch.language import Parser
-from dcg_torch.learning import contrast, described_alike, labelled, new_symbol, replace_unknown, unsupervised_training
+from dcg_torch.learning.commit_first import (
+    contrast,
+    described_alike,
+    labelled,
+    new_symbol,
+    replace_unknown,
+    unsupervised_training,
+)
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN, hypothesize_objects, perceive_objects
 from dcg_torch.speaker import Command
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Child,
     Correspondence,
     Example,
@@ -44,11 +55,7 @@ from dcg_torch.symbols import (
     Symbol,
     WorldModel,
 )
-from dcg_torch.trial.command import carry_out
-from dcg_torch.trial.loop import run_trial
-from dcg_torch.trial.robot import FakeRobot
 from dcg_torch.world.files import World
-from dcg_torch.world.upsilon import HYPOTHETICAL_UNKNOWN, hypothesize_objects, perceive_objects
 
 ACTIVE, INACTIVE, INVERTED = Correspondence.ACTIVE, Correspondence.INACTIVE, Correspondence.INVERTED
 Pupil = Callable[[], GroundingModel]

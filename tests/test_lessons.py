@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from dcg_torch.language import Parser
+from dcg_torch.lessons.relations import KNOWN, relational_lessons
 from dcg_torch.speaker import RelationalSpeaker
 from dcg_torch.speaker.phrases import command, wording
 from dcg_torch.speaker.where import RELATIONS, SETS, SPOKEN, Told, View, tell
-from dcg_torch.symbols import ParseTree
-from dcg_torch.training.relations import KNOWN, relational_lessons
+from dcg_torch.types import ParseTree
 from dcg_torch.world.files import World, WorldObject
 from dcg_torch.world.generator import TYPES, generate_world
 

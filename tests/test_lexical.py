@@ -11,19 +11,19 @@ import numpy as np
 import pytest
 import torch
 
-from dcg_torch import binary
-from dcg_torch.encoding import Reader, encode
+from dcg_torch.checkpoint import load, save
 from dcg_torch.explanation import rivalry
-from dcg_torch.features import Group
-from dcg_torch.graph import FactorGraph
-from dcg_torch.learning import replace_unknown
+from dcg_torch.grounding import binary
+from dcg_torch.grounding.encoding import Reader, encode
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.graph import FactorGraph
+from dcg_torch.grounding.psi import BINARY, LogLinearModel, fit, objective
+from dcg_torch.learning.commit_first import replace_unknown
 from dcg_torch.lexical import LexicalModel
-from dcg_torch.loglinear import BINARY, LogLinearModel, fit, objective
 from dcg_torch.model import TrainingSet, Variant
 from dcg_torch.relational import grouped
-from dcg_torch.store import load, save
 from dcg_torch.supervised import Lesson, teach
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Correspondence,
     Example,
     Object,

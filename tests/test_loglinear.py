@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 from sklearn.linear_model import LogisticRegression
 
-from dcg_torch.loglinear import BINARY, TERNARY, LogLinearModel, Table, fit, objective, tabulate
+from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearModel, Table, fit, objective, tabulate
 from dcg_torch.model import GroundingModel, TrainingSet, encode
-from dcg_torch.symbols import Correspondence
+from dcg_torch.types import Correspondence
 
 both_settings = pytest.mark.parametrize("correspondences", [BINARY, TERNARY], ids=["binary", "ternary"])
 

@@ -11,10 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from making import COLORS, KNOWN, VARIANTS, command_tree, noun_phrase, percept, preposition_phrase, saw, verb_phrase
 
-from dcg_torch.loglinear import BINARY, TERNARY, fit
+from dcg_torch.grounding.psi import BINARY, TERNARY, fit
 from dcg_torch.model import GroundingModel, TrainingSet, Variant, encode
-from dcg_torch.symbols import Correspondence, ParseTree, PhraseKind, Pose
-from dcg_torch.world.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.types import Correspondence, ParseTree, PhraseKind, Pose
 
 SETTINGS = {
     "dcg": Variant(VARIANTS["dcg"], unknown=False, hypothetical=False, learns=False),

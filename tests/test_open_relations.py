@@ -10,21 +10,21 @@ import numpy as np
 import pytest
 import torch
 
-from dcg_torch.features import Group
-from dcg_torch.graph import Solution
-from dcg_torch.loglinear import BINARY, LogLinearModel, Table, fit, objective, tabulate
+from dcg_torch.agent.asking import Answer, Question
+from dcg_torch.agent.command import _told
+from dcg_torch.agent.explore import LookBefore, compares
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.checkpoint import load, save
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.psi import BINARY, LogLinearModel, Table, fit, objective, tabulate
+from dcg_torch.lessons import initial_training
+from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.model import Scene, Variant
 from dcg_torch.open_world import OpenWorldModel
 from dcg_torch.open_world.blocks import Blocks
-from dcg_torch.store import load, save
 from dcg_torch.supervised import teach
-from dcg_torch.symbols import ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
-from dcg_torch.training import initial_training
-from dcg_torch.training.relations import relational_lessons
-from dcg_torch.trial.asking import Answer, Question
-from dcg_torch.trial.command import _told
-from dcg_torch.trial.explore import LookBefore, compares
-from dcg_torch.trial.robot import FakeRobot
+from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
 from dcg_torch.world.files import World, WorldObject
 
 ROBOT = Pose(0.0, 0.0, 0.0)

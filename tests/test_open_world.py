@@ -12,18 +12,18 @@ import numpy as np
 import pytest
 import torch
 
-from dcg_torch.meaning.lexicon import lexicon_table, load_lexicon, save_lexicon
+from dcg_torch.agent.asking import Asking
+from dcg_torch.agent.explore import LookBefore, Worth
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.checkpoint import load, save
+from dcg_torch.experiment.trial import run_trial
+from dcg_torch.learning.lexicon import lexicon_table, load_lexicon, save_lexicon
+from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel, Scene, Variant
 from dcg_torch.open_world import Census, OpenWorldModel
 from dcg_torch.records import Iteration
 from dcg_torch.speaker import Command, GeneratingSpeaker, draw_trial
-from dcg_torch.store import load, save
-from dcg_torch.symbols import ParseTree, Percept, Phrase, PhraseKind
-from dcg_torch.training import initial_training
-from dcg_torch.trial.asking import Asking
-from dcg_torch.trial.explore import LookBefore, Worth
-from dcg_torch.trial.loop import run_trial
-from dcg_torch.trial.robot import FakeRobot
+from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind
 from dcg_torch.world.generator import COLORS, generate_world
 
 torch.set_num_threads(1)  # the problems are small; more threads only wait for one another

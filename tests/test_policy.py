@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from making import COLORS, KNOWN, NOVEL, chosen, command_tree, saw
 
 from dcg_torch.model import GroundingModel
-from dcg_torch.symbols import WorldModel
-from dcg_torch.world.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.types import WorldModel
 
 Pupil = Callable[[], GroundingModel]
 

@@ -11,18 +11,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dcg_torch import space
-from dcg_torch.episodes import Episode, EpisodeError, read_episodes, split_folds
-from dcg_torch.evaluation import Evaluation, summarise
+from dcg_torch import scene
+from dcg_torch.evaluation.episodes import Episode, EpisodeError, read_episodes, split_folds
+from dcg_torch.evaluation.protocol import Evaluation, summarise
 from dcg_torch.explanation import explain
-from dcg_torch.features import Group, ranking
-from dcg_torch.graph import FactorGraph
+from dcg_torch.grounding.features import Group, ranking
+from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.language import Parser
+from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant, encode
 from dcg_torch.relational import relational
 from dcg_torch.supervised import Lesson, teach
-from dcg_torch.symbols import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Pose, WorldModel
-from dcg_torch.training.relations import relational_lessons
+from dcg_torch.types import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Pose, WorldModel
 
 CORPUS = Path(__file__).parents[2] / "shared" / "data" / "train_robots.jsonl"
 
@@ -51,7 +51,7 @@ def cubes(*places: tuple[str, str, float, float]) -> WorldModel:
         Object(f"{color} {kind} {k}", kind, known=True, color=color, position=(x, y, 0.0))
         for k, (color, kind, x, y) in enumerate(places)
     )
-    return WorldModel(objects, Pose(0, 0, 0), None, space.places(None, Pose(0, 0, 0), None))
+    return WorldModel(objects, Pose(0, 0, 0), None, scene.places(None, Pose(0, 0, 0), None))
 
 
 def test_contexts_say_what_is_done_and_what_is_compared() -> None:
@@ -76,7 +76,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     modifier, landmark = noun.children[0], noun.children[0].children[0]
     psi = {}
     for node in (noun, landmark):
-        bag = taught.features.encode_things(world, space.layout(world), None)
+        bag = taught.features.encode_things(world, scene.layout(world), None)
         language = taught.features.encode_phrases([node.phrase])
         psi[node.phrase] = taught.loglinear.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
     n = len(world.things)
@@ -87,7 +87,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     for j in range(len(world.objects)):
         mixture = 0.0
         for k in range(n):
-            row = taught.features.encode_placed(space.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
+            row = taught.features.encode_placed(scene.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
             active = float(taught.loglinear.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
         score.append(math.exp(odds[noun.phrase][j]) * mixture)
@@ -144,7 +144,7 @@ def test_explanations_add_up(taught: GroundingModel) -> None:
     solution = taught.ground(go_to(np_("cube", "red")), world)
     assert solution.best is not None
     hypothesis = next(h for h in solution.best.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
-    bag = taught.features.encode_things(world, space.layout(world), None)[:1]
+    bag = taught.features.encode_things(world, scene.layout(world), None)[:1]
     language = taught.features.encode_phrases([hypothesis.tree.phrase])
     table = taught.loglinear.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
     moved = sum(r.log_odds for r in explain(taught, solution) if r.phrase == hypothesis.tree.phrase.text)

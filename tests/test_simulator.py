@@ -8,11 +8,11 @@ from collections.abc import Iterator
 import numpy as np
 import pytest
 
+from dcg_torch.agent.robot import Robot
 from dcg_torch.simulator import Camera, Client, Recogniser, SimulatedRobot, SimulatorError
 from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.simulator.camera import bearing
-from dcg_torch.symbols import Percept, Pose
-from dcg_torch.trial.robot import Robot
+from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import RobotStart, World, WorldObject
 from dcg_torch.world.generator import TYPES, generate_world
 

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch import space
-from dcg_torch.symbols import Object, Pose, WorldModel
+from dcg_torch import scene
+from dcg_torch.types import Object, Pose, WorldModel
 
 Point = tuple[float, float, float]
 
@@ -29,20 +29,20 @@ def values(
 
 def fired(world: WorldModel, landmarks: Sequence[int], among: str = "all") -> list[dict[str, str]]:
     """For every thing, relation family -> value."""
-    bag = space.relations(space.layout(world), [landmarks], among)[0]
-    names = [[space.RELATION_NAMES[k].removeprefix("relation: ") for k in row if k >= 0] for row in bag]
+    bag = scene.relations(scene.layout(world), [landmarks], among)[0]
+    names = [[scene.RELATION_NAMES[k].removeprefix("relation: ") for k in row if k >= 0] for row in bag]
     return [dict(name.split(", ") for name in row) for row in names]
 
 
 def ranked(world: WorldModel, among: str, **counted: int) -> list[set[str]]:
     """For every thing, the rank features that fire."""
-    bag = space.ranks(space.layout(world), among, **counted)
-    return [{space.RANKS[k].removeprefix("rank: ") for k in row if k >= 0} for row in bag]
+    bag = scene.ranks(scene.layout(world), among, **counted)
+    return [{scene.RANKS[k].removeprefix("rank: ") for k in row if k >= 0} for row in bag]
 
 
 def test_a_block_on_another_covers_it() -> None:
     low, high, aside = thing("low", (0, 0, 0)), thing("high", (0, 0, 1)), thing("aside", (3, 0, 0))
-    states = space.states(space.layout(WorldModel((low, high, aside))))
+    states = scene.states(scene.layout(WorldModel((low, high, aside))))
     assert "state: covered" in states[0]
     assert "state: clear" in states[1]
     assert "state: on something" in states[1]
@@ -123,18 +123,18 @@ def test_big_and_tall_are_measured() -> None:
 
 
 def test_the_second_corner_of_a_workspace() -> None:
-    found = {o.id: o for o in space.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0, 0), Pose(1, 1))}
+    found = {o.id: o for o in scene.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0, 0), Pose(1, 1))}
     assert found["place: far side left side corner"].position == (8.0, 4.0, 0.0)
     assert found["place: near side right side corner"].attributes == {"near side", "right side"}
     assert found["place: middle"].position == (4.0, 0.0, 0.0)
     assert {"place: robot", "place: speaker", "place: ground"} <= set(found)
     assert sum(o.type == "direction" for o in found.values()) == 2 * 4
-    assert [o.id for o in space.places(None, None, None)] == ["place: ground"]
+    assert [o.id for o in scene.places(None, None, None)] == ["place: ground"]
 
 
 def test_an_edge_is_as_near_as_its_nearest_point() -> None:
     block = thing("block", (8.0, 3.0, 0))
-    world = WorldModel((block,), Pose(0, 0), None, space.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0), None))
+    world = WorldModel((block,), Pose(0, 0), None, scene.places((0.0, 8.0, -4.0, 4.0), Pose(0, 0), None))
     found = fired(world, [number(world, "place: far side edge")])[0]
     assert found["place distance"] == "to 0.6"
     assert found["part"] == "in another part"  # the only block is the middle of all
@@ -152,7 +152,7 @@ def test_whose_left_it_is(side: str, mine: Point) -> None:
     """Robot and speaker face each other over the objects: the left of one is the right of the other."""
     objects = (thing("mine", mine), thing("other", (4 - mine[0], -mine[1], 0)))
     robot, speaker = Pose(0, 0, 0), Pose(4, 0)
-    world = WorldModel(objects, robot, speaker, space.places(None, robot, speaker))
+    world = WorldModel(objects, robot, speaker, scene.places(None, robot, speaker))
     yours = fired(world, [number(world, f"place: {side} side of robot direction")])
     assert yours[0]["direction"] in ("along", "rather along")
     assert yours[0]["closest"] == "closest 1"
@@ -163,7 +163,7 @@ def test_whose_left_it_is(side: str, mine: Point) -> None:
 
 
 def test_on_the_floor_is_a_relation_to_the_ground() -> None:
-    world = WorldModel((thing("low", (1, 1, 0)), thing("high", (1, 1, 1))), places=space.places(None, None, None))
+    world = WorldModel((thing("low", (1, 1, 0)), thing("high", (1, 1, 1))), places=scene.places(None, None, None))
     low, high, _ = fired(world, [number(world, "place: ground")])
     assert (low["vertical"], high["vertical"]) == ("on top", "higher over")
 
@@ -172,7 +172,7 @@ def test_rows_stacks_and_clusters() -> None:
     row = [thing(f"row {k}", (3 + 0.5 * k, 2 * k, 0), "barrel") for k in range(4)]
     stack = [thing(f"stack {k}", (9, 0, k), color="blue" if k else "red") for k in range(3)]
     heap = [thing(f"heap {k}", (15 + x, y, 0), "cone") for k, (x, y) in enumerate([(0, 0), (1, 0.3), (0.4, 1.1)])]
-    found = space.groups([*row, *stack, *heap])
+    found = scene.groups([*row, *stack, *heap])
     by_members = {frozenset(g.members): g for g in found}
     barrels = by_members[frozenset(o.id for o in row)]
     assert barrels.attributes == {"row", "of 4"}
@@ -184,14 +184,14 @@ def test_rows_stacks_and_clusters() -> None:
 
 
 def test_a_row_is_one_step_apart_and_straight() -> None:
-    assert not space.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (0, 7, 0))])
-    assert not space.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (2, 2.5, 0))])
+    assert not scene.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (0, 7, 0))])
+    assert not scene.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (2, 2.5, 0))])
 
 
 def test_members_of_a_row_are_ranked_within_it() -> None:
     row = [thing(f"row {k}", (3, 2.0 * k, 0), "cone") for k in range(3)]
     objects = (*row, thing("apart", (3, 20, 0), "cone"))
-    groups = space.groups(row)
+    groups = scene.groups(row)
     world = WorldModel(objects, Pose(0, 0, 0), groups=groups)
     in_row, of_all = ranked(world, "row", ordinal=2), ranked(world, "type", ordinal=2)
     assert [j for j, names in enumerate(in_row) if "left nth" in names] == [1]
@@ -207,7 +207,7 @@ def test_lengths_are_measured_in_the_units_of_the_world() -> None:
     small = WorldModel(tuple(thing(str(k), (x, y, 0)) for k, (x, y) in enumerate(points)))
     large = WorldModel(tuple(thing(str(k), (10 * x, 10 * y, 0)) for k, (x, y) in enumerate(points)), unit=10.0)
     assert fired(small, [0]) == fired(large, [0])
-    assert space.states(space.layout(small)) == space.states(space.layout(large))
+    assert scene.states(scene.layout(small)) == scene.states(scene.layout(large))
 
 
 coordinate = st.floats(-5, 5, allow_nan=False).map(lambda v: round(v, 2))
@@ -227,10 +227,10 @@ def test_turning_and_moving_the_whole_world_changes_nothing(
     c, s = round(math.cos(quarter * math.pi / 2)), round(math.sin(quarter * math.pi / 2))
     here = [thing(str(k), (x, y, 0), t, col) for k, (x, y, t, col) in enumerate(rows)]
     there = [thing(str(k), (c * x - s * y, s * x + c * y, 0), t, col) for k, (x, y, t, col) in enumerate(rows)]
-    a = space.layout(WorldModel(tuple(here), Pose(-7, 0, 0)))
-    b = space.layout(WorldModel(tuple(there), Pose(-7 * c, -7 * s, quarter * math.pi / 2)))
+    a = scene.layout(WorldModel(tuple(here), Pose(-7, 0, 0)))
+    b = scene.layout(WorldModel(tuple(there), Pose(-7 * c, -7 * s, quarter * math.pi / 2)))
     np.testing.assert_allclose(a.position, b.position, atol=1e-9)
-    assert space.states(a) == space.states(b)
+    assert scene.states(a) == scene.states(b)
 
 
 @given(scene)
@@ -238,17 +238,17 @@ def test_every_family_fires_at_most_one_value_and_never_for_the_landmark(
     rows: list[tuple[float, float, str, str]],
 ) -> None:
     objects = tuple(thing(str(k), (x, y, 0), t, col) for k, (x, y, t, col) in enumerate(rows))
-    bag = space.relations(space.layout(WorldModel(objects)), [[0]], "all")
-    assert bag.shape == (1, len(objects), len(space.RELATIONS))
-    assert [space.RELATION_NAMES[k] for k in bag[0, 0] if k >= 0] == ["relation: itself, itself"]
-    for table, names in zip(bag[0].T, space.RELATIONS.values(), strict=True):
-        assert {space.RELATION_NAMES[k] for k in table if k >= 0} <= set(names)
+    bag = scene.relations(scene.layout(WorldModel(objects)), [[0]], "all")
+    assert bag.shape == (1, len(objects), len(scene.RELATIONS))
+    assert [scene.RELATION_NAMES[k] for k in bag[0, 0] if k >= 0] == ["relation: itself, itself"]
+    for table, names in zip(bag[0].T, scene.RELATIONS.values(), strict=True):
+        assert {scene.RELATION_NAMES[k] for k in table if k >= 0} <= set(names)
 
 
 def test_a_hypothetical_object_fires_nothing() -> None:
     unseen = Object("unseen", "cube", known=True, hypothetical=True)
     objects = (thing("landmark", (0, 0, 0)), unseen)
     world = WorldModel(objects)
-    assert space.states(space.layout(world))[1] == ()
+    assert scene.states(scene.layout(world))[1] == ()
     assert ranked(world, "type")[1] == set()
     assert values(objects, 0)[1] == {}

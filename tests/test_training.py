@@ -12,12 +12,12 @@ import yaml
 from making import COLORS, KNOWN, NOVEL
 
 from dcg_torch.language import Parser
+from dcg_torch.lessons import TrainingFileError, read_training
 from dcg_torch.model import TrainingSet
-from dcg_torch.symbols import Correspondence, Phrase, PhraseKind
-from dcg_torch.training import TrainingFileError, read_training
-from dcg_torch.world.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
+from dcg_torch.types import Correspondence, Phrase, PhraseKind
 
-FILE = Path(str(files("dcg_torch.training").joinpath("initial.yaml")))
+FILE = Path(str(files("dcg_torch.lessons").joinpath("initial.yaml")))
 RAW: dict[str, Any] = yaml.safe_load(FILE.read_text(encoding="utf-8"))
 ENTRIES: list[dict[str, Any]] = RAW["examples"]
 

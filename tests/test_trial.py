@@ -14,16 +14,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from making import KNOWN, Read, SpyRobot, read, world_file
 
-from dcg_torch.experiment import ITERATIONS, run
+from dcg_torch.agent.command import Look, Stopwatch, carry_out
+from dcg_torch.agent.robot import FIELD_OF_VIEW, REACH, FakeRobot
+from dcg_torch.experiment.runner import ITERATIONS, run
+from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.records import Iteration, Timing
 from dcg_torch.settings import RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.speaker import Command
-from dcg_torch.symbols import Pose
-from dcg_torch.trial.command import Look, Stopwatch, carry_out
-from dcg_torch.trial.loop import run_trial
-from dcg_torch.trial.robot import FIELD_OF_VIEW, REACH, FakeRobot
+from dcg_torch.types import Pose
 from dcg_torch.world.files import RobotStart, World
 
 Pupil = Callable[[], GroundingModel]

@@ -12,15 +12,17 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image
 
-from dcg_torch.experiment import ITERATIONS, animation_of, run
-from dcg_torch.graph import Hypothesis, Solution
+from dcg_torch.agent.command import Look
+from dcg_torch.agent.robot import FakeRobot
+from dcg_torch.experiment.runner import ITERATIONS, animation_of, run
+from dcg_torch.grounding.graph import Hypothesis, Solution
 from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.resources import resource
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
 from dcg_torch.simulator import Camera, SimulatedRobot
 from dcg_torch.simulator.stage import Stage
 from dcg_torch.speaker import Command
-from dcg_torch.symbols import (
+from dcg_torch.types import (
     Child,
     Correspondence,
     Grounding,
@@ -33,8 +35,6 @@ from dcg_torch.symbols import (
     Pose,
     WorldModel,
 )
-from dcg_torch.trial.command import Look
-from dcg_torch.trial.robot import FakeRobot
 from dcg_torch.watch import paint
 from dcg_torch.watch.animation import SIZE, animate, frames, schedule
 from dcg_torch.watch.floor import FloorPanel

@@ -14,7 +14,7 @@ from dcg_torch.language.clauses import split
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.reader import Reader
 from dcg_torch.language.target import root
-from dcg_torch.symbols import ParseTree, PhraseKind
+from dcg_torch.types import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 400
 MAX_WORDS = 64  # twice the longest of two thousand human commands; the time goes with the number of words

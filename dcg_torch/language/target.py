@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
 @dataclass(slots=True, eq=False)

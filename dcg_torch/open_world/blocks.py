@@ -14,8 +14,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.features import FeatureSet, Group
-from dcg_torch.loglinear import LogLinearModel
+from dcg_torch.grounding.features import FeatureSet, Group
+from dcg_torch.grounding.psi import LogLinearModel
 from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS, group_nouns
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})

@@ -13,10 +13,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.features import FeatureSet
-from dcg_torch.graph import FactorGraph, Solution
-from dcg_torch.loglinear import LogLinearModel
-from dcg_torch.symbols import ParseTree, PhraseKind
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.graph import FactorGraph, Solution
+from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.types import ParseTree, PhraseKind
 
 _NEGLIGIBLE = 0.02
 """Objects that are meant with less probability say nothing of landmarks."""

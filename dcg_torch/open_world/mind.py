@@ -6,9 +6,9 @@ import math
 from collections.abc import Collection
 from dataclasses import dataclass, field
 
-from dcg_torch.meaning.beliefs import Beliefs, Prior
-from dcg_torch.meaning.soft import Unseen
-from dcg_torch.symbols import Percept
+from dcg_torch.learning.beliefs import Beliefs, Prior
+from dcg_torch.learning.soft_labels import Unseen
+from dcg_torch.types import Percept
 
 OUT_OF_VIEW = 1.0 - 57.0 / 360.0
 """Share of the ground that is out of view before the robot turns."""

@@ -18,18 +18,18 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
-from dcg_torch.features import LOOKED_ROUND, PAPER, FeatureSet, Group
-from dcg_torch.graph import Solution
-from dcg_torch.loglinear import TERNARY, FitResult, LogLinearModel, fit
-from dcg_torch.meaning.beliefs import UNMET, Beliefs, Evidence
-from dcg_torch.meaning.lexicon import Entry, lexicon
-from dcg_torch.meaning.soft import soft_examples
+from dcg_torch.grounding.features import LOOKED_ROUND, PAPER, FeatureSet, Group
+from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.psi import TERNARY, FitResult, LogLinearModel, fit
+from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence
+from dcg_torch.learning.lexicon import Entry, lexicon
+from dcg_torch.learning.soft_labels import soft_examples
 from dcg_torch.model import GroundingModel, Scene, TrainingSet, Variant, encode
 from dcg_torch.open_world.blocks import Blocks
 from dcg_torch.open_world.hearing import described_fit, landmark_fits, target
 from dcg_torch.open_world.mind import Mind, OpenWorld
 from dcg_torch.relational import PLACE_WORDS, group_nouns, place_examples, place_symbols
-from dcg_torch.symbols import Example, ParseTree, PhraseKind, Symbol
+from dcg_torch.types import Example, ParseTree, PhraseKind, Symbol
 
 LOOKED = frozenset({LOOKED_ROUND})
 _SURE = 0.95  # probability from which on the robot uses a word itself

@@ -12,7 +12,7 @@ from pathlib import Path
 import pybullet
 
 from dcg_torch.simulator.client import STEP, Client
-from dcg_torch.symbols import Pose
+from dcg_torch.types import Pose
 
 ROBOT_RADIUS = 0.178
 """Metres; nothing of the robot is farther from its middle, seen from above."""

@@ -17,7 +17,7 @@ import pybullet
 from numpy.typing import NDArray
 
 from dcg_torch.simulator.client import Client
-from dcg_torch.symbols import Percept, Pose
+from dcg_torch.types import Percept, Pose
 
 NEAR, FAR = 0.02, 30.0
 """Metres between which the camera shows anything."""

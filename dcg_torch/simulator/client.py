@@ -13,7 +13,7 @@ from types import TracebackType
 
 import pybullet
 
-from dcg_torch.symbols import Pose
+from dcg_torch.types import Pose
 
 STEP = 1.0 / 120.0
 """Seconds of simulated time in one physics step."""

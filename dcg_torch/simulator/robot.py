@@ -18,7 +18,7 @@ from dcg_torch.simulator.camera import Camera, Recogniser, bearing, view_from
 from dcg_torch.simulator.client import Client, SimulatorError
 from dcg_torch.simulator.navigation import Circle, Points, Track
 from dcg_torch.simulator.window import OPTIONS, Window
-from dcg_torch.symbols import Percept, Pose
+from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import World
 
 ARRIVED = 0.5

@@ -17,7 +17,7 @@ from dcg_torch.simulator.bodies import Model, Part, add_model, add_object, exten
 from dcg_torch.simulator.bodies.meshes import Mesh, merged
 from dcg_torch.simulator.camera import NEAR, Camera
 from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
-from dcg_torch.symbols import Pose
+from dcg_torch.types import Pose
 from dcg_torch.world.files import World
 
 AddRobot = Callable[[int, Pose], int]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dcg_torch.symbols import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _NAMES = {"beside": "next to", "nearest to": "closest to", "to the left of": "left of", "to the right of": "right of"}
 """Other wordings, and the preposition that the language room makes of them."""

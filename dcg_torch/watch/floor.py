@@ -13,7 +13,7 @@ from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.stage import ROBOT_HEIGHT, ROBOT_RADIUS, Stage
 from dcg_torch.simulator.view import Box, Points, circle, sector
-from dcg_torch.symbols import Pose
+from dcg_torch.types import Pose
 from dcg_torch.watch import paint
 from dcg_torch.watch.recording import Episode
 from dcg_torch.watch.wording import label

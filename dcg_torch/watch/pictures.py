@@ -6,8 +6,8 @@ from pathlib import Path
 
 from joblib import Parallel, delayed
 
+from dcg_torch.experiment.plan import trial_generators, trial_worlds
 from dcg_torch.settings import Settings
-from dcg_torch.trial.plan import trial_generators, trial_worlds
 
 
 def save_screenshots(settings: Settings, directory: Path, workers: int = 2) -> list[Path]:

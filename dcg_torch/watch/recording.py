@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from dcg_torch.agent.command import Look
+from dcg_torch.agent.robot import Robot
 from dcg_torch.records import Iteration
 from dcg_torch.speaker import Command
-from dcg_torch.symbols import Pose
-from dcg_torch.trial.command import Look
-from dcg_torch.trial.robot import Robot
+from dcg_torch.types import Pose
 
 
 @dataclass(frozen=True)

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from dcg_torch.graph import Solution
-from dcg_torch.symbols import Object
-from dcg_torch.trial.command import Look
+from dcg_torch.agent.command import Look
+from dcg_torch.grounding.graph import Solution
+from dcg_torch.types import Object
 from dcg_torch.watch.recording import Episode
 from dcg_torch.world.files import WorldObject
 

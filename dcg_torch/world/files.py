@@ -8,7 +8,7 @@ from typing import Annotated
 import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from dcg_torch.symbols import Pose
+from dcg_torch.types import Pose
 
 
 class _Strict(BaseModel):

@@ -1,0 +1,1 @@
+"""The command line: Hydra's schemas and errors, the terminal."""

@@ -1,0 +1,1 @@
+"""How well commands are grounded in scenes that are seen as a whole: episodes, the protocol, baselines."""

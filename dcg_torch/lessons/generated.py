@@ -1,0 +1,18 @@
+"""All generated lessons together, for a model that starts without a corpus of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+
+from dcg_torch.lessons.arranged import Reading, arranged_lessons
+from dcg_torch.lessons.relations import relational_lessons
+from dcg_torch.supervised import Lesson
+
+
+def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
+    """So many lessons on relations, and a third as many in arranged scenes; the same for the same arguments.
+
+    Args:
+        parse: reads commands.
+    """
+    return (*relational_lessons(count), *arranged_lessons(parse, count // 3))

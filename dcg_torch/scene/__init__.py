@@ -1,0 +1,29 @@
+"""Where things are, as names of binary features: states, ranks, and relations between things.
+
+places      what can be spoken of beside the objects: places, and groups of objects
+layout      a world's things as arrays, seen from the robot
+things      by itself: clear or covered, on the floor, held ...; among those alike: leftmost, second, biggest ...
+relations   to a landmark: above, beside, at which distance and on which side, closest to it of those alike ...
+"""
+
+from dcg_torch.scene.layout import Layout, layout, seen_from
+from dcg_torch.scene.places import Bounds, groups, places, scene_bounds
+from dcg_torch.scene.ranks import RANKS, STATES, ranks, states
+from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, relations
+
+__all__ = [
+    "RANKS",
+    "RELATIONS",
+    "RELATION_NAMES",
+    "STATES",
+    "Bounds",
+    "Layout",
+    "groups",
+    "layout",
+    "places",
+    "ranks",
+    "relations",
+    "scene_bounds",
+    "seen_from",
+    "states",
+]

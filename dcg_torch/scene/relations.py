@@ -1,0 +1,223 @@
+"""How things stand to landmarks: above, beside, at which distance and on which side, closest to it of those alike.
+
+Relations are families of values, of which at most one fires: to one landmark, or to two of them ("between").
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.scene.layout import NEAREST, ONE_LEVEL, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
+
+DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
+"""The bounds of the distance features, in units of the world."""
+VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
+SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
+FRAMES = ("side", "side seen", "side spoken")
+"""Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
+_ORDERS = {"closest": NEAREST, "farthest": 1}
+"""Order by distance -> how many ranks of it are features."""
+
+
+def _names() -> dict[str, list[str]]:
+    """Family of relation features -> the names of its values."""
+    bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
+    families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
+    families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
+    for order, named in _ORDERS.items():
+        families[order] = [f"{order} {k}" for k in range(1, named + 1)]
+    families["itself"] = ["itself"]
+    families["between"] = ["between", "not between"]
+    families["line"] = ["in line across", "in line along"]
+    families["direction"] = ["along", "rather along", "aslant", "against"]
+    families["part"] = ["in that part", "in another part"]
+    families["member"] = ["member", "no member"]
+    families["member top"] = ["top member", "lower member"]
+    families["member place"] = ["end member", "middle member", "inner member"]
+    return families
+
+
+RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for family, names in _names().items()}
+"""Family of relation features -> the names of its values; at most one value of a family fires."""
+RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
+_START = dict(zip(RELATIONS, np.cumsum([0, *map(len, RELATIONS.values())]).tolist(), strict=False))
+
+
+def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> NDArray[np.int16]:
+    """The relation features of every thing to every tuple of landmarks.
+
+    Args:
+        landmarks: c tuples of thing numbers; all but "between" is to the first of each.
+        among: which of `SETS` "the closest" is one of.
+
+    Returns:
+        (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
+    """
+    keys = [(among, tuple(of)) for of in landmarks]
+    new = [key for key in dict.fromkeys(keys) if key not in where.rows]
+    if new:
+        found = _families(where, [of for _, of in new], where.alike[among])
+        columns = [
+            np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((len(new), 1), -1)
+            for f in RELATIONS
+        ]
+        shape = (len(new), len(where.things))
+        bag = np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
+        where.rows.update(zip(new, bag, strict=True))
+    return np.stack([where.rows[key] for key in keys])
+
+
+def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools) -> dict[str, Ints]:
+    """family -> (c, n) number of the value that fires, -1 for none; a family that fires nowhere may be missing."""
+    first = np.array([of[0] for of in landmarks], dtype=np.int64)
+    position = where.position
+    offset = position[None, :, :] - position[first][:, None, :]  # (c, n, 3)
+    flat = offset[..., :2]
+    half = where.half[first][:, None, :]
+    with np.errstate(invalid="ignore"):
+        flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
+        distance = np.hypot(flat[..., 0], flat[..., 1])
+    exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
+    solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
+    of_place = exists & ~solid & point
+    steps = np.searchsorted(DISTANCES, np.where(exists, distance, 0.0), side="left")
+    found = {
+        "distance": np.where(exists & solid, steps, -1),
+        "place distance": np.where(of_place, steps, -1),
+        "vertical": _vertical(where, first, distance, offset[..., 2], exists),
+    }
+    itself = first[:, None] == np.arange(len(position))[None, :]
+    found["itself"] = np.where(itself & solid, 0, -1)
+    found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
+    found |= _orders(where, first, distance, exists, alike)
+    if where.place[first].any():
+        found |= _headed(where, first, exists)
+    if where.group[first].any():
+        found |= _members(where, first)
+    if any(len(of) > 1 for of in landmarks):
+        found["between"] = _between(position, landmarks)
+    return found
+
+
+def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
+    same = distance < SAME_SPOT
+    value = np.select(
+        [
+            same & (up > ONE_LEVEL),
+            same & (up > 0.01),
+            same & (up < -ONE_LEVEL),
+            same & (up < -0.01),
+            up > 0.01,
+            up < -0.01,
+        ],
+        [VERTICAL.index(name) for name in ("higher over", "on top", "lower under", "right under", "above", "below")],
+        VERTICAL.index("level"),
+    )
+    on_ground = np.where(where.over.any(axis=1), VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
+    value = np.where(where.ground[first][:, None], on_ground, value)
+    out: Ints = np.where(exists & (where.solid | where.ground)[first][:, None], value, -1)
+    return out
+
+
+def _sides(where: Layout, first: Ints, flat: Floats, aside: Bools) -> dict[str, Ints]:
+    """On which side of the landmark, by the three frames; an edge or a corner has no sides."""
+    sided = aside & ~where.edge[first][:, None]
+    bearing = np.arctan2(flat[..., 1], flat[..., 0])
+    mark = where.position[first, :2]
+    away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
+    found = {"side": np.where(sided, _sector(bearing), -1)}
+    found["side seen"] = np.where(sided & away, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None]), -1)
+    if where.speaker is not None:
+        view = mark - where.speaker
+        near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
+        view[near] = where.middle - where.speaker
+        found["side spoken"] = np.where(sided, _sector(bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]), -1)
+    across, along = np.abs(flat[..., 1]) < SAME_SPOT, np.abs(flat[..., 0]) < SAME_SPOT
+    found["line"] = np.where(sided & along, 0, np.where(sided & across, 1, -1))
+    return found
+
+
+def _sector(angle: Floats) -> Ints:
+    """Which of the eight `SECTORS`, as seen by who looks along angle 0."""
+    return np.round(np.nan_to_num(angle) / (math.pi / 4)).astype(np.int64) % 8
+
+
+def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Bools) -> dict[str, Ints]:
+    """The closest and the farthest of those alike; in a direction, the one that is farthest that way."""
+    heading = np.nan_to_num(where.heading[first])
+    offset = where.position[None, :, :2] - where.position[first][:, None, :2]
+    ahead = -(offset * heading[:, None, :]).sum(axis=2)
+    value = np.where(where.direction[first][:, None], ahead, distance)
+    found = {}
+    for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
+        signed = np.where(exists, sign * value, math.inf)
+        less = signed[:, None, :] < signed[:, :, None] - TIE
+        before = (less & alike[None]).sum(axis=2)
+        compared = exists & alike.any(axis=1, keepdims=True).T & (before < named)
+        found[order] = np.where(compared, before, -1)
+    return found
+
+
+def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
+    """To places that have a side: how far that way a thing is, and whether it is in that part of the scene."""
+    heading = where.heading[first][:, None, :]
+    headed = np.isfinite(heading).all(axis=2)
+    offset = where.position[None, :, :2] - where.position[first][:, None, :2]
+    with np.errstate(invalid="ignore"):
+        length = np.maximum(np.hypot(offset[..., 0], offset[..., 1]), TIE)
+        angle = np.arccos(np.clip((offset * heading).sum(axis=2) / length, -1.0, 1.0))
+        slant = np.searchsorted((math.pi / 6, math.pi / 3, math.pi / 2), np.nan_to_num(angle))
+    direction = where.direction[first][:, None]
+    return {
+        "direction": np.where(exists & headed & direction, slant, -1),
+        "part": np.where(exists & headed & ~direction, _part(where, heading), -1),
+    }
+
+
+def _part(where: Layout, heading: Floats) -> Ints:
+    """0 for a thing that is beyond the middle of the objects on every side that the place is at, else 1."""
+    with np.errstate(invalid="ignore"):
+        sides = np.sign(np.where(np.abs(heading) > TIE, heading, 0.0))
+        beyond = (where.position[None, :, :2] - where.middle) * sides > TIE
+        inside = (beyond | (sides == 0.0)).all(axis=2)
+    return np.where(inside, 0, 1)
+
+
+def _members(where: Layout, first: Ints) -> dict[str, Ints]:
+    """To a group: is a thing in it, on top of it, at its end or in the middle?"""
+    shape = (len(first), len(where.things))
+    found = {family: np.full(shape, -1, dtype=np.int64) for family in ("member", "member top", "member place")}
+    for c, g in enumerate(first):
+        if not where.group[g]:
+            continue
+        inside = np.flatnonzero(where.member[g])
+        found["member"][c] = np.where(where.member[g], 0, 1)
+        height = where.position[inside, 2]
+        found["member top"][c, inside] = np.where(height > height.max() - TIE, 0, 1)
+        reach = np.linalg.norm(where.position[inside] - where.position[g], axis=1)
+        place = np.full(len(inside), 2)
+        place[reach > reach.max() - 0.25] = 0
+        place[reach < min(0.25, reach.min() + TIE)] = 1
+        found["member place"][c, inside] = place
+    return found
+
+
+def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
+    """Is a thing between the first two landmarks: over their line, and not off to the side?"""
+    pairs = np.array([(of[0], of[1] if len(of) > 1 else of[0]) for of in landmarks], dtype=np.int64)
+    start, span = position[pairs[:, 0], :2], position[pairs[:, 1], :2] - position[pairs[:, 0], :2]
+    length = np.hypot(*span.T)
+    offset = position[None, :, :2] - start[:, None, :]  # (c, n, 2)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        along = np.einsum("cnd,cd->cn", offset, span) / length[:, None] ** 2
+        aside = np.abs(offset[..., 1] * span[:, None, 0] - offset[..., 0] * span[:, None, 1]) / length[:, None]
+        inside = (along > 0.05) & (along < 0.95) & (aside < np.maximum(SAME_SPOT, 0.35 * length)[:, None])
+        apart = (pairs[:, 0] != pairs[:, 1]) & np.isfinite(length) & (length >= TIE)
+    numbers = np.arange(len(position))
+    end = (numbers[None] == pairs[:, :1]) | (numbers[None] == pairs[:, 1:])
+    out: Ints = np.where(apart[:, None] & ~end & np.isfinite(along), np.where(inside, 0, 1), -1)
+    return out

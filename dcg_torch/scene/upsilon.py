@@ -1,0 +1,64 @@
+"""Upsilon, the world model: what is perceived, and what may be there unseen (Alg. 1, lines 8 and 9)."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from dcg_torch.types import Object, Percept, Pose, WorldModel
+
+HYPOTHETICAL_UNKNOWN = "hypothetical unknown"
+
+
+def perceive_objects(
+    percepts: Iterable[Percept], known_types: Collection[str], *, unknown: bool = True
+) -> list[Object]:
+    """The perceived part of Upsilon: KP, and UP if `unknown` (line 8).
+
+    An object is unknown if no object of its class is among `known_types` (Section III-A).
+    """
+    seen = (
+        Object(
+            id=p.id,
+            type=p.type,
+            known=p.type in known_types,
+            color=p.color,
+            position=p.position,
+            size=p.size,
+            attributes=p.attributes,
+        )
+        for p in percepts
+    )
+    return [o for o in seen if o.known or unknown]
+
+
+def hypothesize_objects(known_types: Iterable[str], attributes: frozenset[str] = frozenset()) -> list[Object]:
+    """KH and UH: an unseen instance of every known type, and one of an unknown type (line 9, Section III-C)."""
+    known = [
+        Object(id=f"hypothetical {t}", type=t, known=True, hypothetical=True, attributes=attributes)
+        for t in known_types
+    ]
+    return [
+        *known,
+        Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True, attributes=attributes),
+    ]
+
+
+def world_model(
+    percepts: Iterable[Percept],
+    known_types: Collection[str],
+    *,
+    unknown: bool = True,
+    hypothetical: bool = True,
+    robot: Pose | None = None,
+    speaker: Pose | None = None,
+    unseen: frozenset[str] = frozenset(),
+) -> WorldModel:
+    """Upsilon of a model variant: DCG has neither unknown nor hypothetical objects, DCG-UPUP no hypothetical.
+
+    Args:
+        unseen: attributes that the hypothetical objects have.
+    """
+    objects = perceive_objects(percepts, known_types, unknown=unknown)
+    if hypothetical:
+        objects += hypothesize_objects(known_types, unseen)
+    return WorldModel(tuple(objects), robot, speaker)
