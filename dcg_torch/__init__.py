@@ -9,12 +9,12 @@ How the paper is read here:
   INVERTED is really trained: "stay away from the cube".
 * Eq. 6 as printed leaves the sum over F_U outside exp; eq. 8 shows what is meant. F_BCG there is F_DCG.
 * A command means one thing: phi* is sought among the configurations in which each phrase corresponds to exactly one
-  grounding (`graph`).
+  grounding (`grounding.graph`).
 * "Known" is a fact about the training set, so an example recorded while "cone" was unknown changes its meaning when
-  the word is learned; `learning.commit_first.replace_unknown` covers its negatives too. The hand-made examples that teach
+  the word is learned; `commit_first.replace_unknown` covers its negatives too. The hand-made examples that teach
   "unknown" use invented nouns, which no later lesson can make known.
 * M.train takes all of M.Gamma: beside the object that was meant, training sees one of every other known type
-  (`learning.commit_first.contrast`).
+  (`commit_first.contrast`).
 * While the grounding is hypothetical the robot turns and grounds anew with what it has seen; lines 16 to 25 follow once
   a command, from the last grounding.
 
@@ -28,38 +28,44 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from dcg_torch.checkpoint import load, save
-    from dcg_torch.explanation import explain
+    from dcg_torch.grounding.explanation import explain, rivalry
     from dcg_torch.grounding.features import Group
-    from dcg_torch.grounding.graph import FactorGraph, Solution
+    from dcg_torch.grounding.graph import FactorGraph
     from dcg_torch.grounding.psi import FitResult, LogLinearModel
+    from dcg_torch.grounding.solution import Solution
     from dcg_torch.language import Parse, Parser
     from dcg_torch.language import parse_command as parse
     from dcg_torch.lessons import initial_training, read_training
-    from dcg_torch.model import GroundingModel, TrainingSet, Variant
+    from dcg_torch.model import Experience, GroundingModel, Learned, Told, TrainingSet, Variant
+    from dcg_torch.pretrain import pretrained
     from dcg_torch.types import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 _WHERE = {
-    "explanation": "explain",
-    "grounding.features": "Group",
-    "grounding.graph": "FactorGraph Solution",
-    "language": "Parse Parser",
-    "grounding.psi": "FitResult LogLinearModel",
-    "model": "GroundingModel TrainingSet Variant",
     "checkpoint": "load save",
-    "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
+    "grounding.explanation": "explain rivalry",
+    "grounding.features": "Group",
+    "grounding.graph": "FactorGraph",
+    "grounding.psi": "FitResult LogLinearModel",
+    "grounding.solution": "Solution",
+    "language": "Parse Parser",
     "lessons": "initial_training read_training",
+    "model": "Experience GroundingModel Learned Told TrainingSet Variant",
+    "pretrain": "pretrained",
+    "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names.split()}
 
 __all__ = [
     "Correspondence",
     "Example",
+    "Experience",
     "FactorGraph",
     "FitResult",
     "GroundingModel",
     "Group",
+    "Learned",
     "LogLinearModel",
     "Object",
     "Parse",
@@ -70,6 +76,7 @@ __all__ = [
     "Pose",
     "Solution",
     "Symbol",
+    "Told",
     "TrainingSet",
     "Variant",
     "WorldModel",
@@ -77,7 +84,9 @@ __all__ = [
     "initial_training",
     "load",
     "parse",
+    "pretrained",
     "read_training",
+    "rivalry",
     "save",
 ]
 
@@ -89,3 +98,8 @@ def __getattr__(name: str) -> Any:
     if name not in _MODULES:
         raise AttributeError(f"module 'dcg_torch' has no attribute {name!r}")
     return getattr(importlib.import_module(f"dcg_torch.{_MODULES[name]}"), name)
+
+
+def __dir__() -> list[str]:
+    """The public names, loaded or not."""
+    return sorted({*globals(), *__all__})

@@ -37,7 +37,6 @@ from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
-from dcg_torch.supervised import teach
 from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import COLORS, TYPES
@@ -126,7 +125,7 @@ def bench_relations() -> Iterator[Result]:
     parse, rng = default_parser().parse, np.random.default_rng(0)
     groups = PAPER | {Group.RELATION}
     model = GroundingModel.trained(initial_training(), Variant(groups=groups, hypothetical=False, ternary=False))
-    teach(model, generated_lessons(parse, 200), rounds=1)
+    model.teach(generated_lessons(parse, 200), relations_only=True, rounds=1)
     kinds = [("cube", "sphere", "cylinder")[k % 3] for k in range(25)]
     for text in _RELATED:
         tree = parse(text, model.symbols).tree

@@ -1,151 +1,187 @@
-"""A trained model on disk: its weights as safetensors, its symbols, columns and examples as JSON. No pickle.
+"""A trained model on disk: its weights as safetensors, all else as JSON. No pickle.
 
-Of a `LexicalModel` the corpus is kept as its sufficient statistics, beside the weights.
+    model.json             format, variant, columns and the learner
+    weights.safetensors    the weights that are not zero, and where they are; likewise the prior and what is held
+
+What is read is checked: format, shapes, finite numbers, labels, ids. A folder holds a whole model or none.
 """
 
 from __future__ import annotations
 
 import json
+import math
 import os
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import torch
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
-from safetensors.torch import load_file, save_file
+from safetensors.numpy import load as load_bytes
+from safetensors.numpy import save_file
 
-from dcg_torch.grounding.encoding import Statistics
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import LogLinearModel, Merged
-from dcg_torch.lexical import LexicalModel
+from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearModel
+from dcg_torch.learning.commit_first import CommitFirst
+from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.open_world import Mind, OpenWorldModel
-from dcg_torch.relational import Workspace
-from dcg_torch.types import Correspondence, Example, Symbol
-from dcg_torch.words import Words
+from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
+FORMAT = 2
+"""Of the files; 1 was that of version 0.1, in which a model's kind was told by what else was there."""
+_MOST_BEAM = 1000
+_Arrays = dict[str, np.ndarray]
 
 
-class StoreError(ValueError):
+class CheckpointError(ValueError):
     """A saved model that is missing or not valid; the message is one line."""
 
 
 @dataclass(frozen=True)
 class _Description:
+    format: Literal[2]
     variant: Variant
     correspondences: tuple[Correspondence, ...]
     language: tuple[str, ...]
     grounding: tuple[str, ...]
-    symbols: tuple[Symbol, ...]
-    examples: tuple[Example, ...]
-    corpus: tuple[Example, ...] = ()
-    mind: Mind | None = None
-    words: Words | None = None
-    workspace: Workspace | None = None
-    apart: tuple[tuple[str, ...], tuple[str, ...]] | None = None  # the columns of a corpus's statistics
-    places: tuple[str, ...] = ()
+    commit_first: CommitFirst | None = None
+    word_posterior: WordPosterior | None = None
 
 
-_PARTS = ("language", "grounding", "phrase", "count")
 _ADAPTER = TypeAdapter(_Description)
 
 
-def save(model: GroundingModel, directory: Path) -> None:
-    """Write a model into `directory`, which is made if need be; each file appears whole or not at all."""
+def save(model: GroundingModel, directory: Path | str) -> None:
+    """Write a model into `directory`, which is made if need be. Each file appears whole or not at all."""
+    directory = Path(directory)
     directory.mkdir(parents=True, exist_ok=True)
-    tensors = {"weight": model.loglinear.weight.contiguous()}
-    words, workspace, statistics = None, None, None
-    if isinstance(model, LexicalModel):
-        words, workspace, statistics = model.words, model.workspace, model.statistics
-        for k, part in enumerate(statistics.parts):
-            tensors |= {f"{name} {k}": torch.from_numpy(np.ascontiguousarray(getattr(part, name))) for name in _PARTS}
+    learner = model.learner
     description = _Description(
+        FORMAT,
         model.variant,
-        model.loglinear.correspondences,
+        model.factor.correspondences,
         tuple(model.features.language),
         tuple(model.features.grounding),
-        tuple(model.symbols.values()),
-        tuple(model.examples),
-        () if isinstance(model, LexicalModel) else tuple(model.corpus),
-        model.mind if isinstance(model, OpenWorldModel) else None,
-        words,
-        workspace,
-        None if statistics is None else (tuple(statistics.features.language), tuple(statistics.features.grounding)),
-        tuple(sorted(statistics.places)) if statistics else (),
+        learner if isinstance(learner, CommitFirst) else None,
+        learner if isinstance(learner, WordPosterior) else None,
     )
-    weights, text = directory / WEIGHTS, directory / DESCRIPTION
-    save_file(tensors, f"{weights}.part")
+    tensors = _sparse("weight", model.factor.weight.numpy()) | _sparse("prior", model.prior.numpy())
+    tensors |= {"held": np.flatnonzero(model.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
-    Path(f"{text}.part").write_text(json.dumps(_ADAPTER.dump_python(description), default=sorted), encoding="utf-8")
+    text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
+    weights, described = directory / WEIGHTS, directory / DESCRIPTION
+    save_file(tensors, f"{weights}.part")
+    Path(f"{described}.part").write_text(text, encoding="utf-8")
     os.replace(f"{weights}.part", weights)
-    os.replace(f"{text}.part", text)
+    os.replace(f"{described}.part", described)
 
 
-def load(directory: Path) -> GroundingModel:
+def load(directory: Path | str) -> GroundingModel:
     """The model that `save` wrote: the same probabilities to the last bit, and ready to learn on.
 
     Raises:
-        StoreError: a file is missing, broken, or does not fit the other.
+        CheckpointError: a file is missing, broken, or does not fit the other.
     """
-    for name in (DESCRIPTION, WEIGHTS):
-        if not (directory / name).is_file():
-            raise StoreError(f"{directory / name}: no saved model here; save one with dcg_torch.save")
+    directory = Path(directory)
+    described, tensors = _description(directory), _tensors(directory)
+    shape = len(described.correspondences), len(described.language), len(described.grounding)
+    tables = ({name: k for k, name in enumerate(names)} for names in (described.language, described.grounding))
+    features = FeatureSet(described.variant.groups, *tables)
+    if features.shape != shape[1:]:
+        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature twice")
     try:
-        described = _ADAPTER.validate_json((directory / DESCRIPTION).read_bytes())
-        tensors = load_file(directory / WEIGHTS)
-        weight = tensors["weight"]
-    except (ValidationError, SafetensorError, KeyError) as error:
-        raise StoreError(f"{directory}: not a saved model: {' '.join(str(error).split())[:200]}") from None
-    features = _features(described.variant, described.language, described.grounding)
-    expected = (len(described.correspondences), len(described.language), len(described.grounding))
-    if tuple(weight.shape) != expected or weight.dtype != torch.float64:
-        raise StoreError(
-            f"{directory}: weights of {weight.dtype} and shape {tuple(weight.shape)}, not float64 and {expected}; "
-            f"{WEIGHTS} and {DESCRIPTION} are not of one model"
-        )
-    if features.shape != expected[1:]:
-        raise StoreError(f"{directory}: {DESCRIPTION} names a feature twice")
-    try:
-        pairs = features.pairs
+        factor = LogLinearModel(features.pairs, described.correspondences)
     except KeyError as error:
-        raise StoreError(f"{directory}: {DESCRIPTION} names features that do not exist: {error}") from None
-    loglinear = LogLinearModel(pairs, described.correspondences)
-    loglinear.weight = weight
-    if described.mind is not None:
-        return OpenWorldModel(
-            described.variant, described.symbols, described.examples, features, loglinear, mind=described.mind
-        )
-    if described.words is not None and described.apart is not None:
-        lexical = LexicalModel(
-            described.variant,
-            described.symbols,
-            described.examples,
-            features,
-            loglinear,
-            words=described.words,
-            statistics=_statistics(described, tensors, directory),
-        )
-        lexical.workspace = described.workspace
-        return lexical
-    return GroundingModel(
-        described.variant, described.symbols, described.examples, features, loglinear, described.corpus
-    )
+        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {error}") from None
+    learner = described.commit_first or described.word_posterior
+    if learner is None or (described.commit_first and described.word_posterior):
+        raise CheckpointError(f"{directory}: {DESCRIPTION} holds no learner, or two")
+    _check(described, learner, directory)
+    model = GroundingModel(described.variant, features, factor, learner)
+    model.factor.weight = torch.from_numpy(_dense("weight", tensors, shape, directory))
+    model.prior = torch.from_numpy(_dense("prior", tensors, shape, directory))
+    if (tensors["held"] < 0).any() or (tensors["held"] >= math.prod(shape[1:])).any():
+        raise CheckpointError(f"{directory}: {WEIGHTS} holds weights of columns that {DESCRIPTION} lacks")
+    model.held.reshape(-1)[tensors["held"]] = True
+    return model
 
 
-def _features(variant: Variant, language: tuple[str, ...], grounding: tuple[str, ...]) -> FeatureSet:
-    """The columns of these names, in their order."""
-    tables = ({name: k for k, name in enumerate(names)} for names in (language, grounding))
-    return FeatureSet(variant.groups, *tables)
-
-
-def _statistics(described: _Description, tensors: dict[str, torch.Tensor], directory: Path) -> Statistics:
-    assert described.apart is not None
-    numbers = sorted(int(name.split()[1]) for name in tensors if name.startswith("count "))
+def _description(directory: Path) -> _Description:
+    path = directory / DESCRIPTION
     try:
-        parts = tuple(Merged(*(tensors[f"{name} {k}"].numpy() for name in _PARTS)) for k in numbers)
-    except KeyError as error:
-        raise StoreError(f"{directory}: {WEIGHTS} lacks {error} of the corpus") from None
-    return Statistics(_features(described.variant, *described.apart), parts, frozenset(described.places))
+        return _ADAPTER.validate_json(path.read_bytes())
+    except FileNotFoundError:
+        raise CheckpointError(f"{path}: no saved model here; save one with model.save") from None
+    except OSError as error:
+        raise CheckpointError(f"{path}: cannot be read: {error.strerror}") from None
+    except ValidationError as error:
+        where = ".".join(map(str, error.errors()[0]["loc"])) or "the file"
+        if where == "format":
+            said = f"its format is not {FORMAT}, the one that this version reads; make the model anew"
+        else:
+            said = f"not a saved model: {where[:80]}: {error.errors()[0]['msg'][:80]}"
+        raise CheckpointError(f"{path}: {said}") from None
+
+
+def _tensors(directory: Path) -> _Arrays:
+    path = directory / WEIGHTS
+    try:
+        tensors: _Arrays = load_bytes(path.read_bytes())
+    except FileNotFoundError:
+        raise CheckpointError(f"{path}: no saved model here; save one with model.save") from None
+    except OSError as error:
+        raise CheckpointError(f"{path}: cannot be read: {error.strerror}") from None
+    except (SafetensorError, KeyError, ValueError):
+        raise CheckpointError(f"{path}: not a file of weights; it may be cut short: save the model again") from None
+    wanted = {"weight", "weight at", "prior", "prior at", "held"}
+    if set(tensors) != wanted:
+        raise CheckpointError(f"{path}: holds {len(tensors)} tensors, not the {len(wanted)} of a model")
+    for name, tensor in tensors.items():
+        kind = np.float64 if name in ("weight", "prior") else np.int32
+        if tensor.dtype != kind or tensor.ndim != 1 or not np.isfinite(tensor).all():
+            raise CheckpointError(f"{path}: {name} is not a list of finite numbers of the kind {np.dtype(kind)}")
+    return tensors
+
+
+def _check(described: _Description, learner: CommitFirst | WordPosterior, directory: Path) -> None:
+    """See that a model of this description can ground and learn."""
+    variant, where = described.variant, directory / DESCRIPTION
+    if described.correspondences != (TERNARY if variant.ternary else BINARY):
+        raise CheckpointError(f"{where}: its correspondences are not those of its variant")
+    if not 0.0 < variant.l2 < math.inf or not 1 <= variant.beam <= _MOST_BEAM:
+        raise CheckpointError(f"{where}: l2 must be positive and finite, beam from 1 to {_MOST_BEAM}")
+    for number, example in enumerate(learner.examples):
+        ids = {thing.id for thing in example.world.things}
+        if len(example.correspondences) > len(example.world.things):
+            raise CheckpointError(f"{where}: example {number} has more labels than things")
+        if example.weights is not None and len(example.weights) < len(example.correspondences):
+            raise CheckpointError(f"{where}: example {number} has fewer weights than labels")
+        if any(c.grounding.object.id not in ids for c in example.children):
+            raise CheckpointError(f"{where}: example {number} has a child about an object that is not in its world")
+        if not all(math.isfinite(w) for w in (example.weight, *(example.weights or ()))):
+            raise CheckpointError(f"{where}: example {number} has a weight that is not finite")
+    if isinstance(learner, WordPosterior):
+        for beliefs in (learner.nouns, learner.colors):
+            sums = [v for h in beliefs.heard.values() for v in (h.absent, *h.more.values())]
+            met = set(beliefs.types)
+            named = {*beliefs.settled.values(), *(t for h in beliefs.heard.values() for t in h.more)}
+            if not np.isfinite(sums).all() or not named <= met:
+                raise CheckpointError(f"{where}: the evidence about words is not finite, or of types never met")
+
+
+def _sparse(name: str, tensor: np.ndarray) -> _Arrays:
+    """The entries that are not zero, and where they are in the flattened tensor."""
+    at = np.flatnonzero(tensor).astype(np.int32)
+    return {name: tensor.reshape(-1)[at], f"{name} at": at}
+
+
+def _dense(name: str, tensors: _Arrays, shape: tuple[int, ...], directory: Path) -> np.ndarray:
+    at, values = tensors[f"{name} at"], tensors[name]
+    if len(at) != len(values) or (at < 0).any() or (at >= math.prod(shape)).any():
+        raise CheckpointError(f"{directory}: {WEIGHTS} and {DESCRIPTION} are not of one model")
+    out = np.zeros(math.prod(shape))
+    out[at] = values
+    return out.reshape(shape)

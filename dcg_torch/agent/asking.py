@@ -10,7 +10,7 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept, Pose
 
 Fits = Callable[[Percept], bool]

@@ -13,8 +13,9 @@ from typing import Protocol
 from dcg_torch.agent.asking import Answer, Asking, Listener, Question, candidates, question
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
-from dcg_torch.grounding.graph import Solution
-from dcg_torch.model import GroundingModel, Scene
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.learner import Experience
+from dcg_torch.model import GroundingModel
 from dcg_torch.types import ParseTree, Percept, Pose, WorldModel
 
 
@@ -94,12 +95,9 @@ class Outcome:
     looked: bool = False
     asked: tuple[tuple[Question, Answer], ...] = ()
 
-    def scene(self, source: str) -> Scene:
-        """What there is to learn from, beside the grounding."""
-        denied = frozenset(id_ for q, a in self.asked if a.meant is None for id_ in q.candidates)
-        said = [a.meant for _, a in self.asked if a.meant is not None]
-        left = frozenset(said) or frozenset(p.id for p in self.percepts) - denied
-        return Scene(self.percepts, self.looked, left if self.asked else None, bool(said), source)
+    def experience(self, source: str) -> Experience:
+        """What bears on what can be learned, beside the grounding."""
+        return Experience(self.looked, any(a.meant is not None for _, a in self.asked), source=source)
 
 
 def carry_out(

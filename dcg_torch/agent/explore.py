@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.agent.robot import FIELD_OF_VIEW, Robot
-from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept, PhraseKind
 
 Point = tuple[float, float]

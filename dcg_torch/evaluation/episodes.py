@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
-from dcg_torch.relational import Workspace
+from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,20 +11,14 @@ import numpy as np
 
 from dcg_torch.agent.command import Parse, Parser
 from dcg_torch.evaluation.episodes import Episode, workspace
-from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.graph import Solution
-from dcg_torch.learning.commit_first import labelled
-from dcg_torch.lexical import LexicalModel
-from dcg_torch.model import GroundingModel, TrainingSet, Variant
-from dcg_torch.relational import coordinated
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.landmarks import Lesson
+from dcg_torch.model import GroundingModel
 from dcg_torch.report.intervals import wilson
-from dcg_torch.supervised import Lesson, teach
-from dcg_torch.types import Child, Example, Grounding, GroundingKind, PhraseKind, WorldModel
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import WorldModel
 
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
-_GENERATED = 0.03
-"""Weight of a generated lesson against one of people's."""
-_LEARNING_STEPS = 10  # L-BFGS iterations after a command: the optimum moves little, and is followed
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,8 +55,8 @@ class Answer:
 
     @property
     def predicted(self) -> tuple[str, ...]:
-        """Ids of the objects grounded to."""
-        return () if self.solution is None else tuple(o.id for o in self.solution.objects)
+        """Ids of the objects grounded to; none where what is meant is not there."""
+        return () if self.solution is None else tuple(o.id for o in self.solution.objects if not o.hypothetical)
 
     @property
     def correct(self) -> bool:
@@ -99,128 +92,93 @@ class Answer:
         }
 
 
-class Evaluation:
-    """A model trained on episodes.
+@dataclass(frozen=True)
+class Training:
+    """What a model is taught from episodes.
 
-    Args:
-        train: the episodes to learn from.
-        initial: the initial training set.
-        parse: reads commands.
-        known_types: leave out the training episodes about other types; None keeps all.
-        known_colors: leave out the training episodes about objects of other colours; None keeps all.
-        generated: lessons that come first, and weigh little: what words for relations mean until people say otherwise.
+    Attributes:
+        known_types: leave out the episodes about other types; None keeps all.
+        known_colors: leave out the episodes about objects of other colours; None keeps all.
         rounds: of expectation-maximisation over the landmarks.
-        progress: called as each round ends.
     """
 
-    def __init__(
-        self,
-        train: Sequence[Episode],
-        initial: TrainingSet,
-        variant: Variant,
-        parse: Parser,
-        *,
-        known_types: Collection[str] | None = None,
-        known_colors: Collection[str] | None = None,
-        generated: Sequence[Lesson] = (),
-        rounds: int = 4,
-        progress: Callable[[int], None] | None = None,
-    ) -> None:
+    known_types: Collection[str] | None = None
+    known_colors: Collection[str] | None = None
+    rounds: int = 4
+
+    def kept(self, episodes: Iterable[Episode]) -> list[Episode]:
+        """The episodes that are not left out."""
+        found = [e for e in episodes if self.known_types is None or _types_meant(e) <= set(self.known_types)]
+        return [e for e in found if self.known_colors is None or _colors_meant(e) <= set(self.known_colors)]
+
+
+def train(
+    model: GroundingModel,
+    corpora: Sequence[Sequence[Episode]],
+    parse: Parser,
+    training: Training,
+    progress: Callable[[int], None] | None = None,
+) -> float:
+    """Teach a model, in place, the episodes of several corpora, each with a workspace of its own.
+
+    Args:
+        parse: reads commands.
+        progress: called as each round ends.
+
+    Returns:
+        The seconds that it took.
+    """
+    began = time.perf_counter()
+    lessons: list[Lesson] = []
+    for corpus in corpora:
+        where = workspace(corpus)
+        for episode in training.kept(corpus):
+            tree = parse(episode.text, ()).tree
+            if tree is not None and episode.target:
+                lessons.append(Lesson(tree, lesson_world(model, episode, where), frozenset(episode.target)))
+    model.teach(
+        lessons,
+        known_types=training.known_types,
+        known_colors=training.known_colors,
+        rounds=training.rounds,
+        progress=progress,
+    )
+    return time.perf_counter() - began
+
+
+def lesson_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
+    """Upsilon of an episode whose objects meant are known: nothing in it is hypothetical."""
+    world = test_world(model, episode, where)
+    return replace(world, objects=tuple(o for o in world.objects if not o.hypothetical))
+
+
+def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
+    """Upsilon of an episode: all there is has been perceived, and there are places to speak of."""
+    return model.world_model(episode.percepts(), episode.pose, episode.speaker_pose, looked=True, workspace=where)
+
+
+def answers(model: GroundingModel, test: Sequence[Episode], parse: Parser, *, learn: bool = False) -> Iterator[Answer]:
+    """Ground the test episodes in order.
+
+    Args:
+        learn: learn after each from what it was grounded to; the target is never looked at.
+    """
+    first_words, where = frozenset(model.symbols), workspace(test)
+    for episode in test:
         began = time.perf_counter()
-        kept = [e for e in train if known_types is None or _types_meant(e) <= set(known_types)]
-        kept = [e for e in kept if known_colors is None or _colors_meant(e) <= set(known_colors)]
-        self.parse = parse
-        kind = GroundingModel if variant.synonyms is None else LexicalModel
-        self.model = kind.trained(initial, variant)
-        self.model.workspace = workspace(train)
-        self._meant = frozenset(t for e in kept for t in _types_meant(e))
-        read = [(e, reading) for e in kept if (reading := parse(e.text, ())).tree is not None]
-        if isinstance(self.model, LexicalModel):
-            nouns = _counted((reading.noun, _types_meant(e)) for e, reading in read)
-            colors = _counted((reading.color, _colors_meant(e)) for e, reading in read)
-            self.model.taught(sorted(self._meant), nouns, colors)
-        if generated:
-            teach(self.model, [replace(lesson, weight=_GENERATED) for lesson in generated], rounds=2)
-        lessons = [Lesson(r.tree, self.world(e), frozenset(e.target)) for e, r in read if r.tree is not None]
-        self.model.corpus += [example for lesson in lessons for example in _acted(self.model, lesson)]
-        teach(
-            self.model,
-            lessons,
-            known_types=known_types,
-            known_colors=known_colors,
-            rounds=rounds,
-            progress=progress,
-        )
-        self._first_words = frozenset(self.model.symbols)
-        self.train_seconds = time.perf_counter() - began
-
-    @property
-    def learned(self) -> dict[str, dict[str, str]]:
-        """The words learned since the training: nouns with their types, words for colours with what they name."""
-        nouns = {w: s.type for w, s in self.model.symbols.items() if w not in self._first_words}
-        colors = dict(self.model.words.color_words) if isinstance(self.model, LexicalModel) else {}
-        return {"nouns": nouns, "colors": colors}
-
-    def world(self, episode: Episode) -> WorldModel:
-        """Upsilon of an episode: everything is perceived, and there are places to speak of."""
-        pose, speaker = episode.pose, episode.speaker_pose
-        world = self.model.world_model(episode.percepts(), pose, speaker)
-        known = self._meant | set(self.model.known_types)
-        objects = tuple(replace(o, known=o.type in known) for o in world.objects)
-        return replace(world, objects=objects)
-
-    def answers(self, test: Sequence[Episode], *, learn: bool = False) -> Iterator[Answer]:
-        """Ground the test episodes in order.
-
-        Args:
-            learn: learn after each from what it was grounded to; the target is never looked at.
-        """
-        for episode in test:
-            began = time.perf_counter()
-            reading = self.parse(episode.text, self.model.symbols.keys())
-            read = time.perf_counter()
-            noun, solution = reading.noun, None
-            kind = "known" if noun in self._first_words else "learned" if noun in self.model.symbols else "unknown"
-            form = "plain"
-            if reading.tree is not None:
-                solution = self.model.ground(reading.tree, self.world(episode))
-                form = "relation" if any(h.tree.children for h in _nouns(solution)) else "plain"
-            grounded = time.perf_counter()
-            if learn and solution is not None:
-                self.model.learn(solution, max_steps=_LEARNING_STEPS)
-            seconds = Seconds(read - began, grounded - read, time.perf_counter() - grounded)
-            yield Answer(episode, reading, solution, kind, form, _shared(episode), seconds)
-
-
-def _acted(model: GroundingModel, lesson: Lesson) -> list[Example]:
-    """What a lesson about one object teaches of its verb and preposition: that they are about the object meant."""
-    if len(lesson.targets) != 1 or len(coordinated(lesson.tree)) != 1:
-        return []
-    path, node = [], model.readable(lesson.tree)
-    while node.phrase.kind is not PhraseKind.NOUN and node.children:
-        path.append(node.phrase)
-        node = node.children[0]
-    meant = next(o for o in lesson.world.objects if o.id in lesson.targets)
-    child, found = Child(Grounding(GroundingKind.OBJECT, meant)), []
-    for phrase in reversed(path):
-        above = Child(Grounding(GROUNDING_OF[phrase.kind], meant))
-        found.append(labelled(phrase, above, (child,), lesson.world))
-        child = above
-    return found
-
-
-def _counted(said: Iterable[tuple[str | None, Collection[str | None]]]) -> dict[str, Counter[str]]:
-    """How often each word was said of each meaning, where only one was possible."""
-    found: dict[str, Counter[str]] = {}
-    for word, meant in said:
-        one = next(iter(meant)) if len(meant) == 1 else None
-        if word is not None and one is not None:
-            found.setdefault(word, Counter())[one] += 1
-    return found
-
-
-def _nouns(solution: Solution) -> list[Any]:
-    return [] if solution.best is None else [h for h in solution.best.walk() if h.tree.phrase is solution.noun]
+        words = model.symbols
+        reading = parse(episode.text, words.keys())
+        read = time.perf_counter()
+        noun, solution = reading.noun, None
+        kind = "known" if noun in first_words else "learned" if noun in words else "unknown"
+        if reading.tree is not None:
+            solution = model.ground(reading.tree, test_world(model, episode, where))
+        grounded = time.perf_counter()
+        if learn and solution is not None:
+            model.learn(solution)
+        seconds = Seconds(read - began, grounded - read, time.perf_counter() - grounded)
+        form = "relation" if solution is not None and solution.modifiers else "plain"
+        yield Answer(episode, reading, solution, kind, form, _shared(episode), seconds)
 
 
 def _types_meant(episode: Episode) -> set[str]:

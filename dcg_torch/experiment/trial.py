@@ -63,7 +63,7 @@ def run_trial(
         )
         with clock("train"):
             if outcome.solution is not None:
-                model.learn(outcome.solution, outcome.scene(f"{iteration}"))
+                model.learn(outcome.solution, outcome.experience(f"{iteration}"))
         fitted = model.fitted
         met |= {o.type for o in command.world.objects if o.id == command.target}
         chosen = _chosen(outcome)

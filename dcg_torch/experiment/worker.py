@@ -28,15 +28,14 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.language import default_parser
 from dcg_torch.learning.beliefs import Prior
 from dcg_torch.learning.lexicon import save_lexicon
+from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import TrainingFileError, initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.open_world import OpenWorld, OpenWorldModel
 from dcg_torch.settings import Asking as WhenToAsk
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
 from dcg_torch.speaker import Command, SpeakerError
-from dcg_torch.supervised import teach
 from dcg_torch.watch.recording import Recorder
 from dcg_torch.watch.wording import meant
 from dcg_torch.world.files import WorldFileError
@@ -64,7 +63,6 @@ def variant(settings: ModelSettings) -> Variant:
         ternary=settings.ternary,
         l2=settings.l2,
         beam=settings.beam,
-        synonyms=settings.synonyms,
     )
 
 
@@ -86,7 +84,7 @@ def _robot(settings: str, types: int) -> Robot:
 def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     """Run one trial, journalling its commands in `directory`; the model as it is at the end."""
     torch.set_num_threads(1)
-    model = untaught(settings.model)
+    model = make_model(settings.model)
     robot = _robot(json.dumps(asdict(settings.simulator)), settings.types)
     recorder = Recorder(robot) if trial in settings.animate else None
     if isinstance(robot, SimulatedRobot):
@@ -115,7 +113,7 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
         from dcg_torch.watch.animation import animate  # here, because it costs a third of a second to import
 
         animate(recorder.episodes, animation_of(directory, trial))
-    if isinstance(model, OpenWorldModel):
+    if settings.model.posterior:
         save_lexicon(model.lexicon(), lexicon_of(directory, trial))
     if trial == settings.trials - 1:
         save(model, directory / MODEL)
@@ -137,43 +135,36 @@ def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look
 
 
 @functools.cache
-def _taught(chosen: Variant, lessons: int, assumed: OpenWorld | None) -> GroundingModel:
+def _made(chosen: Variant, lessons: int, assumed: Assumptions | None) -> GroundingModel:
     """A model after the initial training and so many generated lessons on relations: the same for every trial.
 
     Args:
-        assumed: of a model that keeps a posterior; None: one that learns by the paper's rule.
+        assumed: of a learner that keeps a posterior; None: the paper's learner.
     """
     training = _initial_training()
-    model = (
-        GroundingModel.trained(training, chosen)
-        if assumed is None
-        else OpenWorldModel.trained(training, chosen, assumed)
-    )
+    learner = None if assumed is None else WordPosterior.start(training, assumed)
+    model = GroundingModel.trained(training, chosen, learner)
     if lessons and Group.RELATION in chosen.groups:
-        teach(model, generated_lessons(default_parser().parse, lessons), rounds=2)
-    if isinstance(model, OpenWorldModel):
-        model.settle()
+        model.teach(generated_lessons(default_parser().parse, lessons), relations_only=True, rounds=2)
     return model
 
 
-def untaught(settings: ModelSettings) -> GroundingModel:
-    """The model of a configuration, trained on the initial examples alone.
+def make_model(settings: ModelSettings) -> GroundingModel:
+    """The model of a configuration, before its first command.
 
     Raises:
         SettingsError: a feature group that does not exist.
     """
-    if not settings.posterior:
-        return copy.deepcopy(_taught(variant(settings), settings.lessons, None))
     chosen = settings.open_world
     prior = Prior(synonym=chosen.synonym, unmet=chosen.unmet, slip=chosen.slip)
-    assumed = OpenWorld(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
-    return copy.deepcopy(_taught(variant(settings), settings.lessons, assumed))
+    assumed = Assumptions(nouns=prior, hidden=chosen.hidden, strength=chosen.strength)
+    return copy.deepcopy(_made(variant(settings), settings.lessons, assumed if settings.posterior else None))
 
 
 def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:
     """Looking before deciding, for the model that can tell what it is unsure of."""
     chosen = settings.model.open_world
-    if not isinstance(model, OpenWorldModel):
+    if not settings.model.posterior:
         return None
     sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
     worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch import scene
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Ranking, ranking
-from dcg_torch.grounding.psi import Bag, LogLinearModel, Merged, Table, merge
+from dcg_torch.grounding.psi import TERNARY, Bag, LogLinearModel, Merged, Table, merge
+from dcg_torch.scene import layout
 from dcg_torch.types import Correspondence, Example, GroundingKind, WorldModel
 
 
@@ -29,6 +29,15 @@ def merged(examples: Sequence[Example], encoder: Encoder, correspondences: Seque
         bag = encoder.bag(example)
         alike.setdefault(max(3, bag.shape[1].bit_length()), []).append((example, bag))
     return [_merge(members, encoder.features, correspondences) for members in alike.values()]
+
+
+def firing(examples: Sequence[Example], features: FeatureSet) -> NDArray[np.bool_]:
+    """(L, G) the features that fire in some labelled factor."""
+    found = np.zeros((features.shape[0] + 1, features.shape[1] + 1), dtype=np.bool_)
+    for part in merged(examples, Encoder(features), TERNARY):
+        for k in range(part.language.shape[1]):
+            found[part.language[part.phrase, k][:, None], part.grounding] = True
+    return found[:-1, :-1]
 
 
 def example_bag(example: Example, features: FeatureSet) -> Bag:
@@ -61,9 +70,9 @@ class Encoder:
 
     def _encode(self, world: WorldModel, landmarks: tuple[str, ...] | None, counted: Ranking | None) -> Bag:
         if landmarks is None:
-            return self.features.encode_things(world, scene.layout(world), counted)
+            return self.features.encode_things(world, layout(world), counted)
         index = {thing.id: j for j, thing in enumerate(world.things)}
-        rows = self.features.encode_placed(scene.layout(world), [[index[i] for i in landmarks]], counted)
+        rows = self.features.encode_placed(layout(world), [[index[i] for i in landmarks]], counted)
         return rows.reshape(rows.shape[1:])
 
 

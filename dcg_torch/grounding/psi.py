@@ -227,14 +227,14 @@ def _dense(bag: Bag, columns: int) -> torch.Tensor:
 
 
 def objective(
-    weight: torch.Tensor, tables: Sequence[Table], pairs: torch.Tensor, l2: float
+    weight: torch.Tensor, tables: Sequence[Table], pairs: torch.Tensor, l2: float, prior: torch.Tensor | float = 0.0
 ) -> tuple[torch.Tensor, torch.Tensor]:
     """The penalised negative log-likelihood and its gradient with respect to `weight` (P, L, G).
 
     Args:
         tables: labelled factors; the objective is the sum over all.
     """
-    value = 0.5 * l2 * weight.square().sum()
+    value = 0.5 * l2 * (weight - prior).square().sum()
     gradient = torch.zeros_like(weight)
     padded = torch.nn.functional.pad(weight, (0, 1))
     for table in tables:
@@ -247,7 +247,7 @@ def objective(
         residual = log_psi.exp() * table.count.sum(0) - table.count
         spread = torch.zeros_like(by_phrase).index_add_(1, flat, residual.repeat_interleave(k, dim=1))
         gradient += (table.language.T @ spread.view(len(weight), len(table.language), -1))[:, :, :-1]
-    return value, (gradient + l2 * weight) * pairs
+    return value, (gradient + l2 * (weight - prior)) * pairs
 
 
 def lbfgs(weight: torch.Tensor, tolerance: float, max_steps: int, history: int) -> torch.optim.LBFGS:
@@ -277,6 +277,7 @@ def fit(
     max_steps: int = 500,
     history: int = 20,
     free: NDArray[np.bool_] | None = None,
+    prior: torch.Tensor | float = 0.0,
 ) -> FitResult:
     """Maximise the penalised likelihood by L-BFGS from the model's present weights, in place.
 
@@ -310,7 +311,7 @@ def fit(
 
     def closure() -> float:
         with torch.no_grad():
-            value, gradient = objective(whole(weight), tables, pairs, l2)
+            value, gradient = objective(whole(weight), tables, pairs, l2, prior)
             weight.grad = gradient if every is None else gradient[every]
         return float(value)
 
@@ -318,7 +319,7 @@ def fit(
     state = optimizer.state[weight]
     with torch.no_grad():
         model.weight = whole(weight.detach())
-        value, gradient = objective(model.weight, tables, pairs, l2)
+        value, gradient = objective(model.weight, tables, pairs, l2, prior)
     norm = float(gradient.abs().max()) if gradient.numel() else 0.0
     steps = int(state["n_iter"])
     limit = steps >= max_steps or state["func_evals"] >= 2 * max_steps

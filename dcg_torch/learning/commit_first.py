@@ -1,13 +1,116 @@
-"""Learning from an outcome: Algorithm 1, lines 16 to 24, as pure functions of examples and symbols."""
+"""The paper's learner, Algorithm 1, lines 16 to 25: the first unknown thing that an unknown noun met is what it names."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import replace
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.graph import Solution
-from dcg_torch.types import Child, Correspondence, Example, Object, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.evidence import Ground
+from dcg_torch.learning.labelling import labelled
+from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
+from dcg_torch.learning.lexicon import Entry
+from dcg_torch.types import Correspondence, Example, PhraseKind, Symbol, WorldModel
+
+
+@dataclass(frozen=True)
+class CommitFirst:
+    """Keeps the training set T and the symbols M.Gamma. It believes what it did, for ever.
+
+    Attributes:
+        symbols: word -> symbol, in the order of learning.
+        examples: T.
+        learns_symbols: are unknown phrases represented, so that symbols can be learned (DCG-UPUP)?
+    """
+
+    symbols: Mapping[str, Symbol]
+    examples: tuple[Example, ...]
+    learns_symbols: bool = True
+
+    @classmethod
+    def start(cls, training: TrainingSet, *, learns_symbols: bool = True) -> CommitFirst:
+        """With what the training set teaches (lines 1 to 5)."""
+        return cls({s.word: s for s in training.symbols}, training.examples, learns_symbols)
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types of M.Gamma."""
+        return tuple(dict.fromkeys(s.type for s in self.symbols.values()))
+
+    @property
+    def settled(self) -> frozenset[str]:
+        """All nouns that it has a symbol for."""
+        return frozenset(self.symbols)
+
+    @property
+    def open_words(self) -> frozenset[str]:
+        """None: a symbol is for ever."""
+        return frozenset()
+
+    def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[CommitFirst, Learned]:
+        """T with the outcome of a command that was acted on, and its symbol if there is one to learn."""
+        if experience.taught:
+            return self, Learned(reason="a lesson is no outcome")
+        examples = (*self.examples, *unsupervised_training(solution))
+        symbol, reason = new_symbol(solution, self.symbols)
+        if symbol is None or not self.learns_symbols:
+            return replace(self, examples=examples), Learned(reason=reason or "this variant learns no symbols")
+        return self._with(symbol, examples), Learned(symbol)
+
+    def told(self, word: str, type_: str) -> CommitFirst:
+        """With a symbol that a person gave."""
+        return self._with(Symbol(word, type_), self.examples)
+
+    def forget(self, word: str) -> CommitFirst:
+        """Without a symbol, and without the examples of its word."""
+        symbols = {w: s for w, s in self.symbols.items() if w != word}
+        kept = [e for e in self.examples if e.phrase.noun != word]
+        forgotten = replace(self, symbols=symbols)
+        return replace(forgotten, examples=tuple(replace_unknown(kept, forgotten.known_types)))
+
+    def taught(self, taught: Taught) -> CommitFirst:
+        """With a symbol for every noun of the lessons: for the type that it was said of most."""
+        named = {word: Symbol(word, max(types, key=lambda t: types[t])) for word, types in taught.nouns.items()}
+        return replace(self, symbols=named | dict(self.symbols))
+
+    def training_examples(self, features: FeatureSet) -> Sequence[Example]:
+        """T, with M.Gamma's other types as contrast."""
+        return [contrast(e, self.symbols) for e in self.examples]
+
+    def columns(self, features: FeatureSet) -> FeatureSet:
+        """f_word, f_obj and f_color of every symbol (lines 20 to 22)."""
+        for symbol in self.symbols.values():
+            features = features.grow(symbol)
+        return features
+
+    def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
+        """All weights."""
+        return None
+
+    def names(self) -> dict[str, str]:
+        """type -> the first word learned for it."""
+        return {s.type: s.word for s in reversed(self.symbols.values())}
+
+    def meanings(self, word: str) -> dict[str, float]:
+        """The type of the word's symbol, for certain."""
+        return {self.symbols[word].type: 1.0} if word in self.symbols else {}
+
+    def beliefs(self, but: Collection[str]) -> None:
+        """It has no degrees of belief."""
+        return
+
+    def lexicon(self) -> list[Entry]:
+        """Every symbol, held for certain."""
+        return [Entry(s.word, ((s.type, 1.0),), 0, (), True) for s in self.symbols.values()]
+
+    def _with(self, symbol: Symbol, examples: tuple[Example, ...]) -> CommitFirst:
+        """With one more symbol; what it makes known changes what the examples show (line 23)."""
+        grown = replace(self, symbols={**self.symbols, symbol.word: symbol})
+        return replace(grown, examples=tuple(replace_unknown(examples, grown.known_types)))
 
 
 def unsupervised_training(solution: Solution) -> list[Example]:
@@ -25,58 +128,24 @@ def unsupervised_training(solution: Solution) -> list[Example]:
     ]
 
 
-def labelled(
-    phrase: Phrase, meant: Child, children: tuple[Child, ...], world: WorldModel, *, unseen_alike: bool = False
-) -> Example:
-    """One positive example, with the negatives that it implies: all that the phrase does not describe as well.
-
-    Args:
-        unseen_alike: leave the hypothetical object of the meant one's type unlabelled too.
-    """
-    chosen = meant.grounding.object
-
-    def label(o: Object) -> Correspondence | None:
-        if o.id == chosen.id:
-            return meant.correspondence
-        if phrase.kind is PhraseKind.MODIFIER:
-            return None  # it describes, it does not pick: others may stand so too
-        if phrase.kind is PhraseKind.NOUN and (
-            described_alike(phrase, o, chosen) or (unseen_alike and o.hypothetical and o.type == chosen.type)
-        ):
-            return None
-        return Correspondence.INACTIVE
-
-    return Example(
-        phrase, world, tuple(label(o) for o in (world.objects if chosen in world.objects else world.things)), children
-    )
-
-
-def described_alike(phrase: Phrase, one: Object, other: Object) -> bool:
-    """Would a noun phrase that means `other` describe `one` as well?
-
-    Both of one type, in or out of view alike, and of one colour if the phrase states any.
-    """
-    same_kind = one.type == other.type and one.known == other.known and one.hypothetical == other.hypothetical
-    return same_kind and (phrase.color is None or one.color == other.color)
-
-
-def new_symbol(solution: Solution, features: FeatureSet, *, synonyms: float | None = None) -> Symbol | None:
+def new_symbol(solution: Solution, symbols: Collection[str]) -> tuple[Symbol | None, str | None]:
     """gamma': the symbol to learn, if an unknown noun met a perceived object of unknown type (lines 17 and 18).
 
-    Args:
-        synonyms: beyond the paper, an unknown noun may also become another word for a known type: where nothing of
-            unknown type is in the world, and the grounding has at least this probability.
+    Returns:
+        The symbol, or None and the reason.
     """
     obj, noun = solution.object, solution.noun
-    if obj is None or obj.hypothetical or obj.type is None:
-        return None
-    if noun is None or noun.noun is None or features.knows_noun(noun.noun):
-        return None
+    if obj is None or noun is None:
+        return None, "the command was not grounded to an object"
+    if noun.noun is None:
+        return None, "the command names no noun"
+    if noun.noun in symbols:
+        return None, f"{noun.noun!r} is known already"
+    if obj.hypothetical or obj.type is None:
+        return None, "what is meant has not been seen"
     if obj.known:
-        strange = any(not o.known for o in solution.world.objects)
-        if synonyms is None or strange or (solution.probability or 0.0) < synonyms:
-            return None
-    return Symbol(noun.noun, obj.type, obj.color, noun.color)
+        return None, f"the object meant is of a known type, {obj.type!r}"
+    return Symbol(noun.noun, obj.type, obj.color, noun.color), None
 
 
 def replace_unknown(examples: Iterable[Example], known_types: Collection[str]) -> list[Example]:
@@ -85,28 +154,28 @@ def replace_unknown(examples: Iterable[Example], known_types: Collection[str]) -
     An example recorded while a type was unknown changes its meaning when the type is learned: positives and
     negatives alike. Examples that mention no such object are returned as they are.
     """
-    renewed: dict[int, WorldModel] = {}  # examples of one world go on sharing it
-    return [_relabel(e, known_types, renewed) for e in examples]
+    renewed: dict[WorldModel, WorldModel] = {}  # examples of one world go on sharing it
+    out = []
+    for example in examples:
+        if example.world not in renewed:
+            renewed[example.world] = _renewed(example.world, known_types)
+        out.append(_relabelled(example, renewed[example.world]))
+    return out
 
 
-def _relabel(example: Example, known_types: Collection[str], renewed: dict[int, WorldModel]) -> Example:
-    def renew(o: Object) -> Object:
-        known = o.type in known_types
-        return o if o.known == known else replace(o, known=known)
+def _renewed(world: WorldModel, known_types: Collection[str]) -> WorldModel:
+    changed = any(o.known != (o.type in known_types) for o in world.objects)
+    objects = tuple(replace(o, known=o.type in known_types) for o in world.objects)
+    return replace(world, objects=objects) if changed else world
 
-    old = example.world
-    if id(old) not in renewed:
-        objects = tuple(renew(o) for o in old.objects)
-        same = all(new is was for new, was in zip(objects, old.objects, strict=True))
-        renewed[id(old)] = old if same else replace(old, objects=objects)
-    world = renewed[id(old)]
-    if world is old:
+
+def _relabelled(example: Example, world: WorldModel) -> Example:
+    """The example in another world of the same objects, which its children's groundings are about as well."""
+    if world is example.world:
         return example
-    places = {o.id for o in old.places}  # these are known from the start
+    objects = {o.id: o for o in world.objects}  # a place is known from the start, and stays as it is
     children = tuple(
-        c
-        if c.grounding.object.id in places
-        else replace(c, grounding=replace(c.grounding, object=renew(c.grounding.object)))
+        replace(c, grounding=replace(c.grounding, object=objects.get(c.grounding.object.id, c.grounding.object)))
         for c in example.children
     )
     return replace(example, world=world, children=children)

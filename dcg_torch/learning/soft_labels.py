@@ -35,12 +35,12 @@ class Unseen:
     Attributes:
         ahead: before it has looked round, no colour said.
         ahead_colored: the same, those of the colour said.
-        left: after it has looked round, for what is hidden or not there at all.
+        after_full_scan: after it has looked round, for what is hidden or not there at all.
     """
 
     ahead: float
     ahead_colored: float
-    left: float
+    after_full_scan: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +60,6 @@ def soft_examples(
     looked: frozenset[str],
     strength: float = 5.0,
     forgotten: Collection[str] = (),
-    unnamed: bool = False,
 ) -> list[Example]:
     """Equation (2) as examples.
 
@@ -71,11 +70,9 @@ def soft_examples(
         looked: the attributes of hypothetical objects once the robot has looked round.
         strength: curvature of each pair's likelihood, in examples.
         forgotten: nouns that have columns and no meaning any more: they are as if never heard.
-        unnamed: also show phrases without a noun ("the red one", "the thing"), which may mean anything.
     """
     pairs = [*_nouns(nouns, forgotten), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
-    if unnamed:
-        pairs += _unnamed(nouns, colors, unseen, looked)
+    pairs += _unnamed(nouns, colors, unseen, looked)
     return list(pair_examples(pairs, strength))
 
 
@@ -104,7 +101,7 @@ def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[s
     color = next(iter(colors.posterior.words), None)
     for noun, type_, scale in _anchors(nouns):
         for said, ahead in ((None, unseen.ahead), (color, unseen.ahead_colored)):
-            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
+            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.after_full_scan)):
                 yield Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
 
 
@@ -119,7 +116,7 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
         for type_ in nouns.posterior.types:
             yield Pair(_phrase(None, word), _object(type_, color_of), odds)
         for _, type_, _ in _anchors(nouns):
-            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.left)):
+            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.after_full_scan)):
                 yield Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
 
 

@@ -11,8 +11,8 @@ import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.learning.commit_first import labelled
-from dcg_torch.model import TrainingSet
+from dcg_torch.learning.labelling import labelled
+from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.types import (
     Child,

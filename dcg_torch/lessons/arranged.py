@@ -13,9 +13,9 @@ from typing import Protocol
 
 import numpy as np
 
-from dcg_torch.relational import Workspace, furnished
+from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.upsilon import world_model
-from dcg_torch.supervised import Lesson
+from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import ParseTree, Percept, Pose
 
 KINDS = ("cube", "sphere", "cylinder")
@@ -69,7 +69,7 @@ def arranged_lessons(
         if tree is None:
             raise ValueError(f"the lesson {text!r} is not read as a command")
         upsilon = world_model(scene.objects, KINDS, hypothetical=False, robot=scene.robot)
-        lessons.append(Lesson(tree, furnished(upsilon, scene.workspace), meant))
+        lessons.append(Lesson(tree, with_places(upsilon, scene.workspace), meant))
     return tuple(lessons)
 
 

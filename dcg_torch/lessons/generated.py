@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
+from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
 from dcg_torch.lessons.relations import relational_lessons
-from dcg_torch.supervised import Lesson
 
 
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:

@@ -11,11 +11,11 @@ import functools
 
 import numpy as np
 
-from dcg_torch.relational import furnished
+from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.upsilon import world_model
+from dcg_torch.scene.workspace import with_places
 from dcg_torch.speaker.phrases import command
 from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, tell
-from dcg_torch.supervised import Lesson
 from dcg_torch.types import Percept
 from dcg_torch.world.generator import TYPES, generate_world
 
@@ -64,5 +64,5 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
             for o, e in zip(world.objects, extents, strict=True)
         ]
         upsilon = world_model(percepts, KNOWN, hypothetical=False, robot=world.start)
-        return Lesson(command(told.tree), furnished(upsilon), frozenset(world.objects[j].id for j in told.meant))
+        return Lesson(command(told.tree), with_places(upsilon), frozenset(world.objects[j].id for j in told.meant))
     return None

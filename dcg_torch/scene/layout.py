@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,8 +56,6 @@ class Layout:
         alike: `SETS` -> (n, n) is j one of those that i is compared with?
         middle: (2,) the middle of the objects.
         speaker: (2,) where the speaker is, or None.
-        rows: what `relations` has computed, by the set compared with and the numbers of the landmarks.
-        states: what `states` has computed; empty until then.
     """
 
     things: tuple[Object, ...]
@@ -74,8 +72,6 @@ class Layout:
     alike: dict[str, Bools]
     middle: Floats
     speaker: Floats | None
-    rows: dict[tuple[str, tuple[int, ...]], NDArray[np.int16]] = field(default_factory=dict, compare=False)
-    states: list[tuple[str, ...]] = field(default_factory=list, compare=False)
 
     @property
     def solid(self) -> Bools:
@@ -99,9 +95,8 @@ def seen_from(robot: Pose, points: Floats) -> Floats:
     return seen
 
 
-@functools.lru_cache(maxsize=4096)
 def layout(world: WorldModel) -> Layout:
-    """The arrays of a world's things; the same world gives the same object while it is remembered."""
+    """The arrays of a world's things."""
     things = world.things
     n, robot = len(things), world.robot or Pose(0.0, 0.0)
     position = np.array([(math.nan,) * 3 if o.position is None else o.position for o in things], dtype=np.float64)

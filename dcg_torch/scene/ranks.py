@@ -26,14 +26,8 @@ RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "firs
 """By number, and by what the phrase asks for: the nth of a row, one of the first few."""
 
 
-def states(where: Layout) -> list[tuple[str, ...]]:
+def states(where: Layout) -> list[list[str]]:
     """Names of the state features of every thing, and of the colours in its stack or group."""
-    if not where.states:
-        where.states.extend(map(tuple, _states(where)))
-    return where.states
-
-
-def _states(where: Layout) -> list[list[str]]:
     things, solid = where.things, where.solid
     with np.errstate(invalid="ignore"):
         other = solid[None] & ~np.eye(len(things), dtype=np.bool_)

@@ -57,18 +57,12 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
-    keys = [(among, tuple(of)) for of in landmarks]
-    new = [key for key in dict.fromkeys(keys) if key not in where.rows]
-    if new:
-        found = _families(where, [of for _, of in new], where.alike[among])
-        columns = [
-            np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((len(new), 1), -1)
-            for f in RELATIONS
-        ]
-        shape = (len(new), len(where.things))
-        bag = np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
-        where.rows.update(zip(new, bag, strict=True))
-    return np.stack([where.rows[key] for key in keys])
+    found = _families(where, [tuple(of) for of in landmarks], where.alike[among])
+    shape = (len(landmarks), len(where.things))
+    columns = [
+        np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((1, 1), -1) for f in RELATIONS
+    ]
+    return np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
 
 
 def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools) -> dict[str, Ints]:

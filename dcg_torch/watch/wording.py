@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dcg_torch.agent.command import Look
-from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Object
 from dcg_torch.watch.recording import Episode
 from dcg_torch.world.files import WorldObject

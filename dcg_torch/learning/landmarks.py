@@ -1,29 +1,42 @@
 """Learning from commands whose objects are known: the landmarks that they speak of are not, and are inferred.
 
 Expectation-maximisation over the landmarks. A lesson says which object a command means, not which cube "next to the
-cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier (`graph.Placed`);
-then examples weighted by it, and one fit of the log-linear model on all of them. The first turn knows no relations
-and spreads over all landmarks that the words allow.
+cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier
+(`solution.ModifierFactor`); then examples weighted by it, and one fit of the log-linear factor on all of them. The
+first turn knows no relations and spreads over all landmarks that the words allow.
 """
 
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import dataclass, replace
 
-from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Placed
-from dcg_torch.grounding.psi import FitResult
-from dcg_torch.model import GroundingModel
-from dcg_torch.relational import coordinated, grouped, is_group
-from dcg_torch.types import NOT, Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.grounding.factor_tree import coordinated, is_group, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.features import GROUNDING_OF
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.learning.evidence import Ground
+from dcg_torch.learning.labelling import labelled
+from dcg_torch.learning.learner import Taught
+from dcg_torch.scene.workspace import with_groups
+from dcg_torch.types import (
+    NOT,
+    Child,
+    Correspondence,
+    Example,
+    Grounding,
+    GroundingKind,
+    Object,
+    ParseTree,
+    Phrase,
+    PhraseKind,
+    WorldModel,
+)
 
 _NEGLIGIBLE = 0.02
 """Landmarks less probable than this teach nothing."""
 _FAR_NEGATIVE = 0.1
 """Weight of the objects that the noun phrase may rule out by itself, as negative examples of its modifiers."""
-_STEPS = 300
-"""L-BFGS iterations of the last round."""
 
 
 @dataclass(frozen=True)
@@ -36,44 +49,8 @@ class Lesson:
     weight: float = 1.0
 
 
-def teach(
-    model: GroundingModel,
-    lessons: Sequence[Lesson],
-    *,
-    known_types: Collection[str] | None = None,
-    known_colors: Collection[str] | None = None,
-    rounds: int = 4,
-    beam: int = 12,
-    progress: Callable[[int], None] | None = None,
-) -> FitResult:
-    """Train a model on lessons, which are added to its corpus.
-
-    Args:
-        known_types: types that may become known; None: all that are meant in the lessons.
-        known_colors: the same of colours; a word for a colour that no lesson says of such an object is not known.
-        rounds: of expectation and maximisation.
-        beam: landmarks considered for each modifier.
-        progress: called with the number of each round that is done.
-    """
-    prepared = [part for lesson in lessons for part in _parts(model, lesson)]
-    words, colors = _inventory(prepared, known_types, known_colors)
-    phrases = [Example(node.phrase, part.world, ()) for part in prepared for node in part.noun.walk()]
-    for word in words:
-        model.symbols.setdefault(word.word, word)
-    model.features = model.features.extended(words, colors, phrases)
-    model.loglinear.grow(model.features.pairs)
-    before = list(model.corpus)
-    for number in range(rounds):
-        model.corpus = before + [e for part in prepared for e in _expect(model, part, beam)]
-        # The weights are only on their way until the landmarks have settled.
-        fitted = model.train(max_steps=_STEPS if number == rounds - 1 else _STEPS // 4)
-        if progress is not None:
-            progress(number)
-    return fitted
-
-
 @dataclass(frozen=True)
-class _Part:
+class Part:
     """One noun phrase that a lesson is about; `alone` if the lesson joins no others to it."""
 
     noun: ParseTree
@@ -83,47 +60,91 @@ class _Part:
     alone: bool
 
 
-def _parts(model: GroundingModel, lesson: Lesson) -> list[_Part]:
+def fit_landmarks_em(
+    parts: Sequence[Part],
+    ground: Ground,
+    fit: Callable[[list[Example], bool], None],
+    *,
+    rounds: int,
+    progress: Callable[[int], None] | None = None,
+) -> None:
+    """Expect the landmarks and maximise the likelihood, in turn.
+
+    Args:
+        ground: grounds with the present weights.
+        fit: fits them to examples; told whether it is the last round, before which they are only on their way.
+        rounds: of expectation and maximisation.
+        progress: called with the number of each round that is done.
+    """
+    for number in range(rounds):
+        fit([e for part in parts for e in _expected(part, ground)], number == rounds - 1)
+        if progress is not None:
+            progress(number)
+
+
+def parts_of(lesson: Lesson) -> list[Part]:
     """The noun phrases that a lesson joins, each in the world with the groups that it may speak of."""
     found = []
     trees = coordinated(lesson.tree)
     for tree in trees:
-        noun = _noun(model.readable(tree))
+        noun = target_of(to_factor_tree(tree))
         if noun is not None:
-            found.append(_Part(noun, grouped(lesson.world, tree), lesson.targets, lesson.weight, len(trees) == 1))
+            world = with_groups(lesson.world) if speaks_of_groups(tree) else lesson.world
+            found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
 
 
-def _noun(tree: ParseTree) -> ParseTree | None:
-    """The noun phrase of the object meant."""
-    return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+def said_of_words(
+    parts: Sequence[Part], known_types: Collection[str] | None, known_colors: Collection[str] | None
+) -> Taught:
+    """How often each noun and each word for a colour was said of what, where only one was possible.
 
-
-def _inventory(
-    prepared: Sequence[_Part], known_types: Collection[str] | None, known_colors: Collection[str] | None
-) -> tuple[list[Symbol], list[str]]:
-    """The symbols that the lessons make known, each noun for the type it means most, and their colours."""
-    meant: dict[str, Counter[str]] = {}
+    Args:
+        known_types: types that may become known; None: all that are meant.
+        known_colors: the same of colours; a word for a colour that no lesson says of such an object is not known.
+    """
+    nouns: dict[str, Counter[str]] = {}
+    words: dict[str, Counter[str]] = {}
+    types: dict[str, None] = {}
     colors: dict[str, None] = {}
-    for part in prepared:
-        for o in part.world.objects:
-            if o.id in part.targets and o.type is not None and (known_types is None or o.type in known_types):
-                if part.noun.phrase.noun is not None and part.alone:
-                    meant.setdefault(part.noun.phrase.noun, Counter())[o.type] += 1
-                if o.color is not None and (known_colors is None or o.color in known_colors):
-                    colors[o.color] = None
-        for node in part.noun.walk():
-            if node.phrase.color is not None and (known_colors is None or node is part.noun):
-                colors[node.phrase.color] = None
-    return [Symbol(word, types.most_common(1)[0][0]) for word, types in meant.items()], list(colors)
+    for part in parts:
+        meant = [o for o in part.world.objects if o.id in part.targets]
+        of_type = {o.type for o in meant if o.type is not None and (known_types is None or o.type in known_types)}
+        of_color = {o.color for o in meant if o.color is not None and (known_colors is None or o.color in known_colors)}
+        types |= dict.fromkeys(sorted(of_type))
+        colors |= dict.fromkeys(sorted(of_color))
+        if part.noun.phrase.noun is not None and part.alone and len(of_type) == 1:
+            nouns.setdefault(part.noun.phrase.noun, Counter()).update(of_type)
+        if part.noun.phrase.color is not None and len(of_color) == 1:
+            words.setdefault(part.noun.phrase.color, Counter()).update(of_color)
+    return Taught(tuple(types), tuple(colors), nouns, words)
 
 
-def _expect(model: GroundingModel, part: _Part, beam: int) -> list[Example]:
+def path_examples(lessons: Iterable[Lesson]) -> list[Example]:
+    """What lessons about one object teach of their verb and preposition: that they are about the object meant."""
+    found = []
+    for lesson in lessons:
+        if len(lesson.targets) != 1 or len(coordinated(lesson.tree)) != 1:
+            continue
+        path, node = [], to_factor_tree(lesson.tree)
+        while node.phrase.kind is not PhraseKind.NOUN and node.children:
+            path.append(node.phrase)
+            node = node.children[0]
+        meant = next(o for o in lesson.world.objects if o.id in lesson.targets)
+        child = Child(Grounding(GroundingKind.OBJECT, meant))
+        for phrase in reversed(path):
+            above = Child(Grounding(GROUNDING_OF[phrase.kind], meant))
+            found.append(replace(labelled(phrase, above, (child,), lesson.world), weight=lesson.weight))
+            child = above
+    return found
+
+
+def _expected(part: Part, ground: Ground) -> list[Example]:
     """The examples of a noun phrase, weighted by what the present model takes its landmarks to be."""
     world, noun = part.world, part.noun
-    graph = FactorGraph(noun, world)
+    solution = ground(noun, world)
     examples: list[Example] = []
-    for chance, meant in _choices(model, part, graph):
+    for chance, meant in _choices(part, solution):
         share = chance * part.weight
         labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.meanable)
         for j, o in enumerate(world.meanable):
@@ -135,12 +156,12 @@ def _expect(model: GroundingModel, part: _Part, beam: int) -> list[Example]:
         examples.append(Example(noun.phrase, world, tuple(labels), weight=share))
         if noun.children:
             open_ = {j for j, o in enumerate(world.things) if o.id in part.targets}
-            for modifier in graph.modifiers(model.features, model.loglinear, beam=beam):
+            for modifier in solution.modifiers:
                 examples += _placed(modifier, noun.phrase, world, share, meant, open_)
     return examples
 
 
-def _choices(model: GroundingModel, part: _Part, graph: FactorGraph) -> list[tuple[float, list[int]]]:
+def _choices(part: Part, solution: Solution) -> list[tuple[float, list[int]]]:
     """What a noun phrase may mean of what the lesson means, with weights: numbers of things.
 
     A phrase for a group means the group whose members are meant. Of several joined phrases, each means one of the
@@ -154,13 +175,17 @@ def _choices(model: GroundingModel, part: _Part, graph: FactorGraph) -> list[tup
     meant = [j for j, o in enumerate(part.world.objects) if o.id in part.targets]
     if part.alone or part.noun.phrase.plural:
         return [(1.0, meant)]
-    probabilities = graph.solve(model.features, model.loglinear).probabilities
-    shares = [probabilities[things[j].id] for j in meant]
+    shares = [solution.probabilities[things[j].id] for j in meant]
     return [(s / sum(shares), [j]) for s, j in zip(shares, meant, strict=True) if s > _NEGLIGIBLE * sum(shares)]
 
 
 def _placed(
-    modifier: Placed, head: Phrase, world: WorldModel, share: float, meant: Sequence[int], spared: Collection[int]
+    modifier: ModifierFactor,
+    head: Phrase,
+    world: WorldModel,
+    share: float,
+    meant: Sequence[int],
+    spared: Collection[int],
 ) -> list[Example]:
     """What a modifier and its landmarks teach: the things meant stand so, others that the head allows do not.
 

@@ -7,12 +7,27 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from dcg_torch.grounding.encoding import example_bag
-from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Solution
-from dcg_torch.learning.commit_first import labelled
-from dcg_torch.model import GroundingModel
-from dcg_torch.types import Correspondence, Object, WorldModel
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.solution import Hypothesis, Solution
+from dcg_torch.types import Correspondence, Example, Object, WorldModel
+
+
+class Weighted(Protocol):
+    """What explanations need of a model."""
+
+    @property
+    def features(self) -> FeatureSet:
+        """The columns."""
+        ...
+
+    @property
+    def factor(self) -> LogLinearModel:
+        """The weights."""
+        ...
 
 
 @dataclass(frozen=True)
@@ -41,7 +56,7 @@ class Rivalry:
     reasons: tuple[Reason, ...]
 
 
-def explain(model: GroundingModel, solution: Solution) -> list[Reason]:
+def explain(model: Weighted, solution: Solution) -> list[Reason]:
     """The reasons for the best configuration, phrase by phrase from the root, strongest first.
 
     The log-odds of a phrase's reasons add up to log Psi(correspondence) - log Psi(INACTIVE).
@@ -54,13 +69,12 @@ def explain(model: GroundingModel, solution: Solution) -> list[Reason]:
     ]
 
 
-def rivalry(model: GroundingModel, solution: Solution) -> Rivalry | None:
+def rivalry(model: Weighted, solution: Solution) -> Rivalry | None:
     """What decided between the answer and the second best object; None if there is no other object.
 
     Each phrase is compared with itself in the best configuration about the other object, whose landmarks may differ.
     """
-    graph = FactorGraph(solution.tree, solution.world)
-    second = graph.runner_up(model.features, model.loglinear, beam=model.variant.beam)
+    second = solution.runner_up
     if solution.best is None or second is None:
         return None
     found: list[Reason] = []
@@ -73,15 +87,15 @@ def rivalry(model: GroundingModel, solution: Solution) -> Rivalry | None:
     return Rivalry(second.child.grounding.object, solution.best.log_score - second.log_score, tuple(found))
 
 
-def _reasons(model: GroundingModel, hypothesis: Hypothesis, world: WorldModel) -> Iterator[Reason]:
+def _reasons(model: Weighted, hypothesis: Hypothesis, world: WorldModel) -> Iterator[Reason]:
     """The features that fire for a phrase and its grounding, but those of weight zero."""
     languages, groundings = list(model.features.language), list(model.features.grounding)
     phrase, child = hypothesis.tree.phrase, hypothesis.child
-    sign = model.loglinear.correspondences.index(child.correspondence)
-    zero = model.loglinear.correspondences.index(Correspondence.INACTIVE)
-    odds = model.loglinear.weight[sign] - model.loglinear.weight[zero]
+    sign = model.factor.correspondences.index(child.correspondence)
+    zero = model.factor.correspondences.index(Correspondence.INACTIVE)
+    odds = model.factor.weight[sign] - model.factor.weight[zero]
     chosen = [thing.id for thing in world.things].index(child.grounding.object.id)
-    row = example_bag(labelled(phrase, child, hypothesis.factor_children, world), model.features)[chosen]
+    row = example_bag(Example(phrase, world, (), hypothesis.factor_children), model.features)[chosen]
     for language in model.features.encode_phrases([phrase])[0]:
         for grounding in row[row >= 0]:
             if language >= 0 and odds[language, grounding] != 0.0:

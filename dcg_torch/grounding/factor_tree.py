@@ -1,0 +1,105 @@
+"""The parse tree as the factor graph reads it: the path to the object meant, its modifiers, and what each stands in."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
+from dcg_torch.vocabulary import ANYTHING, GROUP_WORDS, INSIDE, PLACE_WORDS
+
+
+def speaks_of_groups(tree: ParseTree) -> bool:
+    """Does some noun phrase of the command speak of a group of objects?"""
+    return any(is_group(node.phrase) for node in tree.walk())
+
+
+def path_to_object(tree: ParseTree) -> ParseTree:
+    """The path from the root to the object meant: a tree's first child leads to it.
+
+    What modifies a noun phrase, and where a thing is to be put, is beyond the paper's features.
+    """
+    if tree.phrase.kind is PhraseKind.NOUN:
+        return replace(tree, children=())
+    return replace(tree, children=tuple(map(path_to_object, tree.children[:1])))
+
+
+def is_group(phrase: Phrase) -> bool:
+    """Does a noun phrase speak of a group of objects?"""
+    return phrase.kind is PhraseKind.NOUN and any(w in GROUP_WORDS for w in (phrase.noun, *phrase.words))
+
+
+def coordinated(tree: ParseTree) -> list[ParseTree]:
+    """A tree for each noun phrase that a command is about: "the cube and the cone" is two of them."""
+    first = tree.children[0] if tree.children else None
+    if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
+        return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in first.children] or [tree]
+    nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
+    if tree.phrase.kind is PhraseKind.NOUN or len(nouns) < 2:
+        return [tree]
+    others = tuple(child for child in tree.children if child.phrase.kind is not PhraseKind.NOUN)
+    return [replace(tree, children=(noun, *others)) for noun in nouns]
+
+
+def to_factor_tree(tree: ParseTree) -> ParseTree:
+    """The path to the object meant, with everything that describes the object.
+
+    A preposition below a noun phrase becomes a MODIFIER, and phrases get their context: a noun phrase what is done
+    with its object ("object of take") or that it is a landmark and of what; a modifier what its landmark is. Both are
+    told what "the closest" is one of.
+    """
+    if tree.phrase.kind is PhraseKind.NOUN:
+        return _noun(tree, ())
+    verb = " ".join(tree.phrase.words)
+    child = tree.children[0] if tree.children else None
+    if child is None:
+        return tree
+    if child.phrase.kind is PhraseKind.NOUN:
+        return replace(tree, children=(_noun(child, (f"object of {verb}", "object")),))
+    if child.phrase.kind is PhraseKind.PREPOSITION and child.children:
+        noun = _noun(child.children[0], (f"object of {verb}", "object"))
+        return replace(tree, children=(replace(child, children=(noun,)),))
+    return replace(tree, children=(child,))
+
+
+def comparison_set(phrase: Phrase, modifiers: Sequence[ParseTree] = ()) -> str:
+    """What a noun phrase's object is one of: of those of its kind, type or colour, of all, or of its row."""
+    if any(m.phrase.words[0] in INSIDE and is_group(m.children[0].phrase) for m in modifiers):
+        return "row"
+    if phrase.noun is not None:
+        return "kind" if phrase.color is not None else "type"
+    return "color" if phrase.color is not None else "all"
+
+
+def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
+    """What a modifier is relative to: things stand otherwise to a corner than to another thing."""
+    phrase = tree.children[0].phrase
+    if is_group(phrase):
+        return ("to a group",)
+    return ("to a place", f"to {PLACE_WORDS[phrase.noun][0]}") if phrase.noun in PLACE_WORDS else ("to a thing",)
+
+
+def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
+    phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in ANYTHING else tree.phrase
+    described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
+    phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
+    return ParseTree(phrase, tuple(_modifier(child, phrase) for child in described))
+
+
+def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
+    words = tree.phrase.words
+    if words[0].startswith(f"{NOT} "):
+        words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
+    landmarks = [_noun(n, (f"landmark: of {' '.join(words)}", "landmark: of any")) for n in tree.children]
+    if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
+        landmarks *= 2  # "between the two cones": two of one description
+    several = head.count if head.count is not None and head.count > 1 else None
+    phrase = Phrase(
+        PhraseKind.MODIFIER,
+        tree.phrase.text,
+        words,
+        count=several,
+        context=_landmark_context(tree),
+        among=head.among,
+    )
+    return ParseTree(phrase, tuple(landmarks))

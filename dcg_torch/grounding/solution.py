@@ -1,0 +1,175 @@
+"""What a command was grounded to, with the alternatives that were weighed: frozen values."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.types import Child, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+
+@dataclass(frozen=True)
+class Hypothesis:
+    """One grounding of a phrase, with the hypotheses of its children that it rests on.
+
+    `log_score` is the log-probability of the whole configuration at and below this phrase.
+    """
+
+    tree: ParseTree
+    child: Child
+    children: tuple[Hypothesis, ...]
+    log_score: float
+
+    @property
+    def factor_children(self) -> tuple[Child, ...]:
+        """Gamma_c of this phrase's factor: a noun phrase's modifiers have factors of their own instead."""
+        return () if self.child.grounding.kind is GroundingKind.OBJECT else tuple(h.child for h in self.children)
+
+    @property
+    def meant(self) -> Object:
+        """The object that the noun phrase of the action means, or where there is none, that of the action."""
+        nouns = (h for h in self.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
+        return next(nouns, self).child.grounding.object
+
+    def walk(self) -> list[Hypothesis]:
+        """This hypothesis and those below, parents first."""
+        return [self, *(h for child in self.children for h in child.walk())]
+
+
+@dataclass(frozen=True)
+class ModifierFactor:
+    """A modifier's factors, for every thing that its noun phrase may mean.
+
+    A modifier describes, it does not pick: many things may stand next to a cube. So of its correspondences only
+    that of the object meant is asserted, and the landmark is summed over:
+
+        Psi(object) = sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark)
+
+    with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
+
+    Attributes:
+        combos: hypotheses of the landmarks; one for each child.
+        mixture: (combos, things) the logarithm of the summands.
+    """
+
+    tree: ParseTree
+    combos: Sequence[tuple[Hypothesis, ...]]
+    mixture: NDArray[np.float64]
+
+    @cached_property
+    def log_psi(self) -> NDArray[np.float64]:
+        """(things,) log Psi(thing)."""
+        total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
+        return total
+
+    @property
+    def posterior(self) -> NDArray[np.float64]:
+        """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
+        return np.exp(self.mixture - self.log_psi)
+
+    def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
+        """That the thing j stands so, to its best landmarks or to those of a given combo."""
+        best = int(self.mixture[:, j].argmax()) if combo is None else combo
+        child = Child(Grounding(GroundingKind.PLACED, thing))
+        return Hypothesis(self.tree, child, self.combos[best], float(self.log_psi[j]))
+
+
+_AS_WELL = 0.5
+"""An object is one of several that are meant if it is described at least half as well as the best."""
+
+
+@dataclass(frozen=True)
+class Solution:
+    """phi* and gamma* of a command, with the alternatives that were weighed.
+
+    Attributes:
+        best: the most probable configuration, None where the world offers nothing to ground to.
+        probabilities: object or group id -> probability that the command is about it; sums to 1.
+        fits: object or group id -> probability that the noun phrase describes it, whatever else it describes.
+        odds: object or group id -> odds, by the noun phrase alone, that it is the one described.
+        runner_up: the best configuration whose noun phrase means another object than the best one's.
+        modifiers: the factors of the modifiers of the noun phrase meant.
+        further: of the other noun phrases that the command joins to the first ("the cube and the cone").
+        problem: why nothing was grounded, one sentence; None where something was.
+    """
+
+    tree: ParseTree | None
+    world: WorldModel
+    best: Hypothesis | None = None
+    probabilities: Mapping[str, float] = field(default_factory=dict)
+    fits: Mapping[str, float] = field(default_factory=dict)
+    odds: Mapping[str, float] = field(default_factory=dict)
+    runner_up: Hypothesis | None = None
+    modifiers: tuple[ModifierFactor, ...] = field(default=(), compare=False)
+    further: tuple[Solution, ...] = ()
+    problem: str | None = None
+
+    @property
+    def object(self) -> Object | None:
+        """gamma*: the object the command is about."""
+        return None if self.best is None else self.best.child.grounding.object
+
+    @property
+    def objects(self) -> tuple[Object, ...]:
+        """What the command is about: one object, the members of a group, or several objects.
+
+        A phrase in the plural means as many as it counts, or else all that it describes about as well as the best.
+        """
+        found = dict.fromkeys((*self._meant(), *(o for solution in self.further for o in solution.objects)))
+        return tuple(found)
+
+    def _meant(self) -> tuple[Object, ...]:
+        noun = self.noun
+        if self.object is None or noun is None:
+            return ()
+        if self.object.members:
+            members = set(self.object.members)
+            return tuple(o for o in self.world.objects if o.id in members)
+        if not noun.plural and (noun.count or 1) == 1:
+            return (self.object,)
+        ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
+        if noun.count is not None:
+            return tuple(ranked[: noun.count])
+        least = _AS_WELL * self.fits[ranked[0].id]
+        return tuple(o for o in ranked if self.fits[o.id] >= least)
+
+    @property
+    def noun(self) -> Phrase | None:
+        """The noun phrase of the object meant."""
+        return None if (node := self.target) is None else node.phrase
+
+    @property
+    def target(self) -> ParseTree | None:
+        """The noun phrase of the object meant, with all that describes it."""
+        return None if self.tree is None or self.best is None else target_of(self.tree)
+
+    @property
+    def inverted(self) -> bool:
+        """Does the command ask to keep away from the object?  Two inversions cancel ("do not stay away from ...")."""
+        if self.best is None:
+            return False
+        signs = [h.child.correspondence for h in self.best.walk() if h.tree.phrase.kind is not PhraseKind.NOUN]
+        return math.prod(signs) < 0
+
+    @property
+    def probability(self) -> float | None:
+        """Of the grounding, None where there is none; of several objects, that they and no others are meant."""
+        if self.object is None:
+            return None
+        meant = self._meant()
+        if len(meant) < 2 or self.object.members:
+            own = self.probabilities[self.object.id]
+        else:
+            inside = {o.id for o in meant}
+            own = math.prod(self.fits[o.id] if o.id in inside else 1.0 - self.fits[o.id] for o in self.world.objects)
+        return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
+
+
+def target_of(tree: ParseTree) -> ParseTree | None:
+    """The noun phrase of the object meant: the first of the tree, from the root; None if there is none."""
+    return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)

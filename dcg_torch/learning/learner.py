@@ -1,0 +1,146 @@
+"""What a model asks of the part of it that learns, and what came of a command that it heard."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.evidence import Ground
+from dcg_torch.learning.lexicon import Entry
+from dcg_torch.types import Example, Symbol
+
+
+@dataclass(frozen=True, slots=True)
+class Experience:
+    """How a command was carried out, as far as it bears on what can be learned.
+
+    Attributes:
+        looked: had the robot seen all the ground that it can?
+        certain: did the speaker say which object is meant?
+        taught: is it a lesson, from which the weights have been fitted already?
+        source: which command it was, for the lexicon.
+    """
+
+    looked: bool = False
+    certain: bool = False
+    taught: bool = False
+    source: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class TrainingSet:
+    """The labelled examples of Alg. 1, line 5, with the symbols and colours that they make known."""
+
+    symbols: tuple[Symbol, ...]
+    colors: tuple[str, ...]
+    examples: tuple[Example, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Learned:
+    """What came of a command for the lexicon. True where a symbol was made or changed.
+
+    Attributes:
+        symbol: made or changed by this command.
+        reason: why there is none, one sentence; None where there is one.
+    """
+
+    symbol: Symbol | None = None
+    reason: str | None = None
+
+    def __bool__(self) -> bool:
+        return self.symbol is not None
+
+
+class Learner(Protocol):
+    """What a model has learned of words, as a frozen value, and how it goes on.
+
+    The weights of the model follow from `training_examples`, by one fit of those weights that `trainable` names.
+    """
+
+    @property
+    def symbols(self) -> Mapping[str, Symbol]:
+        """The words that are held to name a type."""
+        ...
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types that are known: in the order in which they became so."""
+        ...
+
+    @property
+    def settled(self) -> frozenset[str]:
+        """The nouns of which nothing is left to be learned."""
+        ...
+
+    @property
+    def open_words(self) -> frozenset[str]:
+        """The nouns and words for colours that were heard, and of which something is left to be learned."""
+        ...
+
+    def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[Learner, Learned]:
+        """The learner after a command."""
+        ...
+
+    def told(self, word: str, type_: str) -> Learner:
+        """The learner after a person said what a noun names."""
+        ...
+
+    def forget(self, word: str) -> Learner:
+        """The learner without all that it heard of a noun."""
+        ...
+
+    def taught(self, taught: Taught) -> Learner:
+        """The learner after lessons whose objects were known."""
+        ...
+
+    def training_examples(self, features: FeatureSet) -> Sequence[Example]:
+        """What the weights are to follow."""
+        ...
+
+    def columns(self, features: FeatureSet) -> FeatureSet:
+        """The features, with columns for all that has been learned."""
+        ...
+
+    def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
+        """(L, G) the weights that follow from the training examples; None: all."""
+        ...
+
+    def names(self) -> dict[str, str]:
+        """type -> a word for it that the robot holds for certain."""
+        ...
+
+    def meanings(self, word: str) -> dict[str, float]:
+        """type -> probability that a noun names it."""
+        ...
+
+    def beliefs(self, but: Collection[str]) -> dict[str, dict[str, float]] | None:
+        """noun -> type -> probability, of all nouns `but` some; None where there are no degrees of belief."""
+        ...
+
+    def lexicon(self) -> list[Entry]:
+        """Every noun with what it may mean, and from which commands."""
+        ...
+
+
+@dataclass(frozen=True)
+class Taught:
+    """What lessons with known objects say of words.
+
+    Attributes:
+        types: of all objects meant.
+        colors: words for colours, and colours, that were met.
+        nouns: noun -> type -> in how many lessons it was said of it.
+        color_words: the same for words for colours.
+    """
+
+    types: tuple[str, ...]
+    colors: tuple[str, ...]
+    nouns: Mapping[str, Mapping[str, int]]
+    color_words: Mapping[str, Mapping[str, int]]

@@ -1,0 +1,316 @@
+"""The model that users import: train on examples, ground a sentence in a world, learn from the outcome.
+
+It joins the rooms: a variant, the features, the weights of the factor, and a learner that says what these follow.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Sequence
+from dataclasses import replace
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encoding import encode, firing
+from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet, Group
+from dcg_torch.grounding.graph import FactorGraph
+from dcg_torch.grounding.psi import BINARY, TERNARY, FitResult, LogLinearModel, fit
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.commit_first import CommitFirst
+from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
+from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
+from dcg_torch.learning.lexicon import Entry
+from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
+from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.teacher import Told, interpret
+from dcg_torch.model.variant import Variant, restrict
+from dcg_torch.scene.upsilon import world_model
+from dcg_torch.scene.workspace import Workspace, with_groups, with_places
+from dcg_torch.types import (
+    Example,
+    ParseTree,
+    Percept,
+    Pose,
+    Symbol,
+    WorldModel,
+)
+
+_RELATION_L2 = 0.2
+"""Penalty on the weights that are taught by generated lessons."""
+_STEPS = 300
+"""Iterations of the fit that ends the rounds of lessons; those before get a quarter."""
+
+
+class GroundingModel:
+    """A variant, features, weights and a learner: every model of this project is a configuration of it.
+
+    Attributes:
+        variant: what it represents.
+        features: the columns, which say what is known.
+        factor: Psi with its weights.
+        learner: what it has learned of words: `CommitFirst` is the paper's, `WordPosterior` goes beyond it.
+        held: (L, G) the weights that a corpus has taught: learning leaves them alone.
+        prior: (P, L, G) what the penalty pulls the weights towards; zero until a corpus has taught some.
+        fitted: how the last training went; None for a model that was restored.
+    """
+
+    def __init__(self, variant: Variant, features: FeatureSet, factor: LogLinearModel, learner: Learner) -> None:
+        self.variant = variant
+        self.features = features
+        self.factor = factor
+        self.learner = learner
+        self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
+        self.prior = torch.zeros_like(factor.weight)
+        self.fitted: FitResult | None = None
+
+    @classmethod
+    def trained(
+        cls, training: TrainingSet, variant: Variant | None = None, learner: Learner | None = None
+    ) -> GroundingModel:
+        """Lines 1 to 6 of Algorithm 1: a model with its initial groundings and features, trained.
+
+        Args:
+            training: the labelled examples.
+            variant: DCG-UPUP-Away with colour by default.
+            learner: the paper's by default, with the training set as T.
+        """
+        variant = variant or Variant()
+        training = replace(training, examples=tuple(restrict(training.examples, variant)))
+        learner = learner or CommitFirst.start(training, learns_symbols=Group.UNKNOWN in variant.groups)
+        relations = Group.RELATION in variant.groups
+        words = [*training.symbols, *(place_symbols() if relations else ())]
+        corpus = [*learner.training_examples(FeatureSet(frozenset())), *(place_examples() if relations else ())]
+        features = FeatureSet.initial(variant.groups, words, training.colors, corpus)
+        if relations:
+            features = features.include(nouns=group_nouns())
+        features = learner.columns(features)
+        model = cls(variant, features, LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY), learner)
+        model.train()
+        if relations:
+            model._fit(place_examples(), free=taught_mask(features), l2=_RELATION_L2)
+        return model
+
+    @property
+    def symbols(self) -> dict[str, Symbol]:
+        """Every word that is held to name a type, in the order of learning."""
+        return dict(self.learner.symbols)
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types that are known, in the order in which they became so: the one definition of `Object.known`."""
+        return self.learner.known_types
+
+    def world_model(
+        self,
+        percepts: Iterable[Percept],
+        robot: Pose | None = None,
+        speaker: Pose | None = None,
+        *,
+        looked: bool = False,
+        workspace: Workspace | None = None,
+    ) -> WorldModel:
+        """Upsilon as this variant represents it (lines 8 and 9).
+
+        Args:
+            percepts: all that has been recognised.
+            robot: where it stands; None: unknown.
+            speaker: where the speaker stands; None: with the robot.
+            looked: has the robot looked all round? The paper's hypothetical objects don't depend on it.
+            workspace: of a robot that works in one, which has edges and a middle.
+        """
+        world = world_model(
+            percepts,
+            self.known_types,
+            unknown=self.variant.unknown,
+            hypothetical=self.variant.hypothetical,
+            robot=robot,
+            speaker=speaker,
+            unseen=frozenset({LOOKED_ROUND} if looked and Group.OPEN in self.variant.groups else ()),
+        )
+        return with_places(world, workspace) if Group.RELATION in self.variant.groups else world
+
+    def ground(self, command: str | ParseTree, world: WorldModel) -> Solution:
+        """[phi*, gamma*] of a command in a world (line 11).
+
+        Args:
+            command: what was said, or its parse tree.
+            world: of `world_model`.
+        """
+        if isinstance(command, str):
+            from dcg_torch.language import parse_command  # loads spaCy: only who gives text pays for it
+
+            parse = parse_command(command, self.symbols.keys())
+            if parse.tree is None:
+                return Solution(None, world, problem=parse.problem)
+            command = parse.tree
+        if Group.RELATION not in self.variant.groups:
+            return self._solve(path_to_object(command), world)
+        first, *others = (
+            self._solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
+            for part in coordinated(command)
+        )
+        return replace(first, further=tuple(others))
+
+    def _solve(self, tree: ParseTree, world: WorldModel) -> Solution:
+        """Of a tree of factors."""
+        return FactorGraph(tree, world).solve(self.features, self.factor, beam=self.variant.beam)
+
+    def learn(self, solution: Solution, experience: Experience | None = None) -> Learned:
+        """Learn from the outcome of a command that was carried out, and retrain (lines 16 to 25).
+
+        Args:
+            solution: its last grounding.
+            experience: how it was carried out; None: as far as the solution's world tells.
+
+        Returns:
+            The symbol that was made or changed, or the reason why there is none.
+        """
+        if not self.variant.learns:
+            return Learned(reason="this variant does not learn")
+        if solution.best is None:
+            return Learned(reason=solution.problem or "the command was not grounded to an object")
+        looked = all(LOOKED_ROUND in o.attributes for o in solution.world.objects if o.hypothetical)
+        self.learner, learned = self.learner.hear(solution, experience or Experience(looked), self._solve)
+        self.train()
+        return learned
+
+    def tell(self, sentence: str, world: WorldModel, *, pointing_at: str | None = None) -> Told:
+        """Learn a name from a teacher: "this is a pallet", "that red thing is a euro pallet", "no, that is a drill".
+
+        Args:
+            sentence: what the teacher says.
+            world: what there is to speak of, of `world_model`.
+            pointing_at: id of the object that the teacher points at.
+        """
+        found = interpret(sentence, world, pointing_at, self)
+        if found.word is not None and found.type is not None:
+            self._told(found.word, found.type)
+        return found
+
+    def _told(self, word: str, type_: str) -> None:
+        self.learner = self.learner.told(word, type_)
+        self.train()
+
+    def correct(self, word: str, type_: str) -> None:
+        """Settle a noun on a type, by someone who knows, and retrain.
+
+        Raises:
+            ValueError: nothing of this type was ever met.
+        """
+        if type_ not in self.known_types:
+            raise ValueError(f"{type_!r}: nothing of this type was ever met; types are {', '.join(self.known_types)}")
+        self._told(word, type_)
+
+    def forget(self, word: str) -> None:
+        """Forget all that was heard of a noun, and retrain.
+
+        Raises:
+            ValueError: it was never heard.
+        """
+        if word not in {entry.word for entry in self.lexicon()}:
+            raise ValueError(f"{word!r}: this noun was never heard; model.lexicon() lists those that were")
+        self.learner = self.learner.forget(word)
+        self.train()
+
+    def train(self) -> FitResult:
+        """M.train (lines 6 and 25): columns for all that was learned, and a fit from the present weights."""
+        self._grow(self.learner.columns(self.features))
+        free = self.learner.trainable(self.features)
+        if free is not None and self.held.any():
+            free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
+        self.fitted = self._fit(self.learner.training_examples(self.features), free=free, l2=self.variant.l2)
+        return self.fitted
+
+    def teach(
+        self,
+        lessons: Sequence[Lesson],
+        *,
+        relations_only: bool = False,
+        known_types: Collection[str] | None = None,
+        known_colors: Collection[str] | None = None,
+        rounds: int = 4,
+        progress: Callable[[int], None] | None = None,
+    ) -> None:
+        """Train on commands whose objects are known; their landmarks are inferred.
+
+        Args:
+            relations_only: teach what words for relations mean, and nothing of what things are called.
+            known_types: types that may become known; None: all that are meant in the lessons.
+            known_colors: the same of colours.
+            rounds: of expectation and maximisation.
+            progress: called with the number of each round that is done.
+        """
+        parts = [part for lesson in lessons for part in parts_of(lesson)]
+        said = said_of_words(parts, known_types, known_colors)
+        always = place_examples() if relations_only else path_examples(lessons)
+        phrases = [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
+        if relations_only:
+            features = self.features.extended((), said.colors, phrases)
+        else:
+            self.learner = self.learner.taught(said)
+            nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
+            features = self.learner.columns(self.features).extended(nouns, said.colors, phrases)
+        self._grow(features)
+        if not relations_only:
+            self.prior = self.factor.weight.clone()  # what was known before gives way to as much evidence as any
+
+        def fit_once(examples: list[Example], last: bool) -> None:
+            rows = [*always, *examples]
+            free, l2 = (taught_mask(self.features), _RELATION_L2) if relations_only else (None, self.variant.l2)
+            self.fitted = self._fit(rows, free=free, l2=l2, max_steps=_STEPS if last else _STEPS // 4)
+            if last and not relations_only:
+                self.held |= firing(rows, self.features)
+
+        fit_landmarks_em(parts, self._solve, fit_once, rounds=rounds, progress=progress)
+        if not relations_only:
+            self.prior = self.factor.weight.clone()
+            self._hear_lessons(parts)
+
+    def lexicon(self) -> list[Entry]:
+        """Every noun with what it may mean, and from which commands."""
+        return self.learner.lexicon()
+
+    def beliefs_about(self, but: Collection[str]) -> dict[str, dict[str, float]] | None:
+        """noun -> type -> probability, of all nouns `but` some; None for a learner without degrees of belief."""
+        return self.learner.beliefs(but)
+
+    def sure_names(self) -> dict[str, str]:
+        """type -> a word for it that the robot holds for certain."""
+        return self.learner.names()
+
+    def beliefs_of(self, word: str) -> dict[str, float]:
+        """type -> probability that a noun names it."""
+        return self.learner.meanings(word)
+
+    def _hear_lessons(self, parts: Sequence[Part]) -> None:
+        """Weigh what lessons tell of words that they did not settle, landmarks' above all, and train."""
+        for part in parts:
+            told = replace(part.world, meant=part.targets)
+            solution = self._solve(part.noun, told)
+            taught = Experience(certain=True, taught=True, source="lesson")
+            self.learner, _ = self.learner.hear(solution, taught, self._solve)
+        self.train()
+
+    def _grow(self, features: FeatureSet) -> None:
+        """Columns of zero weight for what is new."""
+        if features.shape == self.features.shape:
+            return
+        more = [new - old for new, old in zip(features.shape, self.features.shape, strict=True)]
+        self.features = features
+        self.factor.grow(features.pairs)
+        self.held = np.pad(self.held, [(0, more[0]), (0, more[1])])
+        self.prior = torch.nn.functional.pad(self.prior, (0, more[1], 0, more[0]))
+
+    def _fit(
+        self,
+        examples: Sequence[Example],
+        *,
+        free: NDArray[np.bool_] | None,
+        l2: float,
+        max_steps: int = 500,
+    ) -> FitResult:
+        """Fit the free weights to examples, in place."""
+        tables = encode(examples, self.features, self.factor)
+        return fit(self.factor, tables, l2=l2, free=free, prior=self.prior, max_steps=max_steps)

@@ -1,0 +1,77 @@
+"""What a teacher's sentence says of names, in a world."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.types import Object, Symbol, WorldModel
+
+
+@dataclass(frozen=True, slots=True)
+class Told:
+    """What came of a teacher's sentence: true where a name was learned.
+
+    Attributes:
+        word: the noun.
+        type: what it names now.
+        object: id of the object that was spoken of.
+        problem: why nothing was learned, one sentence; None where something was.
+    """
+
+    word: str | None = None
+    type: str | None = None
+    object: str | None = None
+    problem: str | None = None
+
+    def __bool__(self) -> bool:
+        return self.problem is None
+
+
+class Grounds(Protocol):
+    """What understanding a teacher takes."""
+
+    @property
+    def symbols(self) -> Mapping[str, Symbol]:
+        """The words that are held to name a type."""
+        ...
+
+    def ground(self, command: str, world: WorldModel) -> Solution:
+        """What a command means in a world."""
+        ...
+
+
+def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: Grounds) -> Told:
+    """The name that a sentence gives, and to what type.
+
+    Args:
+        pointing_at: id of the object that the teacher points at.
+        model: finds the object that the teacher describes.
+    """
+    from dcg_torch.language.teaching import read_teaching  # loads spaCy: only who gives text pays for it
+
+    said = read_teaching(sentence)
+    if said is None:
+        return Told(problem="that teaches no name; say, for example, 'this is a pallet'")
+    if said.same_as is not None:
+        return _same(said.name, said.same_as, model.symbols)
+    if pointing_at is None and said.subject is None:
+        return Told(said.name, problem="it is not clear what is pointed at; name the object, or point at one")
+    meant: Sequence[Object] = [o for o in world.objects if o.id == pointing_at]
+    if said.subject is not None and pointing_at is None:
+        found = model.ground(f"go to {said.subject}", world)
+        meant = [o for o in found.objects if not o.hypothetical]
+    if len(meant) != 1 or meant[0].type is None:
+        there = "there is no such object" if not meant else "it is not clear which one is meant"
+        return Told(said.name, problem=f"{there}: {said.subject or pointing_at}")
+    return Told(said.name, meant[0].type, meant[0].id)
+
+
+def _same(one: str, other: str, symbols: Mapping[str, Symbol]) -> Told:
+    """One of two nouns is known: the other gets its type."""
+    new, known = (one, other) if other in symbols else (other, one)
+    if known not in symbols:
+        return Told(one, problem=f"neither {one!r} nor {other!r} is known")
+    return Told(new, symbols[known].type)

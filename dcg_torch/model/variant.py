@@ -1,0 +1,50 @@
+"""What tells the models of the paper, and those beyond it, apart: feature groups and what enters the world model."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from dcg_torch.grounding.features import PAPER, Group
+from dcg_torch.types import Correspondence, Example
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What a model variant is: its feature groups, and the objects that enter its world model.
+
+    Attributes:
+        groups: feature groups that are on.
+        unknown: perceived objects of unknown type enter Upsilon (DCG-UPUP).
+        hypothetical: hypothetical objects enter Upsilon (DCG-UPUP-Away).
+        learns: the robot learns from outcomes (Alg. 1, lines 16 to 25).
+        ternary: correspondences of eq. 4 (with INVERTED) rather than of eqs. 6, 8 and 9.
+        l2: strength of the penalty on the weights.
+        beam: hypotheses of a child phrase that its parent considers.
+    """
+
+    groups: frozenset[Group] = PAPER
+    unknown: bool = True
+    hypothetical: bool = True
+    learns: bool = True
+    ternary: bool = True
+    l2: float = 0.05
+    beam: int = 8
+
+
+def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
+    """The examples as a variant sees them: without the objects that it does not represent.
+
+    An example about such an object is left out, and with binary correspondences so is one of INVERTED.
+    """
+    kept = []
+    for e in examples:
+        seen = [(o.known or variant.unknown) and (variant.hypothetical or not o.hypothetical) for o in e.world.objects]
+        objects = tuple(o for o, keep in zip(e.world.objects, seen, strict=True) if keep)
+        labels = tuple(c for c, keep in zip(e.correspondences, seen, strict=True) if keep)
+        signs = {*labels, *(c.correspondence for c in e.children)}
+        if signs <= {None, Correspondence.INACTIVE} or (not variant.ternary and Correspondence.INVERTED in signs):
+            continue
+        if all(c.grounding.object in objects for c in e.children):
+            kept.append(replace(e, world=replace(e.world, objects=objects), correspondences=labels))
+    return kept

@@ -1,0 +1,45 @@
+"""What can be spoken of in a world beside its objects: the places of a workspace, and groups of objects."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+from dcg_torch.scene.places import Bounds, groups, places, scene_bounds
+from dcg_torch.types import WorldModel
+
+
+@dataclass(frozen=True)
+class Workspace:
+    """What the scenes of one robot have in common.
+
+    Attributes:
+        bounds: of its workspace, seen from the robot; None: each scene has its own, those of its objects.
+        unit: metres that neighbours are apart.
+    """
+
+    bounds: Bounds | None = None
+    unit: float = 1.0
+
+
+def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldModel:
+    """A world with the places that can be spoken of.
+
+    Without a workspace there are no edges, only the robot, the speaker and the directions from them: the world of a
+    robot that drives about. A speaker of whom nothing is known is then taken to stand with the robot, and to speak of
+    the robot's left and right.
+    """
+    if workspace is None:
+        found = places(None, world.robot, world.speaker)
+        if world.speaker is None:
+            here = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
+            found += tuple(here)
+        return replace(world, places=found)
+    bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
+    if bounds is None and there:
+        bounds = scene_bounds(there, world.robot)
+    return replace(world, places=places(bounds, world.robot, world.speaker), unit=workspace.unit)
+
+
+def with_groups(world: WorldModel) -> WorldModel:
+    """A world with the groups that its objects form."""
+    return replace(world, groups=groups(world.objects, world.unit))
