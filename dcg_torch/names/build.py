@@ -2,7 +2,8 @@
 
 DICT_DIR holds `data.noun` and `index.noun` (wndb(5WN) describes them); Debian's package `wordnet-base` installs them
 into /usr/share/wordnet. The table keeps nouns for things that can be pointed at, the order of their senses, and what
-each is a kind of. Definitions, names of persons and places, and all abstract nouns are left out. The weights are learned from `data/nouns.yaml`.
+each is a kind of. Definitions, names of persons and places, and all abstract nouns are left out. The weights are
+learned from `data/nouns.yaml`.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from dcg_torch.names.wordnet import TABLE
 
 _THINGS = frozenset({3, 5, 6, 8, 13, 17, 20, 25, 27})
 _OTHERS = frozenset({10, 14, 15, 18})
-"""Lexicographer files kept (lexnames(5WN)): tops, animals, artefacts, body parts, food, natural objects, plants, shapes,
-substances; and behind them, where one of them is a noun's commonest, communication, groups, places, people. Who points
-at a tool or a mug means no dupe and no fool."""
+"""Lexicographer files kept (lexnames(5WN)): tops, animals, artefacts, body parts, food, natural objects, plants,
+shapes, substances; and behind them, where one of them is a noun's commonest, communication, groups, places, people.
+Who points at a tool or a mug means no dupe and no fool."""
 
 
 def main(arguments: list[str]) -> int:

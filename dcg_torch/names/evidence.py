@@ -1,6 +1,7 @@
 """What the name of a recogniser's class says about a noun that a person used: named facts, to be weighed elsewhere.
 
-Every pair has one fact of its form, `name: ...`, and unless the noun is generic, one of its meaning, `kind: ...`. Meanings come from the table of WordNet and from `data/everyday.yaml`.
+Every pair has one fact of its form, `name: ...`, and unless the noun is generic, one of its meaning, `kind: ...`.
+Meanings come from the table of WordNet and from `data/everyday.yaml`.
 """
 
 from __future__ import annotations

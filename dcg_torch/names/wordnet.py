@@ -25,7 +25,7 @@ class Nouns:
 
     def __init__(self, path: Path = TABLE) -> None:
         with np.load(path, allow_pickle=False) as arrays:
-            self._lemmas = arrays["lemmas"].tobytes()
+            self._lemmas: bytes = arrays["lemmas"].tobytes()
             self._senses = arrays["senses"]
             self._kinds = arrays["kinds"]
             self._sizes = np.bincount(self._kinds, minlength=len(arrays["kinds_of"]))
