@@ -153,22 +153,32 @@ def _relation(noun: str, name: str) -> str:
     groups = _everyday().groups
     if groups.get(noun, frozenset()) & groups.get(name, frozenset()):
         return "everyday"
-    table = nouns()
-    said, named = table.senses(noun, _SENSES), table.senses(name, _SENSES)
-    if not said or not named:
+    said, named = _meanings(noun), _meanings(name)
+    if not said.senses or not named.senses:
         return "strange"
-    if set(said) & set(named):
+    if said.senses & named.senses:
         return "same"
-    for steps, relation in ((_STEPS, "kind"), (_FAR, "far kind")):
-        if any(set(named) & set(table.ancestors(sense, steps)) for sense in said):
+    for reach, relation in ((0, "kind"), (1, "far kind")):
+        if said.above[reach] & named.senses:
             return f"noun is {relation}"
-        if any(set(said) & set(table.ancestors(sense, steps)) for sense in named):
+        if named.above[reach] & said.senses:
             return f"class is {relation}"
-    return "sibling" if _siblings(said, named) else "apart"
+    return "sibling" if said.direct & named.direct else "apart"
 
 
-def _siblings(said: tuple[int, ...], named: tuple[int, ...]) -> bool:
+@dataclass(frozen=True, slots=True)
+class _Meanings:
+    """The first senses of a noun, what they are directly kinds of, and what they are within few and more steps."""
+
+    senses: frozenset[int]
+    direct: frozenset[int]
+    above: tuple[frozenset[int], frozenset[int]]
+
+
+@functools.lru_cache(maxsize=8192)
+def _meanings(noun: str) -> _Meanings:
     table = nouns()
-    above = {kind for sense in said for kind in table.kinds(sense)}
-    shared = above & {kind for sense in named for kind in table.kinds(sense)}
-    return any(table.size(kind) < _COMMON for kind in shared)
+    senses = table.senses(noun, _SENSES)
+    direct = frozenset(kind for sense in senses for kind in table.kinds(sense) if table.size(kind) < _COMMON)
+    few, more = (frozenset(a for s in senses for a in table.ancestors(s, steps)) for steps in (_STEPS, _FAR))
+    return _Meanings(frozenset(senses), direct, (few, more))

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Collection, Mapping, Sequence
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,10 +18,13 @@ from numpy.typing import NDArray
 from dcg_torch.names.evidence import FORMS, KINDS, evidence
 from dcg_torch.names.normal import read_data
 
+Array = NDArray[np.float64]
+
 FACTS = FORMS + KINDS
 WEIGHTS = "weights.yaml"
 _L2 = 0.1
 _STEPS = 100
+_TOLERANCE = 1e-6
 
 
 @functools.cache
@@ -44,42 +47,62 @@ def fit_weights(classes: Sequence[str], meanings: Mapping[str, Collection[str]])
         classes: all classes in view.
         meanings: the classes that each noun may mean, none of them included as an empty collection.
     """
-    column = {fact: k for k, fact in enumerate(FACTS)}
     nouns = sorted(meanings)
-    design = np.zeros((len(nouns), len(classes) + 1, len(FACTS)))
-    meant = np.zeros((len(nouns), len(classes) + 1), dtype=bool)
-    for i, noun in enumerate(nouns):
-        meant[i, -1] = not meanings[noun]
-        for j, name in enumerate(classes):
-            meant[i, j] = name in meanings[noun]
-            design[i, j, [column[fact] for fact in evidence(noun, name)]] = 1.0
+    facts = [[evidence(noun, name) for name in classes] + [()] for noun in nouns]
+    patterns = sorted({one for row in facts for one in row})
+    design = np.array([[fact in pattern for fact in FACTS] for pattern in patterns], dtype=np.float64)
+    number = {pattern: k for k, pattern in enumerate(patterns)}
+    problem = _Problem(
+        design,
+        np.array([[number[one] for one in row] for row in facts]),
+        np.array([[*(name in meanings[noun] for name in classes), not meanings[noun]] for noun in nouns]),
+    )
     weights = np.zeros(len(FACTS))
     for _ in range(_STEPS):
-        loss, gradient, curvature = _derivatives(design, meant, weights)
+        loss, gradient, curvature = problem.derivatives(weights)
         step = np.linalg.solve(curvature, gradient)
-        while np.abs(step).max() > 1e-6 and _derivatives(design, meant, weights - step)[0] > loss:
+        while np.abs(step).max() > _TOLERANCE and problem.derivatives(weights - step)[0] > loss:
             step /= 2.0
         weights -= step
-        if np.abs(step).max() <= 1e-6:
+        if np.abs(step).max() <= _TOLERANCE:
             break
-    return {fact: round(float(weights[column[fact]]), 2) for fact in FACTS}
+    return {fact: round(float(weight), 2) for fact, weight in zip(FACTS, weights, strict=True)}
 
 
-def _derivatives(
-    design: NDArray[Any], meant: NDArray[Any], weights: NDArray[Any]
-) -> tuple[float, NDArray[Any], NDArray[Any]]:
-    """The loss, its gradient, and the curvature of its convex part, which makes every step one downhill."""
-    scores = design @ weights
-    all_, right = _softmax(scores), _softmax(np.where(meant, scores, -np.inf))
-    mean = np.einsum("ij,ijk->ik", all_, design)
-    loss = -np.log((all_ * meant).sum(axis=1)).sum() + _L2 / 2 * weights @ weights
-    gradient = (mean - np.einsum("ij,ijk->ik", right, design)).sum(axis=0) + _L2 * weights
-    weighted = (design * all_[:, :, None]).reshape(-1, design.shape[2])
-    curvature = weighted.T @ design.reshape(weighted.shape) - mean.T @ mean + _L2 * np.eye(len(weights))
-    return float(loss), gradient, curvature
+@dataclass(frozen=True)
+class _Problem:
+    """n nouns, c choices for each, p different sets of facts, f facts.
+
+    Attributes:
+        design: (p, f), the facts of each set.
+        pattern: (n, c), which set of facts holds between a noun and a choice.
+        meant: (n, c), may the noun mean the choice?
+    """
+
+    design: Array
+    pattern: NDArray[np.int64]
+    meant: NDArray[np.bool_]
+
+    def derivatives(self, weights: Array) -> tuple[float, Array, Array]:
+        """The loss, its gradient (f,), and the curvature (f, f) of its convex part, which makes each step downhill."""
+        scores = (self.design @ weights)[self.pattern]
+        all_, right = _softmax(scores), _softmax(np.where(self.meant, scores, -np.inf))
+        loss = -np.log((all_ * self.meant).sum(axis=1)).sum() + _L2 / 2 * weights @ weights
+        share = self._by_pattern(all_)
+        gradient = (share - self._by_pattern(right)).sum(axis=0) @ self.design + _L2 * weights
+        mean = share @ self.design
+        spread = self.design.T @ (share.sum(axis=0)[:, None] * self.design) - mean.T @ mean
+        return float(loss), gradient, spread + _L2 * np.eye(len(weights))
+
+    def _by_pattern(self, values: Array) -> Array:
+        """Values (n, c) summed by pattern: (n, p)."""
+        n, p = len(values), len(self.design)
+        cells = np.arange(n)[:, None] * p + self.pattern
+        sums: Array = np.bincount(cells.ravel(), weights=values.ravel(), minlength=n * p).astype(np.float64)
+        return sums.reshape(n, p)
 
 
-def _softmax(scores: NDArray[Any]) -> NDArray[Any]:
+def _softmax(scores: Array) -> Array:
     weight = np.exp(scores - scores.max(axis=1, keepdims=True))
-    result: NDArray[Any] = weight / weight.sum(axis=1, keepdims=True)
+    result: Array = weight / weight.sum(axis=1, keepdims=True)
     return result
