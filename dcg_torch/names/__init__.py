@@ -12,3 +12,9 @@
 Everything but the reading of the data is a pure function. Nothing is normalised in what a caller keeps: names are
 written out as they came.
 """
+
+from dcg_torch.names.evidence import evidence
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.weights import fact_weights, log_odds
+
+__all__ = ["evidence", "fact_weights", "log_odds", "normalise"]

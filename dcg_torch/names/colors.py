@@ -17,6 +17,7 @@ FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "comp
 """What the columns of `color_features` say; see there."""
 WEIGHTS: Final = (1.0, 1.0, 0.5, 1.0, 1.0, 1.0)
 """The shipped weight of each; they can be learned from use."""
+_VIVID = 60.0  # chroma of a vivid colour
 _TYPICAL = 15.0  # differences of lightness or chroma between patches are measured in this
 
 
@@ -62,7 +63,7 @@ def _term(words: tuple[str, ...], start: int, degree: float) -> tuple[_Term | No
     """The term that begins at a word, and of how many words it is."""
     for length in (3, 2):
         name = normalise(" ".join(words[start : start + length]))
-        if start + length <= len(words) and name in listed_colors() and not degree:
+        if len(name.split(" ")) == length and name in listed_colors() and not degree:
             first = normalise(words[start])
             axes = tuple(color_words().axes.get(first, {}).items()) if first != "gray" else ()
             return _Term("region", region(name), axes), length
@@ -127,8 +128,9 @@ def _of_region(term: _Term, of: Region, colors: Array) -> Array:
         return denied
     hue = np.array([0.0, *of.mean[1:]])
     length = float(np.linalg.norm(hue))
-    # Gray, white and black have no hue: what tends to one is what lies near it.
-    toward = colors @ hue / length if length > 10.0 else -np.linalg.norm(colors - np.array(of.mean), axis=1)
+    # What tends to a hue is what lies near its vivid form; gray, white and black have none, and are it themselves.
+    goal, scale = (hue * (_VIVID / length), (0.0, 1.0, 1.0)) if length > 10.0 else (np.array(of.mean), (1.0, 1.0, 1.0))
+    toward = -np.linalg.norm((colors - goal) * np.array(scale), axis=1)
     result: Array = term.sign * (toward - toward.mean()) / _TYPICAL
     return result
 

@@ -26,7 +26,7 @@ FORMS: Final = (
     "name: none",
 )
 KINDS: Final = (
-    "kind: everyday",  # two names of one thing, in the list of this project
+    "kind: everyday",  # two names of one thing: equal, or in the list of this project
     "kind: same",  # a synset in common among the first senses
     "kind: noun is kind",  # "armchair" for a chair
     "kind: class is kind",  # "fruit" for an apple
@@ -48,7 +48,7 @@ _COMMON = 400
 
 @dataclass(frozen=True, slots=True)
 class _Name:
-    """A name in parts: all its words in the singular, the head last."""
+    """A name in parts: its words in the singular, the head last; and written as one, to compare by."""
 
     words: tuple[str, ...]
     text: str
@@ -85,7 +85,7 @@ def _name(name: str) -> _Name:
         before, after = words[: head + 1], words[head + 2 :]
         words = (*after, *before) if words[head + 1] == "of" else (*before[:-1], before[-1])
     words = tuple(w if w == "glasses" else singular(w) for w in words)
-    return _Name(words, " ".join(words), "".join(words))
+    return _Name(words, " ".join(words), "".join(w.removesuffix("s") if w != "glasses" else w for w in words))
 
 
 def _split(word: str) -> tuple[str, ...]:
@@ -113,7 +113,7 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     form = _form(said, named)
     if form == "name: generic":
         return (form,)
-    return form, "kind: same" if form == "name: equal" else _kind(said, named)
+    return form, "kind: everyday" if form == "name: equal" else _kind(said, named)
 
 
 def _form(said: _Name, named: _Name) -> str:
