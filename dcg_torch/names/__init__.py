@@ -1,0 +1,20 @@
+"""What the names that a recogniser gives say about the words that people use: nouns, colours, values of attributes.
+
+    normal      one normal form for each name
+    wordnet     the table: synonyms, and what is a kind of what
+    evidence    facts that hold between a noun and a class name
+    weights     how much each fact tells
+    attributes  facts between words and the attributes of an object
+    colors      colour words as regions of CIELAB; facts between a colour word and the name of a colour
+    embedding   cosines of a sentence embedding (the extra `embeddings`)
+    build       makes the table and the weights
+
+Everything but the reading of the data is a pure function. Nothing is normalised in what a caller keeps: names are
+written out as they came.
+"""
+
+from dcg_torch.names.evidence import evidence
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.weights import fact_weights, log_odds
+
+__all__ = ["evidence", "fact_weights", "log_odds", "normalise"]

