@@ -165,7 +165,7 @@ def test_the_ablation_compares_the_four_variants(tmp_path: Path, capsys: pytest.
     assert status == 0, err
     variants = ["dcg", "dcg_upup", "dcg_upup_away", "dcg_upup_away_color"]
     assert sorted(p.name for p in tmp_path.iterdir() if p.is_dir()) == [f"model={v}" for v in variants]
-    compared = out[out.index("Runs compared") :]
+    compared = out[out.index("Configurations compared") : out.index("Differences on")]
     assert [line.split()[0] for line in compared.splitlines() if line.strip().startswith("dcg")] == variants
 
 
