@@ -71,7 +71,7 @@ def test_hparams_are_what_varies(tmp_path: Path) -> None:
         "hydra: {job: {config: {override_dirname: {exclude_keys: [color_rate, workers]}}}}"
     )
     write_board(folder, [NOTHING], [], varied_settings(folder))
-    assert hparams_of(folder) == {"model": "dcg", "seed": 3.0, "model.l2": "1e-4", "known": "['cube']"}
+    assert hparams_of(folder) == {"model": "dcg", "seed": 3.0, "model.l2": 1e-4, "known": "[cube]"}
     assert varied_settings(tmp_path / "nowhere") == {}
 
 

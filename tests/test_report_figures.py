@@ -129,7 +129,7 @@ def test_shares_of_few_commands_rest_on_their_neighbours() -> None:
     assert min(y for x, y in band.get_paths()[0].vertices if x == 1) == pytest.approx(low)
 
 
-@pytest.mark.parametrize("rows", [[row()], [NOTHING], run(1, 120), run(2, 1)], ids=["one", "nothing", "long", "two"])
+@pytest.mark.parametrize("rows", [[row()], [NOTHING], run(1, 120)], ids=["one", "nothing", "long"])
 def test_text_of_odd_runs_lies_within_the_figure(rows: list[Iteration]) -> None:
     measures = measure(rows)
     drawn = [
@@ -201,6 +201,13 @@ def test_curves_that_coincide_differ_in_looks(tmp_path: Path) -> None:
 def test_the_paper_s_range_is_drawn_where_all_runs_follow_it(tmp_path: Path) -> None:
     assert "the paper's range" in texts(compare(tmp_path / "paper", 2, 1, **PAPER))
     assert "paper" not in texts(compare(tmp_path / "custom", 2, 1, **{**PAPER, "worlds": "my/worlds"}))
+
+
+def test_a_name_is_no_formula(tmp_path: Path) -> None:
+    for name in (r"$\frac$", "b"):
+        folder = write_run(tmp_path / name.strip("$\\"), run(1, 2), model=name)
+        save_figure(draw_comparison(configurations(load_runs([folder]))), tmp_path / "x.png")
+    assert "$" in texts(draw_comparison(configurations(load_runs([tmp_path]))))
 
 
 def test_nothing_to_compare_is_refused() -> None:

@@ -141,6 +141,15 @@ def test_what_only_names_a_run_may_be_damaged(
     assert "1 command in 1 trial" in capsys.readouterr().out
 
 
+def test_names_from_files_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for k, name in enumerate(("a\x1b[31m", "b\n[red]c")):
+        write_run(tmp_path / str(k), [row()], model=name)
+    assert main([str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "\x1b" not in out
+    assert "b [red]c" in out
+
+
 # --- tables
 
 

@@ -13,6 +13,7 @@ from dcg_torch.report.export import to_csv
 from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.show import print_run, print_several, save_run_figures, save_several_figure
 from dcg_torch.report.summary import ReportError, write_whole
+from dcg_torch.report.text import printable
 
 _FORMATS = ("png", "pdf", "svg")  # canvas.FORMATS: matplotlib is imported only where figures are asked for
 
@@ -50,7 +51,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except ReportError as error:
         return _refuse(str(error))
     except OSError as error:
-        return _refuse(f"{error.filename}: can't be written ({error.strerror}); give another place")
+        return _refuse(f"{error.filename or 'a file'}: can't be written ({error.strerror}); give another place")
     return 0
 
 
@@ -95,8 +96,7 @@ def _write(runs: Sequence[Run], options: argparse.Namespace) -> list[Path]:
 
 def _refuse(message: str) -> int:
     """Say what is wrong in one line without escapes; the exit status."""
-    printable = "".join(c if c.isprintable() else "?" for c in " ".join(message.split()))
-    print(f"error: {printable}", file=sys.stderr)
+    print(f"error: {printable(message)}", file=sys.stderr)
     return 2
 
 

@@ -10,7 +10,6 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from PIL import Image
 from tensorboard.compat.proto.summary_pb2 import Summary  # type: ignore[import-untyped]
@@ -60,7 +59,7 @@ def write_board(
     directory: Path,
     rows: Sequence[Iteration],
     timings: Sequence[Timing],
-    hparams: Mapping[str, Any],
+    hparams: Mapping[str, bool | int | float | str],
     figures: Iterable[Path] = (),
 ) -> None:
     """Write a run's event file into `directory`, in place of one that an earlier call left there.
@@ -70,7 +69,7 @@ def write_board(
         rows: the run's rows, as for `measure`.
         timings: the wall-clock times; may be empty.
         hparams: settings for the HPARAMS tab: those in which this run may differ from others beside it
-            (`runs.varied_settings`), since a column of constants tells nothing. Other than plain values become text.
+            (`runs.varied_settings`), since a column of constants tells nothing.
         figures: PNG files, shown under their names.
 
     Raises:
@@ -87,8 +86,7 @@ def write_board(
         for tag, value in values.items():
             writer.add_scalar(tag, value, measures.by_iteration[-1].iteration + 1)
         # `SummaryWriter.add_hparams` would open a second run in a subfolder.
-        settings = {key: _setting(value) for key, value in hparams.items()}
-        for summary in hparams_summaries(settings, values):  # type: ignore[no-untyped-call]
+        for summary in hparams_summaries(dict(hparams), values):  # type: ignore[no-untyped-call]
             writer.file_writer.add_summary(summary)
         writer.add_custom_scalars(_LAYOUT)
         writer.add_text("about", ABOUT)
@@ -163,10 +161,6 @@ def _run_values(measures: Measures, timings: Sequence[Timing]) -> dict[str, floa
         "run/seconds_per_command": summarise_seconds(timings).get("command"),
     }
     return {tag: float(value) for tag, value in values.items() if value is not None}
-
-
-def _setting(value: Any) -> bool | int | float | str:
-    return value if isinstance(value, (bool, int, float, str)) else str(value)
 
 
 def _image(path: Path) -> Summary:

@@ -6,6 +6,7 @@ any colour vision.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Final
@@ -18,6 +19,7 @@ from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import Measures
+from dcg_torch.report.summary import write_whole
 
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY = (
     "#0072B2",
@@ -51,7 +53,7 @@ def style_axes(axes: Axes) -> None:
 
 
 def save_figure(figure: Figure, path: Path) -> Path:
-    """Write the figure in the format of the path's suffix, making its folder, and return the path.
+    """Write the figure whole, in the format of the path's suffix, making its folder, and return the path.
 
     The file holds no date: the same figure gives the same bytes.
 
@@ -62,10 +64,11 @@ def save_figure(figure: Figure, path: Path) -> Path:
     form = path.suffix.removeprefix(".")
     if form not in FORMATS:
         raise ValueError(f"{path}: figures are written as {', '.join(FORMATS)}")
-    path.parent.mkdir(parents=True, exist_ok=True)
+    drawn = io.BytesIO()
     # Text stays text in a PDF, and an SVG's ids don't change from run to run.
     with mpl.rc_context({"pdf.fonttype": 42, "svg.hashsalt": "dcg_torch"}):
-        figure.savefig(path, dpi=DPI, metadata=_UNDATED[form])
+        figure.savefig(drawn, format=form, dpi=DPI, metadata=_UNDATED[form])
+    write_whole(path, drawn.getvalue())
     return path
 
 

@@ -114,7 +114,7 @@ def _draw_bar(axes: Axes, configuration: Configuration, k: int) -> None:
 
 def _finish_bars(axes: Axes, names: Sequence[str]) -> None:
     axes.set_title("all commands; ticks: single seeds", fontsize=10)
-    axes.set_yticks(range(len(names)), names, fontsize=9)
+    axes.set_yticks(range(len(names)), names, fontsize=9, parse_math=False)  # a name may hold dollar signs
     axes.tick_params(axis="y", length=0)
     axes.set_ylim(len(names) - 0.4, -0.6)
     axes.set_xlim(-0.15, 1.24)

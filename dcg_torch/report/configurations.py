@@ -16,6 +16,7 @@ from dcg_torch.report.intervals import Estimate, mean_over_trials
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.runs import NO_EFFECT, Run
 from dcg_torch.report.summary import flatten
+from dcg_torch.report.text import printable
 
 _Key = tuple[int | None, int, int]
 
@@ -126,14 +127,14 @@ def _names(groups: Sequence[Sequence[Run]]) -> list[str]:
         told = [name.removeprefix("model=") for name in told]
     names = [name or group[0].name for name, group in zip(told, groups, strict=True)]
     if len(set(names)) < len(names):
-        names = [str(group[0].folder) for group in groups]
+        names = [printable(str(group[0].folder)) for group in groups]
     return names
 
 
 def _differences(settings: Sequence[Mapping[str, Any]], without: Sequence[str]) -> list[str]:
     keys = [key for key in dict.fromkeys(key for setting in settings for key in setting) if key not in without]
     differing = [key for key in keys if len({repr(setting.get(key)) for setting in settings}) > 1]
-    return [" ".join(f"{key}={setting[key]}" for key in differing if key in setting) for setting in settings]
+    return [printable(" ".join(f"{key}={setting[key]}" for key in differing if key in setting)) for setting in settings]
 
 
 def _measure_together(runs: Sequence[Run]) -> Measures:

@@ -19,6 +19,7 @@ from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
+from dcg_torch.report.text import printable
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
 NO_EFFECT = ("name", "trials", "workers", "animate", "figures", "tensorboard", "screenshots")
@@ -77,7 +78,7 @@ def load_run(directory: Path) -> Run:
     else:
         name, config = f"{directory.resolve().name} (unfinished)", _settings(directory)
         seconds = summarise_seconds(read_timings(directory))
-    return Run(directory, name, config, given_overrides(directory), tuple(rows), seconds, measures)
+    return Run(directory, printable(name), config, given_overrides(directory), tuple(rows), seconds, measures)
 
 
 def find_runs(directory: Path) -> list[Path]:
@@ -153,14 +154,14 @@ def given_overrides(directory: Path) -> dict[str, str] | None:
         return None
     hydra: Any = _yaml(directory / ".hydra" / "hydra.yaml")
     try:
-        shared = set(map(str, hydra["hydra"]["job"]["config"]["override_dirname"]["exclude_keys"]))
+        shared = set(hydra["hydra"]["job"]["config"]["override_dirname"]["exclude_keys"])
     except (KeyError, TypeError):
         shared = set()
-    pairs = (str(line).lstrip("+").split("=", 1) for line in listed if "=" in str(line))
+    pairs = (line.lstrip("+").split("=", 1) for line in listed if isinstance(line, str) and "=" in line)
     return {key: value for key, value in pairs if key not in shared}
 
 
-def varied_settings(directory: Path) -> dict[str, Any]:
+def varied_settings(directory: Path) -> dict[str, bool | int | float | str]:
     """In what a run may differ from those beside it: its overrides but for `NO_EFFECT` and what its sweep shares.
 
     Numbers and truth values are read as such, so that they can be sorted and filtered.
@@ -169,17 +170,21 @@ def varied_settings(directory: Path) -> dict[str, Any]:
     return {key: _value(text) for key, text in given.items() if key not in NO_EFFECT}
 
 
-def _value(text: str) -> Any:
-    try:
-        return yaml.safe_load(text)
-    except (ValueError, yaml.YAMLError, RecursionError):
-        return text
+def _value(text: str) -> bool | int | float | str:
+    if text.lower() in ("true", "false"):
+        return text.lower() == "true"
+    for number in (int, float):
+        try:
+            return number(text)
+        except ValueError:
+            continue
+    return text
 
 
 def _settings(directory: Path) -> dict[str, Any]:
     try:
         values = json.loads((directory / SETTINGS).read_bytes())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     return values if isinstance(values, dict) else {}
 

@@ -46,8 +46,8 @@ def write_summary(
     write_whole(path, text)
 
 
-def write_whole(path: Path, text: str) -> None:
-    """Write a text file in a single step, making its folder, so that no reader meets half of it.
+def write_whole(path: Path, content: bytes | str) -> None:
+    """Write a file in a single step, making its folder, so that no reader meets half of it. Text becomes UTF-8.
 
     Raises:
         OSError: if it can't be written.
@@ -55,7 +55,7 @@ def write_whole(path: Path, text: str) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
     try:
-        temporary.write_text(text, encoding="utf-8")
+        temporary.write_bytes(content if isinstance(content, bytes) else content.encode())
         os.replace(temporary, path)
     finally:
         temporary.unlink(missing_ok=True)

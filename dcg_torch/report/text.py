@@ -42,6 +42,11 @@ def counted(count: int, noun: str) -> str:
     return f"{count:,} {noun}" if count == 1 else f"{count:,} {noun}s"
 
 
+def printable(text: str) -> str:
+    """One line without control characters: names from files must not steer the terminal."""
+    return "".join(c if c.isprintable() else "?" for c in " ".join(text.split()))
+
+
 def _bounds(estimate: Estimate, form: str, unit: float) -> str:
     if estimate.low is None or estimate.high is None:
         return ""

@@ -17,6 +17,7 @@ from dcg_torch.report.canvas import BLUE, GREY, new_canvas, percent_axis, save_f
 from dcg_torch.report.measures import Measures
 from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.summary import ReportError, flatten
+from dcg_torch.report.text import printable
 
 WANTED = (0.15, 0.99)
 """At most so many questions a command, at least so accurate: the goal that is drawn."""
@@ -66,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         runs = {_threshold(run): run.measures for run in load_runs(options.directories)}
         print(save_figure(draw_trade_off(runs), options.out))
     except (ValueError, OSError) as error:  # a ReportError is a ValueError
-        print(f"error: {error}", file=sys.stderr)
+        print(f"error: {printable(str(error))}", file=sys.stderr)
         return 2
     return 0
 
