@@ -67,17 +67,20 @@ def _report(settings: Settings, directory: Path, console: Console, began: float 
     from dcg_torch.experiment.runner import lexicon_of, read_run
     from dcg_torch.report import tables
     from dcg_torch.report.measures import measure
+    from dcg_torch.report.paper import follows_paper
+    from dcg_torch.report.runs import varied_settings
     from dcg_torch.report.seconds import summarise_seconds
     from dcg_torch.report.summary import ReportError, read_summary, write_summary
 
     rows, timings = read_run(directory)
     measures = measure(rows)
     seconds = summarise_seconds(timings)
+    beside_paper = follows_paper(asdict(settings))
     figures: list[Path] = []
     if settings.figures:
         from dcg_torch.report.figures import save_figures
 
-        figures = save_figures(rows, timings, directory / "figures")
+        figures = save_figures(rows, timings, directory / "figures", beside_paper=beside_paper)
     if settings.screenshots:
         from dcg_torch.watch.pictures import save_screenshots
 
@@ -85,7 +88,7 @@ def _report(settings: Settings, directory: Path, console: Console, began: float 
     if settings.tensorboard:
         from dcg_torch.report.board import write_board
 
-        write_board(directory, rows, timings, asdict(settings), figures)
+        write_board(directory, rows, timings, varied_settings(directory), figures)
     summary = directory / "summary.json"
     if began is not None:
         seconds["wall"] = time.perf_counter() - began
@@ -93,7 +96,7 @@ def _report(settings: Settings, directory: Path, console: Console, began: float 
         with contextlib.suppress(ReportError):  # there may be none yet, if it was interrupted after its last trial
             seconds["wall"] = read_summary(summary).seconds["wall"]
     write_summary(summary, directory.name, asdict(settings), measures, seconds)
-    tables.print_paper_table(measures, console, seconds)
+    tables.print_measures(measures, console, seconds, beside_paper=beside_paper)
     tables.print_iterations(measures, console)
     tables.print_errors(measures, console)
     if (last := lexicon_of(directory, settings.trials - 1)).exists():

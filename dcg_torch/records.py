@@ -13,7 +13,7 @@ Kind = Literal["known", "unknown", "learned"]
 
 
 class _Record(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 class PoseRecord(_Record):
@@ -54,8 +54,8 @@ class Iteration(_Record):
     in_view: tuple[str, ...]  # ids seen from the start pose
     known_types: tuple[str, ...]  # before the trial began
     target: str
-    grounded: str | None  # the object the robot went to
-    correct: bool
+    grounded: str | None  # the object the robot went to; None also after an order to keep away
+    correct: bool  # it went to the object meant, or left the surroundings of the one that it was to keep away from
     kind: Kind  # what the target's word was to the robot when it heard it
     probability: float | None  # of the grounding; None without one
     asked: int
@@ -79,7 +79,9 @@ class Iteration(_Record):
 
 
 class Timing(_Record):
-    """Wall-clock seconds of one command, and the size of what was trained."""
+    """Wall-clock seconds of one command, and the size of what was trained. Losses may be infinite."""
+
+    model_config = ConfigDict(allow_inf_nan=True)
 
     trial: int
     iteration: int

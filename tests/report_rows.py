@@ -1,13 +1,18 @@
-"""Rows for the tests of the report: one made by hand with defaults, or whole runs of a simple make-believe robot."""
+"""For the tests of the report: rows made by hand, runs of a simple make-believe robot, and run folders of both."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
+from dcg_torch.report.measures import measure
+from dcg_torch.report.seconds import summarise_seconds
+from dcg_torch.report.summary import write_summary
 
 KNOWN = ("cube", "cylinder", "sphere")
 NEW = ("door handle", "drill", "fire hydrant", "mailbox", "traffic cone")
@@ -151,6 +156,33 @@ def timings(rows: list[Iteration], seed: int = 0) -> list[Timing]:
         )
         for r in rows
     ]
+
+
+PAPER: dict[str, Any] = {
+    "worlds": "committed",
+    "speaker": "canonical",
+    "order": "drawn",
+    "iterations": 10,
+    "types": 8,
+    "colors": 3,
+    "object_rate": 0.15,
+}
+"""Settings by which a run is the paper's experiment."""
+
+
+def write_run(
+    folder: Path, rows: Sequence[Iteration], *, overrides: Sequence[str] | None = None, **config: Any
+) -> Path:
+    """A finished run folder with these rows and settings, and Hydra's list of overrides if any; the folder."""
+    times = timings(list(rows))
+    config = {"seed": 0, **config}
+    write_summary(folder / "summary.json", folder.name, config, measure(rows), summarise_seconds(times))
+    for name, lines in (("iterations", rows), ("timings", times)):
+        (folder / f"{name}.jsonl").write_text("".join(line.model_dump_json() + "\n" for line in lines))
+    if overrides is not None:
+        (folder / ".hydra").mkdir(exist_ok=True)
+        (folder / ".hydra" / "overrides.yaml").write_text("".join(f"- {line}\n" for line in overrides))
+    return folder
 
 
 def _world(rng: np.random.Generator) -> tuple[ObjectRecord, ...]:

@@ -18,6 +18,7 @@ from dcg_torch.__main__ import main
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.runner import ITERATIONS, PARTS, TIMINGS, part_of
 from dcg_torch.report.__main__ import main as report
+from dcg_torch.report.runs import varied_settings
 
 QUICK = ("simulator=fake", "workers=1", "trials=2", "iterations=2", "speaker=canonical", "figures=false")
 PLAIN = (*QUICK, "tensorboard=false")
@@ -120,7 +121,7 @@ def test_a_finished_run_is_reported_again_with_its_own_wall_time(
     for _ in range(2):
         status, out, _ = run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")
         assert status == 0
-        tables.append(out[out.index("The paper's figures") :])
+        tables.append(out[out.index("This run") :])
     before = contents(tmp_path)
     assert tables[0] == tables[1]
     assert run(capsys, *PLAIN, f"hydra.run.dir={tmp_path}")[0] == 0
@@ -151,7 +152,8 @@ def test_a_sweep_has_a_folder_and_curves_for_each_run(tmp_path: Path, capsys: py
     assert folders == ["model=dcg,seed=0", "model=dcg,seed=1", "model=dcg_upup,seed=0", "model=dcg_upup,seed=1"]
     for name in folders:
         assert len(list((tmp_path / name).glob("events.out.tfevents*"))) == 1
-        assert (tmp_path / name / ".hydra" / "overrides.yaml").is_file()
+        model, seed = (part.partition("=")[2] for part in name.split(","))
+        assert varied_settings(tmp_path / name) == {"model": model, "seed": int(seed)}
         assert f"model={name.split(',')[0].removeprefix('model=')} {name.split(',')[1]}" in out
     assert (tmp_path / "comparison.png").stat().st_size > 10_000
     assert report([str(tmp_path)]) == 0
@@ -165,7 +167,7 @@ def test_the_ablation_compares_the_four_variants(tmp_path: Path, capsys: pytest.
     assert status == 0, err
     variants = ["dcg", "dcg_upup", "dcg_upup_away", "dcg_upup_away_color"]
     assert sorted(p.name for p in tmp_path.iterdir() if p.is_dir()) == [f"model={v}" for v in variants]
-    compared = out[out.index("Runs compared") :]
+    compared = out[out.index("Configurations compared") : out.index("Differences on")]
     assert [line.split()[0] for line in compared.splitlines() if line.strip().startswith("dcg")] == variants
 
 

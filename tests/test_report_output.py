@@ -1,4 +1,4 @@
-"""Figures, TensorBoard, summaries, tables and the command line."""
+"""Run folders, summaries, tables and the command line of the report."""
 
 from __future__ import annotations
 
@@ -8,153 +8,27 @@ import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-import matplotlib as mpl
-import numpy as np
 import pytest
-from PIL import Image
-from report_rows import row, run, timing, timings
+from report_rows import PAPER, row, run, timings, write_run
 from rich.console import Console
-from rich.table import Table
-from tensorboard.backend.event_processing.event_accumulator import (  # type: ignore[import-untyped]
-    STORE_EVERYTHING_SIZE_GUIDANCE,
-    EventAccumulator,
-)
 
 from dcg_torch.records import Iteration
-from dcg_torch.report import figures
 from dcg_torch.report.__main__ import main
-from dcg_torch.report.board import write_board
 from dcg_torch.report.measures import measure
-from dcg_torch.report.seconds import PHASES, summarise_seconds
-from dcg_torch.report.summary import ReportError, find_runs, load_run, read_rows, read_summary, write_summary
-from dcg_torch.report.tables import print_comparison, print_errors, print_iterations, print_paper_table, tabulate_sweep
+from dcg_torch.report.paper import follows_paper
+from dcg_torch.report.runs import find_runs, load_run, load_runs, read_rows
+from dcg_torch.report.seconds import summarise_seconds
+from dcg_torch.report.show import print_several
+from dcg_torch.report.summary import read_summary, write_summary
+from dcg_torch.report.tables import print_errors, print_iterations, print_measures
 
-NAMES = ["accuracy", "symbols", "shares", "errors", "calibration"]
 NOTHING = row(correct=False, chosen=None, arrived=None, probability=None, grounded=None)
 
 
-def written(directory: Path, name: str = "paper", **config: Any) -> Path:
-    rows = run(3, 4)
-    path = directory / "summary.json"
-    write_summary(path, name, {"seed": 0, **config}, measure(rows), summarise_seconds(timings(rows)), wall=1.5)
-    return path
-
-
-def text_of(width: int = 140) -> tuple[Console, io.StringIO]:
+def text_of(width: int = 100) -> tuple[Console, io.StringIO]:
     buffer = io.StringIO()
     return Console(file=buffer, width=width), buffer
-
-
-# --- figures
-
-
-def test_figures_are_written_and_show_something(tmp_path: Path) -> None:
-    before = {k: v for k, v in mpl.rcParams.items() if k != "backend"}  # resolved on being looked at
-    rows = run(4, 3)
-    paths = figures.save_figures(rows, timings(rows), tmp_path / "figures")
-    assert [p.stem for p in paths] == [*NAMES, "time"]
-    for path in paths:
-        with Image.open(path) as image:
-            assert min(image.size) >= 375
-            assert len(np.unique(np.asarray(image.convert("L")))) > 20
-    assert {k: v for k, v in mpl.rcParams.items() if k != "backend"} == before
-
-
-@pytest.mark.parametrize("rows", [[row()], [NOTHING], run(1, 120), run(2, 1)], ids=["one", "nothing", "long", "two"])
-def test_figures_of_odd_runs(rows: list[Iteration], tmp_path: Path) -> None:
-    assert [p.stem for p in figures.save_figures(rows, [], tmp_path)] == NAMES
-
-
-def test_accuracy_figure_draws_the_measured_values() -> None:
-    measures = measure([row(t, i, correct=t >= i) for t in range(4) for i in range(3)])
-    axes = figures.draw_accuracy(measures).axes[0]
-    curve = next(line for line in axes.lines if line.get_label() == "right object")
-    np.testing.assert_allclose(np.asarray(curve.get_xydata(), np.float64), np.array([[1, 1], [2, 0.75], [3, 0.5]]))
-
-
-def test_symbols_figure_starts_at_what_was_known() -> None:
-    axes = figures.draw_symbols(measure(run(5, 4))).axes[0]
-    for label in ("types named rightly", "if all met were learned"):
-        curve = next(line for line in axes.lines if line.get_label() == label)
-        assert tuple(np.asarray(curve.get_xydata())[0]) == (0, 3)
-
-
-def test_long_runs_are_rolling_means() -> None:
-    # 100 commands, right from the 51st on; windows of 5 are cut at the ends.
-    measures = measure([row(0, i, correct=i >= 50) for i in range(100)])
-    axes = figures.draw_accuracy(measures).axes[0]
-    curve = next(line for line in axes.lines if line.get_label() == "right object (mean of 5)")
-    y = np.asarray(curve.get_ydata())
-    assert y[0] == 0
-    assert y[-1] == 1
-    np.testing.assert_allclose(y[47:53], [0, 0.2, 0.4, 0.6, 0.8, 1])
-
-
-def test_comparison_of_runs(tmp_path: Path) -> None:
-    runs = {name: measure(run(3, 4, skill=skill)) for name, skill in (("a", 0.5), ("b", 1.0))}
-    assert figures.save_comparison(runs, tmp_path / "new" / "comparison.png").is_file()
-    figures.draw_comparison({"long": measure(run(1, 60)), "one": measure([row()])})
-    with pytest.raises(ValueError, match="no runs"):
-        figures.draw_comparison({})
-
-
-# --- TensorBoard
-
-
-def read_board(directory: Path) -> Any:
-    events = EventAccumulator(str(directory), size_guidance=STORE_EVERYTHING_SIZE_GUIDANCE)
-    events.Reload()
-    return events
-
-
-def test_board_reads_back(tmp_path: Path) -> None:
-    rows = run(4, 3)
-    times = [timing(r.trial, r.iteration, train=0.1 * (r.trial + 1), train_loss=float(r.iteration)) for r in rows]
-    paths = figures.save_figures(rows, times, tmp_path / "figures")
-    hparams = {"model": {"name": "dcg", "l2": 1e-4}, "seed": 3, "known": ["cube"], "gui": False, "nothing": None}
-    write_board(tmp_path, rows, times, hparams, paths)
-    write_board(tmp_path, rows, times, hparams, paths)  # again, as after a rerun: nothing doubles
-    assert len(list(tmp_path.rglob("*tfevents*"))) == 1
-    events, measures = read_board(tmp_path), measure(rows)
-
-    def curve(tag: str) -> dict[int, float]:
-        scalars = events.Scalars(tag)
-        found = {s.step: s.value for s in scalars}
-        assert len(found) == len(scalars)
-        return found
-
-    expected = {m.iteration: m.accuracy.value for m in measures.by_iteration}
-    assert curve("accuracy/all") == pytest.approx(expected)
-    assert curve("symbols/expected") == pytest.approx({m.iteration: m.expected_symbols for m in measures.by_iteration})
-    assert curve("seconds/train") == pytest.approx(dict.fromkeys(range(3), 0.25))  # mean of 0.1, 0.2, 0.3, 0.4
-    assert curve("training/loss") == {0: 0.0, 1: 1.0, 2: 2.0}
-    assert curve("run/accuracy") == pytest.approx({0: measures.accuracy.value})
-    tags = set(events.Tags()["scalars"])
-    assert {f"seconds/{phase}" for phase in PHASES} <= tags
-    assert {"training/steps", "features/language_columns", "effort/questions", "symbols/right"} <= tags
-    assert set(events.Tags()["images"]) == {f"figures/{p.stem}" for p in paths}
-    assert events.Images("figures/accuracy")[0].encoded_image_string == paths[0].read_bytes()
-    assert "custom_scalars__config__" in events.Tags()["tensors"]
-
-    from tensorboard.plugins.hparams.plugin_data_pb2 import HParamsPluginData  # type: ignore[import-untyped]
-
-    content = events.SummaryMetadata("_hparams_/session_start_info").plugin_data.content
-    settings = HParamsPluginData.FromString(content).session_start_info.hparams
-    assert settings["model.name"].string_value == "dcg"
-    assert settings["seed"].number_value == 3
-    assert settings["known"].string_value == "['cube']"
-    assert settings["nothing"].string_value == "None"
-
-
-def test_board_leaves_others_files_alone(tmp_path: Path) -> None:
-    other = tmp_path / "events.out.tfevents.1.elsewhere"
-    other.write_bytes(b"")
-    write_board(tmp_path / "new", [NOTHING], [], {})
-    write_board(tmp_path, [NOTHING], [timing(train_loss=float("nan"))], {})
-    assert other.is_file()
-    assert "training/loss" not in read_board(tmp_path).Tags()["scalars"]
 
 
 # --- summary.json
@@ -162,20 +36,23 @@ def test_board_leaves_others_files_alone(tmp_path: Path) -> None:
 
 def test_summary_round_trip(tmp_path: Path) -> None:
     rows = run(3, 4)
-    summary = read_summary(written(tmp_path / "deep" / "run", model={"name": "dcg"}))
+    folder = write_run(tmp_path / "deep" / "paper", rows, model={"name": "dcg"})
+    summary = read_summary(folder / "summary.json")
     assert summary.run == "paper"
     assert summary.config == {"seed": 0, "model": {"name": "dcg"}}
-    assert summary.measures == measure(rows)
     assert summary.seconds == pytest.approx(summarise_seconds(timings(rows)))
-    assert summary.model_extra == {"wall": 1.5}
+    written = json.loads((folder / "summary.json").read_text())["measures"]
+    assert written["accuracy"]["value"] == measure(rows).accuracy.value
+    assert len(written["by_iteration"]) == 4
+    loaded = load_run(folder)
+    assert (loaded.measures, loaded.rows, loaded.seed, loaded.overrides) == (measure(rows), tuple(rows), 0, None)
 
 
 def test_a_failed_write_leaves_the_old_summary(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = written(tmp_path)
+    path = write_run(tmp_path, [row()]) / "summary.json"
     before = path.read_bytes()
-    measures = replace(measure([row()]), path_length=float("nan"))
     with pytest.raises(ValueError, match="not JSON compliant"):
-        write_summary(path, "new", {}, measures, {})
+        write_summary(path, "new", {}, replace(measure([row()]), path_length=float("nan")), {})
     with pytest.raises(TypeError):
         write_summary(path, "new", {"folder": tmp_path}, measure([row()]), {})
 
@@ -183,23 +60,14 @@ def test_a_failed_write_leaves_the_old_summary(tmp_path: Path, monkeypatch: pyte
         raise KeyboardInterrupt
 
     monkeypatch.setattr("os.replace", die)
+    files = sorted(tmp_path.iterdir())
     with pytest.raises(KeyboardInterrupt):
         write_summary(path, "new", {}, measure([row()]), {})
     assert path.read_bytes() == before
-    assert list(tmp_path.iterdir()) == [path]
+    assert sorted(tmp_path.iterdir()) == files
 
 
-@pytest.mark.parametrize(
-    ("content", "says"), [("{", "the file"), ("{}", "run: Field required"), ('{"run": 3}', "run: Input should be")]
-)
-def test_a_broken_summary_is_named(content: str, says: str, tmp_path: Path) -> None:
-    path = tmp_path / "summary.json"
-    path.write_text(content)
-    with pytest.raises(ReportError, match="run the experiment again") as caught:
-        read_summary(path)
-    assert says in str(caught.value)
-    assert str(path) in str(caught.value)
-    assert "\n" not in str(caught.value)
+# --- run folders
 
 
 def test_rows_of_a_killed_run(tmp_path: Path) -> None:
@@ -209,39 +77,120 @@ def test_rows_of_a_killed_run(tmp_path: Path) -> None:
     path.write_text(lines + lines[:100])  # killed while it wrote the next line
     assert read_rows(path) == rows
     assert load_run(tmp_path).measures == measure(rows)
-    path.write_text("{}\n" + lines)
-    with pytest.raises(ReportError, match=r"iterations\.jsonl:1: trial: Field required"):
-        read_rows(path)
-    path.write_text("")
-    with pytest.raises(ReportError, match="no finished command"):
-        load_run(tmp_path)
+    assert load_run(tmp_path).name == f"{tmp_path.name} (unfinished)"
+
+
+def test_runs_are_found_by_size_of_their_numbers(tmp_path: Path) -> None:
+    for seed in (10, 9, 1):
+        write_run(tmp_path / "sweep" / f"seed={seed}", [row()], seed=seed)
+    assert [p.name for p in find_runs(tmp_path)] == ["seed=1", "seed=9", "seed=10"]
+    assert [r.seed for r in load_runs([tmp_path, tmp_path / "sweep"])] == [1, 9, 10]
+
+
+LINE = row().model_dump_json()
+DAMAGED = [
+    ("summary.json", b"{", "summary.json: the file: "),
+    ("summary.json", b"{}", "summary.json: run: Field required; run the experiment again"),
+    ("summary.json", b'{"run": 3}', "summary.json: run: Input should be"),
+    ("summary.json", b"\xff\xfe\x00", "summary.json: the file: "),
+    ("summary.json", None, "summary.json: can't be read (Is a directory)"),
+    ("iterations.jsonl", b"{}\n", "iterations.jsonl:1: trial: Field required; mend or remove the line"),
+    ("iterations.jsonl", LINE.encode() + b"\n\x00\xff\x1b[31m\n", "iterations.jsonl:2: the line: "),
+    ("iterations.jsonl", LINE.encode() + b"\n" + LINE[:80].encode() + b"\n", "iterations.jsonl:2: the line: "),
+    ("iterations.jsonl", f"{LINE}\n{LINE}\n".encode(), "iterations.jsonl: trial 0, iteration 0 comes twice"),
+    ("iterations.jsonl", LINE.replace('"target":"c"', '"target":"z"').encode() + b"\n", "'z' is not among"),
+    ("iterations.jsonl", LINE.replace("0.9", "NaN").encode() + b"\n", "iterations.jsonl:1: probability: "),
+    ("iterations.jsonl", LINE.replace("0.9", "7.5").encode() + b"\n", "a probability is not between 0 and 1"),
+    ("iterations.jsonl", b"", "iterations.jsonl: no finished command in it; run the experiment on"),
+    ("iterations.jsonl", None, "iterations.jsonl: can't be read (Is a directory)"),
+]
+
+
+@pytest.mark.parametrize(("name", "content", "says"), DAMAGED)
+def test_a_damaged_folder_is_one_line(
+    name: str, content: bytes | None, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = write_run(tmp_path / "run", [row()])
+    (folder / name).unlink()
+    if content is None:
+        (folder / name).mkdir()
+    else:
+        (folder / name).write_bytes(content)
+    assert main([str(folder)]) == 2
+    error = capsys.readouterr().err
+    assert error.startswith("error: ")
+    assert error.count("\n") == 1
+    assert says in error
+    assert len(error) < 300 + len(str(folder))
+    assert error.strip().isprintable()
+
+
+@pytest.mark.parametrize("damage", [b"\xff\xfe", b"[1, 2]", b"{", None])
+@pytest.mark.parametrize("name", ["settings.json", ".hydra/overrides.yaml", ".hydra/hydra.yaml"])
+def test_what_only_names_a_run_may_be_damaged(
+    name: str, damage: bytes | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    folder = write_run(tmp_path, [row()], overrides=["model=dcg"])
+    (folder / "summary.json").unlink()
+    (folder / name).unlink(missing_ok=True)
+    if damage is None:
+        (folder / name).mkdir()
+    else:
+        (folder / name).write_bytes(damage)
+    assert main([str(folder)]) == 0
+    assert "1 command in 1 trial" in capsys.readouterr().out
+
+
+def test_names_from_files_do_not_steer_the_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for k, name in enumerate(("a\x1b[31m", "b\n[red]c")):
+        write_run(tmp_path / str(k), [row()], model=name)
+    assert main([str(tmp_path)]) == 0
+    out = capsys.readouterr().out
+    assert "\x1b" not in out
+    assert "b [red]c" in out
 
 
 # --- tables
 
 
-def test_paper_table_says_the_numbers() -> None:
+def test_the_table_says_the_numbers() -> None:
     measures = measure([row(t, i, correct=i > 0 or t < 3) for t in range(4) for i in range(2)])
     console, buffer = text_of()
-    print_paper_table(measures, console, {"train_max": 0.0304, "ground_max": 1.25})
+    print_measures(measures, console, {"train_max": 0.0304, "ground_max": 1.25}, beside_paper=True)
     text = buffer.getvalue()
     assert "87.5 % [47.7, 100.0]" in text  # 1, 1, 1, 1/2: sd 1/4, 3.182 / 8 to each side
     assert "75-100 % (1 of 2 within 70-90)" in text
     assert "30 ms" in text
     assert "1.2 s" in text
     assert "8 commands in 4 trials" in text
-    assert "can't follow from such a draw" in text
+    assert "can't follow from such a draw" in text.replace("\n", " ")
+
+
+def test_a_custom_world_does_not_stand_beside_the_paper(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    published = ("paper", "70-90 %", "about 87 %", "< 60 s")
+    for settings, beside in (
+        (PAPER, True),
+        ({**PAPER, "worlds": "generated", "speaker": "written", "seed": 7, "trials": 3}, True),
+        ({**PAPER, "worlds": "my/worlds"}, False),
+        ({**PAPER, "iterations": 3}, False),
+        ({**PAPER, "types": 40}, False),
+        ({**PAPER, "speaker": "relational"}, False),
+        ({}, False),
+    ):
+        assert follows_paper(settings) == beside
+        assert main([str(write_run(tmp_path, [row()], **settings))]) == 0
+        out = capsys.readouterr().out
+        assert [word in out for word in published] == [beside] * 4, settings
 
 
 @pytest.mark.parametrize("rows", [[row()], [NOTHING], run(1, 60), run(30, 10)])
-@pytest.mark.parametrize("width", [80, 140])
+@pytest.mark.parametrize("width", [80, 100])
 def test_tables_of_odd_runs(rows: list[Iteration], width: int) -> None:
     measures = measure(rows)
     console, buffer = text_of(width)
-    print_paper_table(measures, console)
+    print_measures(measures, console, beside_paper=True)
     print_iterations(measures, console)
     print_errors(measures, console)
-    print_comparison({"a": measures, "b": measures}, console)
     text = buffer.getvalue()
     assert max(map(len, text.splitlines())) <= width
     assert "nan" not in text
@@ -255,74 +204,114 @@ def test_errors_table() -> None:
     assert line.split()[:5] == ["wrong", "colour", "1", "50.0", "%"]
 
 
-def test_comparison_pairs_by_trial() -> None:
-    worse = measure([row(t, i, correct=t != 0) for t in range(3) for i in range(2)])
-    better = measure([row(t, i) for t in range(3) for i in range(2)])
-    other = measure([row(t, 0) for t in range(3)])
+def sweep(directory: Path) -> Path:
+    """Three models x two seeds."""
+    for k, model in enumerate(("dcg", "dcg_upup_away", "z_model_with_a_name_of_more_than_forty_letters")):
+        for seed in (0, 1):
+            rows = [row(t, i, correct=t <= k) for t in range(4) for i in range(10)]
+            folder = directory / f"model={model},seed={seed}"
+            write_run(folder, rows, overrides=[f"model={model}", f"seed={seed}"], seed=seed, model=model, **PAPER)
+    return directory
+
+
+def lines_of(text: str, title: str) -> list[str]:
+    """The lines of a table below its heading."""
+    after = text[text.index(title) :].splitlines()
+    rule = next(k for k, line in enumerate(after) if "───" in line)
+    body = after[rule + 1 :]
+    return body[: next(k for k, line in enumerate(body) if not line.strip())]
+
+
+def test_tables_of_a_sweep_fit_and_pair(tmp_path: Path) -> None:
+    console, buffer = text_of(100)
+    print_several(load_runs([sweep(tmp_path)]), console)
+    text = buffer.getvalue()
+    assert max(map(len, text.splitlines())) <= 100
+    assert "…" not in text
+    first, second, *_ = lines_of(text, "Configurations compared")
+    # Two seeds of four trials, of which one is right: mean 1/4, sd sqrt(3/14), t = 2.365 for 7 degrees of freedom.
+    assert " ".join(first.split()) == "dcg 2 8 25.0 % [0.0, 63.7] 25-25 3.00 of 5 0.00 0.00 0.650"
+    assert second.split()[:4] == ["dcg_upup_away", "2", "8", "50.0"]
+    assert len(lines_of(text, "Runs")) >= 6
+    difference = next(
+        line for line in lines_of(text, "Differences") if line.split()[:3] == ["dcg_upup_away", "-", "dcg"]
+    )
+    # One trial of four in each seed changes from wrong to right, with its ten commands.
+    assert " ".join(difference.split()[3:]) == "8 80 20 / 0 +25.0 [-13.7, +63.7]"
+
+
+def test_configurations_without_common_commands_have_no_differences(tmp_path: Path) -> None:
+    write_run(tmp_path / "a", [row()], seed=0, speaker="x")
+    write_run(tmp_path / "b", [row(command="other")], seed=0, speaker="y")
     console, buffer = text_of()
-    print_comparison({"worse": worse, "better": better, "other": other}, console)
-    lines = {line.split()[0]: line for line in buffer.getvalue().splitlines() if line.strip()}
-    assert "+33.3 [-110.1, +176.8]" in lines["better"]
-    assert "+" not in lines["worse"] + lines["other"]
-
-
-def cells(table: Table) -> list[list[str]]:
-    return [list(column) for column in zip(*(list(c.cells) for c in table.columns), strict=True)]
-
-
-def test_sweep_tells_runs_apart_by_configuration(tmp_path: Path) -> None:
-    for seed in (0, 1):
-        written(tmp_path / f"b{seed}", f"run{seed}", fit={"l2": 0.1 * seed, "steps": 9}, seed=seed)
-    told = cells(tabulate_sweep(tmp_path))
-    assert [line[:2] for line in told] == [["run0", "seed=0 fit.l2=0.0"], ["run1", "seed=1 fit.l2=0.1"]]
-
-
-def test_sweep_prefers_hydra_s_overrides(tmp_path: Path) -> None:
-    for model in ("dcg", "open"):
-        folder = written(tmp_path / "sweep" / model, model, depth={"a": model}).parent
-        (folder / ".hydra").mkdir()
-        (folder / ".hydra" / "overrides.yaml").write_text(f"- model={model}\n- trials=3\n")
-    assert [line[1] for line in cells(tabulate_sweep(tmp_path))] == ["model=dcg", "model=open"]
-    assert find_runs(tmp_path) == [tmp_path / "sweep" / "dcg", tmp_path / "sweep" / "open"]
+    print_several(load_runs([tmp_path]), console)
+    assert "speaker=y" in buffer.getvalue()
+    assert "Differences" not in buffer.getvalue()
 
 
 # --- the command line
 
 
 def test_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    written(tmp_path / "a", "a")
-    written(tmp_path / "b", "b", seed=1)
-    assert main([str(tmp_path / "a")]) == 0
+    sweep(tmp_path / "sweep")
+    one = str(tmp_path / "sweep" / "model=dcg,seed=0")
+    assert main([one, "--csv", str(tmp_path / "one.csv"), "--figures", "svg", "--out", str(tmp_path / "out")]) == 0
     assert "The paper's figures" in capsys.readouterr().out
-    assert main([str(tmp_path), "--compare", str(tmp_path / "c.png")]) == 0
+    assert (tmp_path / "one.csv").read_text().count("\n") == 2
+    assert sorted(p.name for p in (tmp_path / "out").iterdir()) == [
+        f"{name}.svg" for name in ("accuracy", "calibration", "errors", "shares", "symbols", "time")
+    ]
+    assert main([str(tmp_path / "sweep"), one, "--csv", str(tmp_path / "all.csv"), "--figures", "pdf"]) == 0
     out = capsys.readouterr().out
-    assert "seed=1" in out
-    assert "Runs compared" in out
-    assert (tmp_path / "c.png").is_file()
-    assert main([str(tmp_path / "a"), str(tmp_path / "b")]) == 0
+    for part in ("model=dcg seed=1", "Configurations compared", "Differences on the same commands", "comparison.pdf"):
+        assert part in out
+    assert (tmp_path / "sweep" / "comparison.pdf").read_bytes().startswith(b"%PDF-")
+    assert (tmp_path / "all.csv").read_text().count("\n") == 7
 
 
 def test_command_line_refuses_in_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "empty").mkdir()
-    written(tmp_path / "run")
-    for arguments in (
-        [str(tmp_path / "nowhere")],
-        [str(tmp_path / "empty")],
-        [str(tmp_path / "run"), str(tmp_path / "empty")],
-        [str(tmp_path / "run"), "--compare", str(tmp_path / "run" / "summary.json" / "x.png")],
+    folder = write_run(tmp_path / "run", [row()])
+    file = str(folder / "summary.json")
+    for arguments, says in (
+        ([str(tmp_path / "nowhere")], "nowhere: no such folder; give the folder of a run"),
+        ([file], "summary.json: no such folder"),
+        ([str(tmp_path / "empty")], "empty: no run in it"),
+        ([str(folder), str(tmp_path / "empty")], "empty: no run in it"),
+        ([str(folder), "--figures", "png", "--out", file], "summary.json"),
+        ([str(folder), "--csv", f"{file}/x.csv"], "can't be written"),
+        ([str(folder), "--csv", str(tmp_path / "empty")], "can't be written"),
+        ([str(folder), "--csv", str(tmp_path / ("n" * 300))], "can't be written"),
+        ([str(folder), "--out", str(tmp_path)], "--figures"),
+        ([str(tmp_path / "no\nsuch\x1b[31m")], "no such?[31m: no such folder"),
     ):
         assert main(arguments) == 2
         error = capsys.readouterr().err
         assert error.startswith("error: ")
         assert error.count("\n") == 1
+        assert says in error
+    assert list((tmp_path / "empty").iterdir()) == []
 
 
 def test_module_runs_without_torch_or_matplotlib(tmp_path: Path) -> None:
-    written(tmp_path)
+    sweep(tmp_path)
     code = (
-        "import sys; from dcg_torch.report.__main__ import main; main([sys.argv[1]]); "
-        "print([m for m in ('torch', 'matplotlib', 'pybullet', 'spacy', 'hydra') if m in sys.modules])"
+        "import sys; from dcg_torch.report.__main__ import main; main([sys.argv[1], '--csv', sys.argv[1] + '/x.csv']); "
+        "print([m for m in ('torch', 'matplotlib', 'pybullet', 'spacy', 'hydra', 'scipy') if m in sys.modules])"
     )
     done = subprocess.run([sys.executable, "-c", code, str(tmp_path)], capture_output=True, text=True, check=True)
     assert done.stdout.splitlines()[-1] == "[]"
-    json.loads((tmp_path / "summary.json").read_text())
+
+
+def test_a_pipe_that_closes_is_no_traceback(tmp_path: Path) -> None:
+    sweep(tmp_path)
+    for arguments in (["--help"], [str(tmp_path)]):
+        process = subprocess.Popen(
+            [sys.executable, "-m", "dcg_torch.report", *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+        )
+        assert process.stdout is not None
+        process.stdout.close()
+        assert process.stderr is not None
+        assert process.stderr.read() == b""
+        process.stderr.close()
+        process.wait(timeout=60)

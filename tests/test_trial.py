@@ -140,9 +140,9 @@ class TestRow:
         assert (row.path_length, row.turned, row.correct) == (0.0, 0.0, False)
         assert row.symbols == before.symbols
 
-    def test_keeping_away_is_not_going_there(self, rows: list[Iteration]) -> None:
+    def test_keeping_away_is_not_going_there_and_is_right(self, rows: list[Iteration]) -> None:
         row = rows[6]
-        assert (row.chosen, row.grounded, row.arrived) == ("red_cube", None, True)
+        assert (row.chosen, row.grounded, row.arrived, row.correct) == ("red_cube", None, True, True)
         assert row.path_length == pytest.approx(2.0)
 
     def test_counted_from_zero(self, rows: list[Iteration]) -> None:

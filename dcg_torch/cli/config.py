@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import functools
-from collections.abc import Sequence
 from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, cast, get_type_hints
@@ -18,8 +17,9 @@ from omegaconf import DictConfig, OmegaConf, open_dict, read_write
 from omegaconf.errors import OmegaConfBaseException
 
 from dcg_torch.cli.console import make_console
-from dcg_torch.report.summary import distinguish, find_runs, flatten, load_run
-from dcg_torch.report.tables import print_comparison, tabulate_runs
+from dcg_torch.report.runs import load_runs
+from dcg_torch.report.show import print_several, save_several_figure
+from dcg_torch.report.summary import flatten
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, ModelSettings, Settings, SettingsError, SimulatorSettings, check
 
@@ -142,24 +142,8 @@ class Sweep(Callback):
 def compare_runs(directory: Path) -> None:
     """Print what the runs at or below `directory` amount to side by side, and draw it in `comparison.png` there."""
     console = make_console()
-    runs = {folder: load_run(folder) for folder in find_runs(directory)}
-    console.print(tabulate_runs(runs, f"the sweep in {directory}"))
-    if len(runs) < 2:
-        return
-    from dcg_torch.report.figures import save_comparison
-
-    names = _short_names(distinguish(runs)) or [str(folder.relative_to(directory)) for folder in runs]
-    measures = dict(zip(names, (summary.measures for summary in runs.values()), strict=True))
-    print_comparison(measures, console)
-    console.print(f"figure: {save_comparison(measures, directory / 'comparison.png')}")
-    console.print(f"curves: tensorboard --logdir {directory}")
-
-
-def _short_names(told: Sequence[str]) -> list[str]:
-    """Names from what tells the runs apart: "model=dcg seed=1", or just "dcg" where only the model differs.
-
-    Empty if these names repeat.
-    """
-    if all(name.startswith("model=") and " " not in name for name in told):
-        told = [name.removeprefix("model=") for name in told]
-    return list(told) if len(set(told)) == len(told) else []
+    runs = load_runs([directory])
+    print_several(runs, console)
+    if len(runs) > 1:
+        console.print(f"figure: {save_several_figure(runs, directory)}")
+        console.print(f"curves: tensorboard --logdir {directory}")

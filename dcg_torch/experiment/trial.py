@@ -67,7 +67,8 @@ def run_trial(
         fitted = model.fitted
         met |= {o.type for o in command.world.objects if o.id == command.target}
         chosen = _chosen(outcome)
-        grounded = chosen if outcome.arrived and outcome.solution and not outcome.solution.inverted else None
+        inverted = outcome.solution is not None and outcome.solution.inverted
+        grounded = chosen if outcome.arrived and not inverted else None
         yield (
             Iteration(
                 trial=trial,
@@ -85,7 +86,8 @@ def run_trial(
                 known_types=known_types,
                 target=command.target,
                 grounded=grounded,
-                correct=grounded == command.target,
+                # Of an order to keep away, `arrived` says that the robot has left the object's surroundings.
+                correct=bool(outcome.arrived) and chosen == command.target,
                 kind=kind,
                 probability=None if chosen is None or outcome.solution is None else outcome.solution.probability,
                 asked=len(outcome.asked),

@@ -1,14 +1,19 @@
-"""The report: what a run's rows amount to, as measures, tables, figures and TensorBoard curves.
+"""The report: what runs' rows amount to, as measures, tables, figures, TensorBoard curves and CSV.
 
-It reads `records.Iteration` and `records.Timing` and knows nothing of robots or of the model.
+It reads `records.Iteration` and `records.Timing` and knows nothing of robots or of the model. Each module imports only
+modules above it:
 
-    intervals   95 % intervals
-    causes      why a command went wrong
-    measures    rows -> Measures
-    seconds     timings -> where the time goes
-    figures     Measures -> PNG files (canvas: what they have in common)
-    board       rows and timings -> TensorBoard event file
-    summary     summary.json, written whole or not at all, and read back
-    tables      Measures beside the paper's figures; comparisons; sweeps
-    __main__    `python -m dcg_torch.report DIR [DIR...]`
+    text, intervals     numbers as text; 95 % intervals
+    calibration         does a probability mean what it says
+    causes, steps       why a command went wrong; rows with what follows from the row before
+    measures, seconds   rows -> Measures; timings -> where the time goes
+    paper               the paper's figures, and which runs may stand beside them
+    summary, runs       summary.json; run folders, read back
+    configurations      runs that differ in their seed alone, together; paired differences
+    export              a row a run as CSV
+    tables, comparison_tables           of one run; of several
+    canvas, figures, comparison         figures of one run; of several
+    board               TensorBoard event file
+    show                what a run and what a sweep print and draw
+    __main__, trade_off                 the command lines
 """

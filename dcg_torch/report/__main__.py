@@ -1,8 +1,4 @@
-"""`python -m dcg_torch.report DIR [DIR...]`: the tables of a run, of several, or of a sweep.
-
-A folder with a `summary.json` is a run; one with several below it is a sweep. Exit status: 0 done, 2 for a folder
-that can't be read, with one line that says why.
-"""
+"""`python -m dcg_torch.report DIR [DIR...]`: what a run, several runs, or a sweep amount to."""
 
 from __future__ import annotations
 
@@ -13,59 +9,95 @@ from pathlib import Path
 
 from rich.console import Console
 
-from dcg_torch.report.measures import Measures
-from dcg_torch.report.summary import ReportError, Summary, find_runs, load_run
-from dcg_torch.report.tables import print_comparison, print_errors, print_iterations, print_paper_table, tabulate_runs
+from dcg_torch.report.export import to_csv
+from dcg_torch.report.runs import Run, load_runs
+from dcg_torch.report.show import print_run, print_several, save_run_figures, save_several_figure
+from dcg_torch.report.summary import ReportError, write_whole
+from dcg_torch.report.text import printable
+
+_FORMATS = ("png", "pdf", "svg")  # canvas.FORMATS: matplotlib is imported only where figures are asked for
+
+_DESCRIPTION = """\
+Prints what a run, several runs, or a sweep amount to.
+
+One run: its measures with 95 % intervals (beside the paper's, if it is the paper's
+experiment), by iteration, and why commands went wrong. Several: a row a run; a row a
+configuration, which takes together the runs that differ in their seed alone; and the
+differences between configurations on the same commands.
+"""
+_EPILOG = """\
+  python -m dcg_torch.report runs/paper                     one run
+  python -m dcg_torch.report runs/ablation --csv runs.csv   a sweep, and a row a run for pandas
+  python -m dcg_torch.report runs/ablation --figures pdf    a sweep, and its figure for a paper
+
+Exit status: 0 done, 2 for what can't be read or written; one line says what, where and how to mend it.
+"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(
-        prog="python -m dcg_torch.report", description="Print what a run, several runs or a sweep amount to."
-    )
-    parser.add_argument("directories", metavar="DIR", nargs="+", type=Path, help="a run folder, or one with runs below")
-    parser.add_argument("--compare", metavar="FILE", type=Path, help="also draw several runs into this PNG file")
-    options = parser.parse_args(arguments)
+    options = _parser().parse_args(arguments)
+    if options.out is not None and options.figures is None:
+        return _refuse("--out: there is nothing to write there; add --figures png, pdf or svg")
     try:
-        runs = _load(options.directories)
+        runs = load_runs(options.directories)
+        console = make_console()
+        if len(runs) == 1:
+            print_run(runs[0], console)
+        else:
+            print_several(runs, console)
+        for path in _write(runs, options):
+            console.print(f"written: {path}", markup=False, highlight=False)
     except ReportError as error:
-        print(f"error: {error}", file=sys.stderr)
-        return 2
-    console = Console()
-    # Into a pipe or a file there is no width to keep to.
-    if not console.is_terminal:
-        console = Console(width=max(140, console.width))
-    if len(runs) == 1:
-        summary = next(iter(runs.values()))
-        print_paper_table(summary.measures, console, summary.seconds)
-        print_iterations(summary.measures, console)
-        print_errors(summary.measures, console)
-    else:
-        console.print(tabulate_runs(runs, ", ".join(map(str, options.directories))))
-        print_comparison(_named(runs), console)
-    if options.compare is not None:
-        from dcg_torch.report.figures import save_comparison  # matplotlib only where it is needed
-
-        try:
-            console.print(str(save_comparison(_named(runs), options.compare)))
-        except (OSError, ValueError) as error:
-            print(f"error: {options.compare}: can't be written ({error}); give a PNG file to write", file=sys.stderr)
-            return 2
+        return _refuse(str(error))
+    except OSError as error:
+        return _refuse(f"{error.filename or 'a file'}: can't be written ({error.strerror}); give another place")
     return 0
 
 
-def _load(directories: Sequence[Path]) -> dict[Path, Summary]:
-    folders: dict[Path, None] = {}
-    for directory in directories:
-        folders |= dict.fromkeys(find_runs(directory) or [directory])
-    return {folder: load_run(folder) for folder in folders}
+def make_console() -> Console:
+    """Standard output; into a pipe or a file there is no width to keep to."""
+    console = Console(highlight=False)
+    return console if console.is_terminal else Console(width=max(100, console.width), highlight=False)
 
 
-def _named(runs: dict[Path, Summary]) -> dict[str, Measures]:
-    """By the run's name, or by folder where names repeat."""
-    names = [summary.run for summary in runs.values()]
-    unique = len(set(names)) == len(names)
-    return {summary.run if unique else str(folder): summary.measures for folder, summary in runs.items()}
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m dcg_torch.report",
+        description=_DESCRIPTION,
+        epilog=_EPILOG,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    parser.add_argument("directories", metavar="DIR", nargs="+", type=Path, help="a run folder, or one with runs below")
+    parser.add_argument("--csv", metavar="FILE", type=Path, help="also write a row a run into this CSV file")
+    parser.add_argument(
+        "--figures", choices=_FORMATS, help="also draw: one run's figures, or the comparison of several"
+    )
+    parser.add_argument(
+        "--out",
+        metavar="FOLDER",
+        type=Path,
+        help="where the figures go; default: DIR/figures of one run, DIR of a sweep",
+    )
+    return parser
+
+
+def _write(runs: Sequence[Run], options: argparse.Namespace) -> list[Path]:
+    written = []
+    if options.csv is not None:
+        write_whole(options.csv, to_csv(runs))
+        written.append(options.csv)
+    if options.figures is not None and len(runs) == 1:
+        written += save_run_figures(runs[0], options.out or runs[0].folder / "figures", options.figures)
+    elif options.figures is not None:
+        written.append(save_several_figure(runs, options.out or options.directories[0], options.figures))
+    return written
+
+
+def _refuse(message: str) -> int:
+    """Say what is wrong in one line without escapes; the exit status."""
+    print(f"error: {printable(message)}", file=sys.stderr)
+    return 2
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """A run in TensorBoard: one event file with every measure by iteration, the training, the seconds and the figures.
 
-The step is the iteration, counted from 0 as in `iterations.jsonl`. A value at a step is the mean over the trials.
+The step is the iteration, counted from 1 as in the figures. A value at a step is the mean over the trials.
 Tags are grouped by their first part, which `ABOUT` explains in the TEXT tab.
 """
 
@@ -10,7 +10,6 @@ import math
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from PIL import Image
 from tensorboard.compat.proto.summary_pb2 import Summary  # type: ignore[import-untyped]
@@ -20,12 +19,11 @@ from torch.utils.tensorboard.summary import hparams as hparams_summaries
 from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.measures import IterationMeasures, Measures, measure
 from dcg_torch.report.seconds import PHASES, summarise_seconds, total_seconds
-from dcg_torch.report.summary import flatten
 
 _SUFFIX = ".dcg_torch"  # tells our event files from others in the folder
 
 ABOUT = """
-Steps are iterations, from 0; a value is the mean over the trials.
+Steps are iterations, from 1; a value is the mean over the trials.
 
 | tags | what |
 |---|---|
@@ -37,7 +35,7 @@ Steps are iterations, from 0; a value is the mean over the trials.
 | training, features | the fit after each command, and the columns it has |
 | seconds | wall-clock seconds a command, by phase |
 | intervals | 95 % bounds of accuracy and of right symbols |
-| run | one value for the whole run, compared in the HPARAMS tab |
+| run | one value for the whole run, at its last step; the HPARAMS tab compares runs by these |
 """
 
 _LAYOUT = {
@@ -61,7 +59,7 @@ def write_board(
     directory: Path,
     rows: Sequence[Iteration],
     timings: Sequence[Timing],
-    hparams: Mapping[str, Any],
+    hparams: Mapping[str, bool | int | float | str],
     figures: Iterable[Path] = (),
 ) -> None:
     """Write a run's event file into `directory`, in place of one that an earlier call left there.
@@ -70,7 +68,8 @@ def write_board(
         directory: the run folder, made if need be.
         rows: the run's rows, as for `measure`.
         timings: the wall-clock times; may be empty.
-        hparams: settings for the HPARAMS tab; nested mappings are flattened, other than plain values become text.
+        hparams: settings for the HPARAMS tab: those in which this run may differ from others beside it
+            (`runs.varied_settings`), since a column of constants tells nothing.
         figures: PNG files, shown under their names.
 
     Raises:
@@ -83,11 +82,11 @@ def write_board(
     with SummaryWriter(str(directory), filename_suffix=_SUFFIX) as writer:
         for step, tag, value in _scalars(measures, timings):
             writer.add_scalar(tag, value, step)
-        for tag, value in _run_values(measures, timings).items():
-            writer.add_scalar(tag, value, 0)
+        values = _run_values(measures, timings)
+        for tag, value in values.items():
+            writer.add_scalar(tag, value, measures.by_iteration[-1].iteration + 1)
         # `SummaryWriter.add_hparams` would open a second run in a subfolder.
-        settings = {key: _setting(value) for key, value in flatten(hparams).items()}
-        for summary in hparams_summaries(settings, _run_values(measures, timings)):  # type: ignore[no-untyped-call]
+        for summary in hparams_summaries(dict(hparams), values):  # type: ignore[no-untyped-call]
             writer.file_writer.add_summary(summary)
         writer.add_custom_scalars(_LAYOUT)
         writer.add_text("about", ABOUT)
@@ -99,10 +98,10 @@ def _scalars(measures: Measures, timings: Sequence[Timing]) -> Iterator[tuple[in
     for m in measures.by_iteration:
         for tag, value in _iteration_values(m):
             if value is not None:
-                yield m.iteration, tag, float(value)
+                yield m.iteration + 1, tag, float(value)
     at: defaultdict[int, list[Timing]] = defaultdict(list)
     for timing in timings:
-        at[timing.iteration].append(timing)
+        at[timing.iteration + 1].append(timing)
     for step in sorted(at):
         for tag, value in _timing_values(at[step]):
             if math.isfinite(value):  # a loss may be anything; TensorBoard draws no curve with a gap of NaN
@@ -162,10 +161,6 @@ def _run_values(measures: Measures, timings: Sequence[Timing]) -> dict[str, floa
         "run/seconds_per_command": summarise_seconds(timings).get("command"),
     }
     return {tag: float(value) for tag, value in values.items() if value is not None}
-
-
-def _setting(value: Any) -> bool | int | float | str:
-    return value if isinstance(value, (bool, int, float, str)) else str(value)
 
 
 def _image(path: Path) -> Summary:

@@ -6,9 +6,12 @@ any colour vision.
 
 from __future__ import annotations
 
+import io
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Final
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,6 +19,7 @@ from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import Measures
+from dcg_torch.report.summary import write_whole
 
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY = (
     "#0072B2",
@@ -26,8 +30,10 @@ BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY = (
     "#56B4E9",
     "#666666",
 )
+FORMATS: Final = ("png", "pdf", "svg")
 LONG = 50  # iterations from which on curves are rolling means
 DPI = 150
+_UNDATED: Final = {"png": {}, "pdf": {"CreationDate": None}, "svg": {"Date": None}}
 
 
 def new_canvas(title: str, size: tuple[float, float] = (6.0, 4.2)) -> tuple[Figure, Axes]:
@@ -46,10 +52,23 @@ def style_axes(axes: Axes) -> None:
     axes.spines[["top", "right"]].set_visible(False)
 
 
-def save_png(figure: Figure, path: Path) -> Path:
-    """Write the figure as PNG, making its folder, and return the path."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(path, dpi=DPI)
+def save_figure(figure: Figure, path: Path) -> Path:
+    """Write the figure whole, in the format of the path's suffix, making its folder, and return the path.
+
+    The file holds no date: the same figure gives the same bytes.
+
+    Raises:
+        ValueError: if the suffix is none of `FORMATS`.
+        OSError: if the file can't be written.
+    """
+    form = path.suffix.removeprefix(".")
+    if form not in FORMATS:
+        raise ValueError(f"{path}: figures are written as {', '.join(FORMATS)}")
+    drawn = io.BytesIO()
+    # Text stays text in a PDF, and an SVG's ids don't change from run to run.
+    with mpl.rc_context({"pdf.fonttype": 42, "svg.hashsalt": "dcg_torch"}):
+        figure.savefig(drawn, format=form, dpi=DPI, metadata=_UNDATED[form])
+    write_whole(path, drawn.getvalue())
     return path
 
 
@@ -91,6 +110,12 @@ def draw_band(axes: Axes, x: Sequence[int], curve: Sequence[Estimate], colour: s
         axes.fill_between(where, low, high, color=colour, alpha=0.18, lw=0, label=label)
 
 
+def draw_interval(axes: Axes, x: float, estimate: Estimate, colour: str) -> None:
+    """A vertical line over the 95 % interval of one point, where there is one."""
+    if estimate.low is not None and estimate.high is not None:
+        axes.plot([x, x], [estimate.low, estimate.high], color=colour, lw=1.5, zorder=2)
+
+
 def marker_for(x: Sequence[float], marker: str) -> str:
     """Markers for curves of few points only."""
     return marker if len(x) <= 30 else ""
@@ -119,23 +144,6 @@ def legend_below(axes: Axes, columns: int = 2) -> None:
 def write_inside(axes: Axes, text: str) -> None:
     """Say what is missing, in the middle of the axes."""
     axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=GREY)
-
-
-def count_of_trials(measures: Measures) -> str:
-    """As in "30 trials"."""
-    return f"{measures.trials:,} trials" if measures.trials > 1 else "1 trial"
-
-
-def percent_text(share: float, digits: int = 1) -> str:
-    """As in "82.7 %"."""
-    return f"{100 * share:.{digits}f} %"
-
-
-def interval_text(estimate: Estimate) -> str:
-    """As in "82.7 % [76.6, 88.7]"."""
-    if estimate.low is None or estimate.high is None:
-        return percent_text(estimate.value)
-    return f"{percent_text(estimate.value)} [{100 * estimate.low:.1f}, {100 * estimate.high:.1f}]"
 
 
 def whole_numbers(bins: int = 10) -> MaxNLocator:

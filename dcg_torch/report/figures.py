@@ -1,40 +1,37 @@
-"""Figures of a run as PNG files: the paper's 6a, 6b and 7, and what they leave open.
+"""Figures of a run: the paper's 6a, 6b and 7, and what they leave open.
 
 Lines differ by marker as well as by colour. Iterations count from 1 here, as in the paper.
 """
 
 from __future__ import annotations
 
+import math
 import textwrap
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
 from dcg_torch.records import Iteration, Timing
+from dcg_torch.report import paper
+from dcg_torch.report.calibration import Calibration
 from dcg_torch.report.canvas import (
     BLUE,
     GREEN,
     GREY,
     ORANGE,
-    PURPLE,
     RED,
-    SKY,
     accuracy_curve,
-    count_of_trials,
     draw_band,
-    interval_text,
+    draw_interval,
     iteration_axis,
     legend_below,
     marker_for,
     new_canvas,
     percent_axis,
-    percent_text,
-    rolling_note,
     rolling_sums,
-    save_png,
-    style_axes,
+    save_figure,
     whole_numbers,
     window_of,
     write_inside,
@@ -43,10 +40,10 @@ from dcg_torch.report.causes import CAUSES
 from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import KINDS, Measures, measure
 from dcg_torch.report.seconds import PHASES, summarise_seconds
+from dcg_torch.report.text import counted, percent, percent_interval
 
-_SERIES = ((BLUE, "o"), (ORANGE, "s"), (GREEN, "^"), (RED, "D"), (PURPLE, "v"), (SKY, "P"), (GREY, "X"))
 _KIND_STYLE = {"known": (BLUE, "o"), "unknown": (ORANGE, "s"), "learned": (GREEN, "^")}
-PAPER_ACCURACY = (0.70, 0.90)
+_ENOUGH = 20  # right commands that a point of the shares is to rest on
 _PHASE_NAMES = {
     "load_world": "load the world",
     "parse": "parse the command",
@@ -58,14 +55,30 @@ _PHASE_NAMES = {
 }
 
 
-def save_figures(rows: Sequence[Iteration], timings: Sequence[Timing], directory: Path) -> list[Path]:
+def save_figures(
+    rows: Sequence[Iteration],
+    timings: Sequence[Timing],
+    directory: Path,
+    *,
+    beside_paper: bool,
+    form: str = "png",
+) -> list[Path]:
     """Write all figures of a run into `directory`, made if need be, and return their paths in reading order.
 
-    Without timings there is no figure of the time. Raises ValueError as `measure` does.
+    Args:
+        rows: as for `measure`.
+        timings: the wall-clock times; without them there is no figure of the time.
+        directory: where to.
+        beside_paper: draw the paper's range of accuracy; for runs that `paper.follows_paper`.
+        form: one of `canvas.FORMATS`.
+
+    Raises:
+        ValueError: as `measure` and `save_figure` do.
+        OSError: if a file can't be written.
     """
     measures = measure(rows)
     drawings: dict[str, Callable[[], Figure]] = {
-        "accuracy": lambda: draw_accuracy(measures),
+        "accuracy": lambda: draw_accuracy(measures, beside_paper=beside_paper),
         "symbols": lambda: draw_symbols(measures),
         "shares": lambda: draw_shares(measures),
         "errors": lambda: draw_errors(measures),
@@ -73,23 +86,23 @@ def save_figures(rows: Sequence[Iteration], timings: Sequence[Timing], directory
     }
     if timings:
         drawings["time"] = lambda: draw_time(timings)
-    return [save_png(draw(), directory / f"{name}.png") for name, draw in drawings.items()]
+    return [save_figure(draw(), directory / f"{name}.{form}") for name, draw in drawings.items()]
 
 
-def save_comparison(runs: Mapping[str, Measures], path: Path) -> Path:
-    """Write `draw_comparison` of the runs to `path`."""
-    return save_png(draw_comparison(runs), path)
-
-
-def draw_accuracy(measures: Measures) -> Figure:
-    """Accuracy by iteration with its 95 % interval, over the paper's range (Fig. 6a, 9d)."""
-    figure, axes = new_canvas(f"Right object reached ({count_of_trials(measures)})")
+def draw_accuracy(measures: Measures, *, beside_paper: bool) -> Figure:
+    """Accuracy by iteration with its 95 % interval (Fig. 6a, 9d), over the paper's range if that is asked for."""
+    figure, axes = new_canvas(f"Right object reached ({counted(measures.trials, 'trial')})")
     x, curve, note = accuracy_curve(measures)
-    axes.axhspan(*PAPER_ACCURACY, color=GREY, alpha=0.18, lw=0, label="the paper's range, 70 to 90 %")
+    if beside_paper:
+        axes.axhspan(*paper.ACCURACY, color=GREY, alpha=0.18, lw=0, label="the paper's range, 70 to 90 %")
     draw_band(axes, x, curve, BLUE, "95 % interval")
     axes.plot(x, [e.value for e in curve], color=BLUE, marker=marker_for(x, "o"), label=f"right object{note}")
     axes.axhline(
-        measures.accuracy.value, color=BLUE, ls=":", lw=1.2, label=f"all commands: {interval_text(measures.accuracy)}"
+        measures.accuracy.value,
+        color=BLUE,
+        ls=":",
+        lw=1.2,
+        label=f"all commands: {percent_interval(measures.accuracy)}",
     )
     percent_axis(axes, "share of trials" if measures.trials > 1 else "share of commands")
     iteration_axis(axes, measures)
@@ -99,7 +112,7 @@ def draw_accuracy(measures: Measures) -> Figure:
 
 def draw_symbols(measures: Measures) -> Figure:
     """Right symbols after so many commands, against the number if every new type met were learned (6b, 9e)."""
-    figure, axes = new_canvas(f"Words the robot has learned ({count_of_trials(measures)})")
+    figure, axes = new_canvas(f"Words the robot has learned ({counted(measures.trials, 'trial')})")
     heard = [0, *(m.iteration + 1 for m in measures.by_iteration)]
     right = [Estimate(measures.initial_symbols), *(m.correct_symbols for m in measures.by_iteration)]
     expected = [measures.initial_symbols, *(m.expected_symbols for m in measures.by_iteration)]
@@ -119,27 +132,41 @@ def draw_symbols(measures: Measures) -> Figure:
 
 
 def draw_shares(measures: Measures) -> Figure:
-    """What the target's word was to the robot, among the commands it got right (Fig. 7, 9f)."""
+    """What the target's word was to the robot, among the commands it got right (Fig. 7, 9f), with 95 % intervals.
+
+    A point takes in neighbouring iterations until it rests on about twenty right commands, so that a short run shows
+    shares and not the noise of two or three commands.
+    """
     figure, axes = new_canvas("Commands got right, by what their word was to the robot")
-    counts = {kind: [m.kinds[kind].correct for m in measures.by_iteration] for kind in KINDS}
     totals = [m.correct for m in measures.by_iteration]
-    window = window_of(measures)
+    window = _shares_window(measures)
     summed = rolling_sums(totals, window)
     for kind in KINDS:
         colour, marker = _KIND_STYLE[kind]
+        counts = rolling_sums([m.kinds[kind].correct for m in measures.by_iteration], window)
         points = [
-            (m.iteration + 1, part / whole)
-            for m, part, whole in zip(measures.by_iteration, rolling_sums(counts[kind], window), summed, strict=True)
+            (m.iteration + 1, wilson(part, whole))
+            for m, part, whole in zip(measures.by_iteration, counts, summed, strict=True)
             if whole
         ]
-        x, y = [p[0] for p in points], [p[1] for p in points]
-        axes.plot(x, y, color=colour, marker=marker_for(x, marker), label=f"{kind} word")
+        x, curve = [p[0] for p in points], [p[1] for p in points]
+        draw_band(axes, x, curve, colour, "")
+        axes.plot(x, [e.value for e in curve], color=colour, marker=marker_for(x, marker), label=f"{kind} word")
     if not any(totals):
         write_inside(axes, "no command was got right")
-    percent_axis(axes, f"share of the right ones{rolling_note(window)}")
+    percent_axis(axes, "share of the right ones")
     iteration_axis(axes, measures)
     legend_below(axes, columns=3)
+    each = f"; a point: mean of up to {window} iterations" if window > 1 else ""
+    figure.supxlabel(f"{counted(sum(totals), 'right command')}{each}; bands: 95 % intervals", fontsize=8)
     return figure
+
+
+def _shares_window(measures: Measures) -> int:
+    """Iterations (odd) that hold about `_ENOUGH` right commands, and no fewer than any long run's curve takes."""
+    each = measures.correct / len(measures.by_iteration)
+    needed = math.ceil(_ENOUGH / each) if each else 1
+    return max(window_of(measures), min(needed, 2 * len(measures.by_iteration) - 1) | 1)
 
 
 def draw_errors(measures: Measures) -> Figure:
@@ -150,9 +177,7 @@ def draw_errors(measures: Measures) -> Figure:
     figure, axes = new_canvas(title, size=(7.4, max(2.6, 1.3 + 0.55 * len(found))))
     labels = [f"{cause}\n{textwrap.fill(CAUSES[cause], 48)}" for cause in found]
     bars = axes.barh(range(len(found)), list(found.values()), color=RED, height=0.6)
-    axes.bar_label(
-        bars, [f"{n} ({percent_text(n / measures.commands)})" for n in found.values()], padding=3, fontsize=9
-    )
+    axes.bar_label(bars, [f"{n} ({percent(n / measures.commands)})" for n in found.values()], padding=3, fontsize=9)
     axes.set_yticks(range(len(found)), labels, fontsize=8)
     axes.set_xlabel("commands (share of all)")
     axes.xaxis.set_major_locator(whole_numbers(6))
@@ -165,37 +190,43 @@ def draw_errors(measures: Measures) -> Figure:
 
 
 def draw_calibration(measures: Measures) -> Figure:
-    """Reliability diagram: how often groundings of a given probability were right."""
+    """Reliability diagram: how often groundings of a given probability were right.
+
+    The area of a point goes with its groundings; below stands what of the error chance alone would make.
+    """
     calibration = measures.calibration
-    error = calibration.error
-    figure, axes = new_canvas("Does the robot know when it is right?", size=(5.4, 4.6))
+    figure, axes = new_canvas("Does the robot know when it is right?", size=(5.4, 4.8))
     axes.plot([0, 1], [0, 1], color=GREY, ls="--", lw=1.2, label="perfectly calibrated")
-    for b in calibration.bins:
+    for k, b in enumerate(calibration.bins):
         estimate = wilson(round(b.accuracy * b.n), b.n)
-        assert estimate.low is not None
-        assert estimate.high is not None
-        axes.plot([b.probability] * 2, [estimate.low, estimate.high], color=BLUE, lw=1.5, zorder=2)
-    if calibration.bins:
-        x = [b.probability for b in calibration.bins]
-        y = [b.accuracy for b in calibration.bins]
-        axes.plot(x, y, color=BLUE, marker="o", lw=1.5, label="groundings, 95 % interval")
-        for b in calibration.bins:
-            axes.annotate(
-                str(b.n), (b.probability, b.accuracy), (6, -11), textcoords="offset points", fontsize=8, color=BLUE
-            )
-        figure.supxlabel(
-            f"Expected calibration error {error:.3f}. Numbers: groundings in each tenth."
-            + (f"\nCommands without a grounding: {calibration.without}." if calibration.without else ""),
-            fontsize=8,
-        )
-    else:
+        label = "groundings in each tenth, 95 % interval" if k == 0 else None
+        draw_interval(axes, b.probability, estimate, BLUE)
+        size = 15 + 285 * b.n / calibration.n
+        axes.scatter([b.probability], [b.accuracy], s=size, color=BLUE, zorder=3, label=label)
+        axes.annotate(str(b.n), (b.probability, b.accuracy), (9, -12), textcoords="offset points", fontsize=8)
+    if not calibration.bins:
         write_inside(axes, "no grounding had a probability")
-    axes.set_xlim(-0.02, 1.02)
+    figure.supxlabel(_calibration_note(calibration), fontsize=8)
+    axes.set_xlim(-0.04, 1.04)
     axes.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     axes.set_xlabel("probability of the grounding")
     percent_axis(axes, "share that was right")
-    axes.legend(loc="lower right", fontsize=9, frameon=False)
+    axes.set_ylim(-0.04, 1.04)
+    axes.legend(loc="upper left", fontsize=8, frameon=False, markerscale=0.6)
     return figure
+
+
+def _calibration_note(calibration: Calibration) -> str:
+    lines = []
+    if calibration.error is not None and calibration.chance is not None:
+        shows = "more than chance explains" if calibration.error > calibration.chance else "which chance may explain"
+        lines.append(
+            f"Calibration error {calibration.error:.3f} over {counted(calibration.n, 'grounding')}, {shows}:\n"
+            f"a calibrated robot's stays below {calibration.chance:.3f} in 95 % of runs of this length."
+        )
+    if calibration.without:
+        lines.append(f"Without a grounding: {counted(calibration.without, 'command')}.")
+    return "\n".join(lines)
 
 
 def draw_time(timings: Sequence[Timing]) -> Figure:
@@ -205,7 +236,7 @@ def draw_time(timings: Sequence[Timing]) -> Figure:
     figure, axes = new_canvas(f"Where the time goes: {1000 * total:,.0f} ms a command", size=(6.4, 3.6))
     values = [1000 * seconds[phase] for phase in PHASES]
     bars = axes.barh(range(len(PHASES)), values, color=BLUE, height=0.6)
-    shares = [f"{v:,.1f} ms ({percent_text(v / (1000 * total), 0)})" if total else "0 ms" for v in values]
+    shares = [f"{v:,.1f} ms ({percent(v / (1000 * total), 0)})" if total else "0 ms" for v in values]
     axes.bar_label(bars, shares, padding=3, fontsize=9)
     axes.set_yticks(range(len(PHASES)), [_PHASE_NAMES[phase] for phase in PHASES])
     axes.invert_yaxis()
@@ -213,58 +244,3 @@ def draw_time(timings: Sequence[Timing]) -> Figure:
     axes.grid(axis="y", visible=False)
     axes.set_xlim(0, max(values) * 1.35 if total else 1)
     return figure
-
-
-def draw_comparison(runs: Mapping[str, Measures]) -> Figure:
-    """Several runs in one: accuracy by iteration with intervals, and over all commands.
-
-    Raises:
-        ValueError: without runs.
-    """
-    if not runs:
-        raise ValueError("no runs to compare")
-    figure = Figure(figsize=(9.6, max(4.4, 2.6 + 0.35 * len(runs))), layout="constrained")
-    left, right = figure.subplots(1, 2, width_ratios=(3, 2))
-    for axes in (left, right):
-        style_axes(axes)
-    left.axhspan(*PAPER_ACCURACY, color=GREY, alpha=0.18, lw=0, label="the paper's range")
-    # Points of different runs stand side by side, so that their intervals don't cover each other.
-    span = 0.5 * (len(runs) - 1) / max(1, len(runs))
-    for k, (name, measures) in enumerate(runs.items()):
-        colour, marker = _SERIES[k % len(_SERIES)]
-        x, curve, note = accuracy_curve(measures)
-        y = [e.value for e in curve]
-        if note or len(x) > 20:
-            draw_band(left, x, curve, colour, "")
-            left.plot(x, y, color=colour, label=name + note)
-        else:
-            shifted = [v + span * (k / max(1, len(runs) - 1) - 0.5) for v in x]
-            left.vlines(shifted, [e.low or 0.0 for e in curve], [e.high or 0.0 for e in curve], color=colour, lw=1)
-            left.plot(shifted, y, color=colour, marker=marker, ms=5, label=name)
-        total = measures.accuracy
-        right.barh(k, total.value, color=colour, height=0.6)
-        assert total.low is not None
-        assert total.high is not None
-        bounds = [[total.value - total.low], [total.high - total.value]]
-        right.errorbar(total.value, k, xerr=bounds, color="black", capsize=4, lw=1.2)
-        right.annotate(f" {percent_text(total.value)}", (total.high, k), va="center")
-    left.set_title("by command, bars: 95 % interval", fontsize=10)
-    right.set_title("all commands", fontsize=10)
-    percent_axis(left, "right object reached")
-    iteration_axis(left, max(runs.values(), key=lambda m: m.iterations))
-    right.set_yticks(range(len(runs)), list(runs))
-    right.invert_yaxis()
-    right.set_xlim(0, 1.25)  # room for a number beyond 100 %
-    right.set_xticks([0, 0.25, 0.5, 0.75, 1])
-    right.xaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
-    right.set_xlabel("right object reached")
-    right.grid(axis="y", visible=False)
-    figure.suptitle("Accuracy" + _same_commands(runs), fontsize=12)
-    handles, labels = left.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside lower center", ncols=min(5, len(labels)), fontsize=9, frameon=False)
-    return figure
-
-
-def _same_commands(runs: Mapping[str, Measures]) -> str:
-    same = len({m.fingerprint for m in runs.values()}) == 1
-    return " on the same worlds and commands" if same and len(runs) > 1 else ""

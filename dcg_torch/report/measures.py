@@ -10,29 +10,29 @@ Definitions, where the paper leaves room:
   several types, the one it is said of most).
 * Shares of known, unknown and learned are taken among the correct commands, by what the target's word was to the
   robot when it heard it (Figs. 7 and 9f).
+* An order to keep away is obeyed, and its row correct, when the robot left the surroundings of the object meant. Such
+  a row has no object that the robot went to. It counts as correct like all others; only path efficiency leaves it
+  out, since no way there could be the shortest.
 * Accuracy per symbol is the least-squares slope of correct (0 or 1) on the number of symbols held before the command,
   pooled over all commands.
 """
 
 from __future__ import annotations
 
-import hashlib
-import json
 import math
 from collections import Counter, defaultdict
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, get_args
 
-from pydantic import TypeAdapter
-
 from dcg_torch.records import Iteration, Kind
-from dcg_torch.report.causes import CAUSES, error_cause, is_right, names_of_types
+from dcg_torch.report.calibration import Calibration, calibrate
+from dcg_torch.report.causes import CAUSES
 from dcg_torch.report.intervals import Estimate, mean_over_trials, slope_over_trials, wilson
+from dcg_torch.report.steps import Step, steps_of
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
 ARRIVAL_RADIUS = 0.5  # metres; nearer than this to the object the robot need not come
-BINS = 10
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,30 +42,6 @@ class KindMeasures:
     n: int
     correct: int
     accuracy: Estimate | None
-
-
-@dataclass(frozen=True, slots=True)
-class Bin:
-    """Groundings with a probability in [low, high): their number, mean probability and share that was right."""
-
-    low: float
-    high: float
-    n: int
-    probability: float
-    accuracy: float
-
-
-@dataclass(frozen=True, slots=True)
-class Calibration:
-    """Does the probability mean what it says? `error` is the expected calibration error, None without probabilities.
-
-    `bins` has only the bins that hold something; `without` counts the commands that ended without a probability.
-    """
-
-    error: float | None
-    bins: tuple[Bin, ...]
-    n: int
-    without: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +65,7 @@ class IterationMeasures:
     asked: float
     path_length: float
     turned: float
-    path_efficiency: float
+    path_efficiency: float | None
     probability: float | None
     causes: dict[str, int]
 
@@ -98,15 +74,13 @@ class IterationMeasures:
 class Measures:
     """What a run amounts to; see the module for the definitions.
 
-    `fingerprint` is equal for two runs exactly when they heard the same commands in the same worlds, in which case
-    their `trial_accuracy` may be compared pair by pair. `types` are those a robot could come to name. Symbols are
-    counted at the end of a trial; `wrong_symbols` is their number per trial, `wrong_symbols_total` over all.
+    `types` are those a robot could come to name. Symbols are counted at the end of a trial, and are means over trials.
     `out_of_view` is the share of objects outside the first view, pooled over commands; `asked`, `path_length`
     (metres), `turned` (radians) and `collisions` are means per command; `path_efficiency` is success weighted by path
-    length: 0 for a failure, otherwise the straight way to within 0.5 m of the object over the way driven.
+    length: 0 for a failure, otherwise the straight way to within 0.5 m of the object over the way driven; None where
+    all commands were orders to keep away.
     """
 
-    fingerprint: str
     trials: int
     iterations: int
     commands: int
@@ -121,125 +95,76 @@ class Measures:
     expected_symbols: float
     all_symbols: Estimate
     wrong_symbols: float
-    wrong_symbols_total: int
     accuracy_per_symbol: Estimate | None
     out_of_view: float | None
     asked: float
     path_length: float
     turned: float
-    path_efficiency: float
+    path_efficiency: float | None
     collisions: float
     calibration: Calibration
     causes: dict[str, int]
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain values for JSON; `from_dict` reads them back."""
+        """Plain values for JSON."""
         return asdict(self)
 
-    @staticmethod
-    def from_dict(values: Mapping[str, Any]) -> Measures:
-        """The inverse of `to_dict`; further keys are ignored.
 
-        Raises:
-            pydantic.ValidationError: if a field is missing or has another type.
-        """
-        return TypeAdapter(Measures).validate_python(values)
-
-
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """A row with what is derived from it and the row before it in its trial."""
-
-    row: Iteration
-    before: int  # symbols right before the command
-    right: int  # and after it
-    wrong: int
-    cause: str | None
-
-
-def measure(rows: Sequence[Iteration], types: Collection[str] | None = None) -> Measures:
+def measure(rows: Sequence[Iteration]) -> Measures:
     """Sum a run up. Rows may come in any order, and trials may be unfinished.
 
     Args:
         rows: one per trial and iteration.
-        types: the types a robot could come to name; by default all that occur in the rows' worlds.
 
     Raises:
-        ValueError: without rows, if a pair of trial and iteration comes twice, or if a target is not in its world.
+        ValueError: without rows, if a pair of trial and iteration comes twice, if a target is not in its world, or if
+            a probability is none.
     """
     if not rows:
         raise ValueError("no commands to measure: the run has no finished iteration")
-    trials = _by_trial(rows)
-    names = names_of_types(rows)
-    nameable = tuple(sorted({o.type for r in rows for o in r.objects} if types is None else types))
-    every = frozenset(nameable).union(*(r.known_types for r in rows))
-    steps = [_steps(trial, names) for trial in trials]
-    flat = [step for trial in steps for step in trial]
-    last = [trial[-1] for trial in steps]
-    at: defaultdict[int, list[_Step]] = defaultdict(list)
+    trials = steps_of(rows)
+    every = frozenset(o.type for r in rows for o in r.objects).union(*(r.known_types for r in rows))
+    last = [trial[-1] for trial in trials]
+    flat = [step for trial in trials for step in trial]
+    at: defaultdict[int, list[Step]] = defaultdict(list)
     for step in flat:
         at[step.row.iteration].append(step)
-    correct = sum(r.correct for r in rows)
-    finished = sum(step.right == len(every) for step in last)
+    accuracies = tuple(_mean(float(step.row.correct) for step in trial) for trial in trials)
     return Measures(
-        fingerprint=_fingerprint(trials),
         trials=len(trials),
         iterations=len(at),
         commands=len(rows),
-        correct=correct,
+        correct=sum(r.correct for r in rows),
         types=tuple(sorted(every)),
-        accuracy=_accuracy(trials, correct, len(rows)),
-        trial_accuracy=tuple(_mean(float(r.correct) for r in trial) for trial in trials),
+        accuracy=_accuracy(accuracies, sum(r.correct for r in rows), len(rows)),
+        trial_accuracy=accuracies,
         by_iteration=tuple(_iteration(i, at[i], len(every)) for i in sorted(at)),
         by_kind=_kinds(rows),
-        initial_symbols=_mean(len(trial[0].known_types) for trial in trials),
+        initial_symbols=_mean(len(trial[0].row.known_types) for trial in trials),
         correct_symbols=_clip(mean_over_trials([step.right for step in last]), len(every)),
         expected_symbols=_mean(step.row.expected_symbols for step in last),
-        all_symbols=wilson(finished, len(last)),
+        all_symbols=wilson(sum(step.right == len(every) for step in last), len(last)),
         wrong_symbols=_mean(step.wrong for step in last),
-        wrong_symbols_total=sum(step.wrong for step in last),
         accuracy_per_symbol=slope_over_trials(
-            [([step.before for step in trial], [float(step.row.correct) for step in trial]) for trial in steps]
+            [([step.before for step in trial], [float(step.row.correct) for step in trial]) for trial in trials]
         ),
-        out_of_view=_out_of_view(rows),
-        asked=_mean(r.asked for r in rows),
-        path_length=_mean(r.path_length for r in rows),
-        turned=_mean(r.turned for r in rows),
-        path_efficiency=_mean(path_efficiency(r) for r in rows),
-        collisions=_mean(r.collisions for r in rows),
-        calibration=calibrate(rows),
+        calibration=calibrate([r.probability for r in rows], [r.correct for r in rows]),
         causes=_count_causes(flat),
+        collisions=_mean(r.collisions for r in rows),
+        **_effort(rows),
     )
 
 
-def calibrate(rows: Iterable[Iteration], bins: int = BINS) -> Calibration:
-    """Reliability of `probability` in `bins` bins of equal width, and the expected calibration error.
-
-    The error is the mean over groundings of |share right - mean probability| of the bin each falls in.
-    """
-    cells: defaultdict[int, list[tuple[float, bool]]] = defaultdict(list)
-    without = n = 0
-    for row in rows:
-        if row.probability is None:
-            without += 1
-            continue
-        n += 1
-        cells[min(max(int(row.probability * bins), 0), bins - 1)].append((row.probability, row.correct))
-    filled = tuple(
-        Bin(k / bins, (k + 1) / bins, len(c), _mean(p for p, _ in c), _mean(float(right) for _, right in c))
-        for k, c in sorted(cells.items())
-    )
-    error = math.fsum(b.n * abs(b.accuracy - b.probability) for b in filled) / n if n else None
-    return Calibration(error, filled, n, without)
-
-
-def path_efficiency(row: Iteration) -> float:
+def path_efficiency(row: Iteration) -> float | None:
     """Success weighted by path length (Anderson et al. 2018, "On Evaluation of Embodied Navigation Agents").
 
     The shortest way is taken to be the straight one to within `ARRIVAL_RADIUS` of the object meant, obstacles aside.
+    None for an order to keep away that was obeyed.
     """
     if not row.correct:
         return 0.0
+    if row.grounded is None:
+        return None
     target = next(o for o in row.objects if o.id == row.target)
     distance = math.dist(target.position, (row.robot.x, row.robot.y))
     straight = max(0.0, distance - ARRIVAL_RADIUS)
@@ -247,36 +172,7 @@ def path_efficiency(row: Iteration) -> float:
     return straight / longest if longest > 0 else 1.0
 
 
-def paired_difference(a: Measures, b: Measures) -> Estimate | None:
-    """Accuracy of `b` minus that of `a`, trial by trial; None unless both heard the same commands."""
-    if a.fingerprint != b.fingerprint:
-        return None
-    return mean_over_trials([y - x for x, y in zip(a.trial_accuracy, b.trial_accuracy, strict=True)])
-
-
-def _by_trial(rows: Iterable[Iteration]) -> list[list[Iteration]]:
-    trials: defaultdict[int, dict[int, Iteration]] = defaultdict(dict)
-    for row in rows:
-        if row.iteration in trials[row.trial]:
-            raise ValueError(f"trial {row.trial}, iteration {row.iteration} comes twice; keep one row of each")
-        trials[row.trial][row.iteration] = row
-    return [[trial[i] for i in sorted(trial)] for _, trial in sorted(trials.items())]
-
-
-def _steps(trial: Sequence[Iteration], names: Mapping[str, frozenset[str]]) -> list[_Step]:
-    steps: list[_Step] = []
-    held: Mapping[str, str] = {}
-    before = len(set(trial[0].known_types))
-    for row in trial:
-        right = {meaning for word, meaning in row.symbols.items() if is_right(word, meaning, names)}
-        wrong = sum(not is_right(word, meaning, names) for word, meaning in row.symbols.items())
-        after = len(right.union(row.known_types))
-        steps.append(_Step(row, before, after, wrong, error_cause(row, held, names)))
-        held, before = row.symbols, after
-    return steps
-
-
-def _iteration(index: int, steps: Sequence[_Step], every: int) -> IterationMeasures:
+def _iteration(index: int, steps: Sequence[Step], every: int) -> IterationMeasures:
     rows = [step.row for step in steps]
     correct = sum(r.correct for r in rows)
     kinds = _kinds(rows)
@@ -292,19 +188,27 @@ def _iteration(index: int, steps: Sequence[_Step], every: int) -> IterationMeasu
         expected_symbols=_mean(r.expected_symbols for r in rows),
         wrong_symbols=_mean(step.wrong for step in steps),
         all_symbols=_mean(float(step.right == every) for step in steps),
-        out_of_view=_out_of_view(rows),
-        asked=_mean(r.asked for r in rows),
-        path_length=_mean(r.path_length for r in rows),
-        turned=_mean(r.turned for r in rows),
-        path_efficiency=_mean(path_efficiency(r) for r in rows),
         probability=_mean(probabilities) if probabilities else None,
         causes=_count_causes(steps),
+        **_effort(rows),
     )
 
 
-def _accuracy(trials: Sequence[Sequence[Iteration]], correct: int, n: int) -> Estimate:
+def _effort(rows: Sequence[Iteration]) -> dict[str, Any]:
+    """What a command costs: questions, metres, radians; and how much of its world is out of view."""
+    efficiencies = [e for e in map(path_efficiency, rows) if e is not None]
+    return {
+        "out_of_view": _out_of_view(rows),
+        "asked": _mean(r.asked for r in rows),
+        "path_length": _mean(r.path_length for r in rows),
+        "turned": _mean(r.turned for r in rows),
+        "path_efficiency": _mean(efficiencies) if efficiencies else None,
+    }
+
+
+def _accuracy(trials: Sequence[float], correct: int, n: int) -> Estimate:
     """Mean of the trials' means. Where trials can't tell the spread (one, or all alike), Wilson over commands."""
-    estimate = mean_over_trials([_mean(float(r.correct) for r in trial) for trial in trials])
+    estimate = mean_over_trials(trials)
     if estimate.low is None or estimate.high is None or estimate.low == estimate.high:
         return replace(wilson(correct, n), value=estimate.value)
     return _clip(estimate, 1)
@@ -326,7 +230,7 @@ def _kinds(rows: Sequence[Iteration]) -> dict[str, KindMeasures]:
     return result
 
 
-def _count_causes(steps: Iterable[_Step]) -> dict[str, int]:
+def _count_causes(steps: Iterable[Step]) -> dict[str, int]:
     counts = Counter(step.cause for step in steps)
     return {cause: counts[cause] for cause in CAUSES}
 
@@ -337,11 +241,6 @@ def _out_of_view(rows: Iterable[Iteration]) -> float | None:
         objects += len(row.objects)
         seen += len(row.in_view)
     return 1 - seen / objects if objects else None
-
-
-def _fingerprint(trials: Iterable[Iterable[Iteration]]) -> str:
-    heard = [(r.trial, r.iteration, r.world, r.command, r.target) for trial in trials for r in trial]
-    return hashlib.sha256(json.dumps(heard).encode()).hexdigest()[:16]
 
 
 def _mean(values: Iterable[float]) -> float:

@@ -1,7 +1,7 @@
 """`python -m dcg_torch.report.trade_off DIR [DIR...] --out FILE`: accuracy against questions asked.
 
 Every run is a point; runs that differ in `model.open_world.ask_below` alone make up the threshold's curve.
-Exit status: 0 done, 2 for a folder that can't be read.
+Exit status: 0 done, 2 for what can't be read or written.
 """
 
 from __future__ import annotations
@@ -13,9 +13,11 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from dcg_torch.report.canvas import BLUE, GREY, new_canvas, percent_axis, save_png
+from dcg_torch.report.canvas import BLUE, GREY, new_canvas, percent_axis, save_figure
 from dcg_torch.report.measures import Measures
-from dcg_torch.report.summary import ReportError, find_runs, load_run
+from dcg_torch.report.runs import Run, load_runs
+from dcg_torch.report.summary import ReportError, flatten
+from dcg_torch.report.text import printable
 
 WANTED = (0.15, 0.99)
 """At most so many questions a command, at least so accurate: the goal that is drawn."""
@@ -59,21 +61,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
         prog="python -m dcg_torch.report.trade_off", description="Draw accuracy against questions asked."
     )
     parser.add_argument("directories", metavar="DIR", nargs="+", type=Path, help="a run folder, or one with runs below")
-    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help="the PNG file to write")
+    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help="the PNG, PDF or SVG file to write")
     options = parser.parse_args(arguments)
-    runs: dict[float, Measures] = {}
     try:
-        for directory in options.directories:
-            for folder in find_runs(directory) or [directory]:
-                summary = load_run(folder)
-                asks = summary.config.get("asking") == "when_unsure"
-                model = summary.config.get("model", {})
-                runs[float(model["open_world"]["ask_below"]) if asks else 0.0] = summary.measures
-        print(save_png(draw_trade_off(runs), options.out))
-    except (ReportError, OSError) as error:
-        print(f"error: {error}", file=sys.stderr)
+        runs = {_threshold(run): run.measures for run in load_runs(options.directories)}
+        print(save_figure(draw_trade_off(runs), options.out))
+    except (ValueError, OSError) as error:  # a ReportError is a ValueError
+        print(f"error: {printable(str(error))}", file=sys.stderr)
         return 2
     return 0
+
+
+def _threshold(run: Run) -> float:
+    """The probability below which a run's robot asked; 0 where it never did."""
+    if run.config.get("asking") != "when_unsure":
+        return 0.0
+    threshold = flatten(run.config).get("model.open_world.ask_below")
+    if not isinstance(threshold, int | float):
+        raise ReportError(f"{run.folder}: its settings don't say model.open_world.ask_below; run the experiment again")
+    return float(threshold)
 
 
 if __name__ == "__main__":
