@@ -73,3 +73,25 @@ def segment_distances(starts: Floats, ends: Floats, points: Floats) -> tuple[Flo
     foot: Floats = (to_point * along).sum(-1) / squared
     distance: Floats = np.linalg.norm(to_point - np.clip(foot, 0.0, 1.0)[:, :, None] * along, axis=-1)
     return distance, foot
+
+
+def segments_clear(starts: Floats, ends: Floats, centres: Floats, radii: Floats) -> NDArray[np.bool_]:
+    """(m,) which segments stay outside every disc; worked through in pieces, so that memory stays small.
+
+    Args:
+        starts, ends: (m, 2).
+        centres, radii: (n, 2) and (n,), of the discs.
+    """
+    clear = np.ones(len(starts), dtype=np.bool_)
+    piece = max(1, min(_SEGMENTS, _PAIRS // max(1, len(centres))))
+    for at in range(0, len(starts), piece):
+        a, b = starts[at : at + piece], ends[at : at + piece]
+        low, high = np.minimum(a, b).min(axis=0), np.maximum(a, b).max(axis=0)
+        # only the discs that meet the box about these segments: neighbours in the list are mostly neighbours in place
+        near = (np.abs(centres - (low + high) / 2) <= (high - low) / 2 + radii[:, None]).all(axis=1)
+        distance, _ = segment_distances(a, b, centres[near])
+        clear[at : at + piece] = (distance >= radii[near]).all(axis=1)
+    return clear
+
+
+_SEGMENTS, _PAIRS = 256, 50_000  # segments, and pairs of a segment and a disc, that are computed at a time
