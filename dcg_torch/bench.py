@@ -24,7 +24,6 @@ import torch
 from rich import box
 from rich.table import Table as Grid
 
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.trial import run_trial
@@ -36,7 +35,7 @@ from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
-from dcg_torch.simulator import SimulatedRobot
+from dcg_torch.simulator import FakeRobot, SimulatedRobot
 from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import COLORS, TYPES

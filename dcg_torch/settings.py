@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import enum
+import math
 from dataclasses import dataclass, field
 
+from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.world.generator import TYPES
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
 
@@ -205,9 +207,10 @@ def check(settings: Settings) -> None:
         raise SettingsError(f"model.lessons={settings.model.lessons}: give a number of at least 0")
     if not settings.model.l2 > 0.0:
         raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
-    if not 0.0 < abs(settings.simulator.spin_step) <= 57.0:
+    widest = round(math.degrees(FIELD_OF_VIEW), 6)
+    if not 0.0 < abs(settings.simulator.spin_step) <= widest:
         raise SettingsError(
-            f"simulator.spin_step={settings.simulator.spin_step}: give degrees up to 57, the width of the view"
+            f"simulator.spin_step={settings.simulator.spin_step}: give degrees up to {widest:g}, the width of the view"
         )
     wrong = [trial for trial in settings.animate if not 0 <= trial < settings.trials]
     if wrong:

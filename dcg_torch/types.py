@@ -88,6 +88,19 @@ class Pose:
     yaw: float = 0.0
 
 
+class DriveResult(enum.Enum):
+    """How a drive ended; true only if it ended where it should."""
+
+    ARRIVED = "arrived"
+    NO_WAY = "no way"  # the obstacles leave none
+    BLOCKED = "blocked"  # it did not get there in time
+    TOO_FAR = "too far"  # beyond what the robot drives at a time
+    STOPPED = "stopped"  # somebody stopped the robot
+
+    def __bool__(self) -> bool:
+        return self is DriveResult.ARRIVED
+
+
 @dataclass(frozen=True, slots=True)
 class Percept:
     """One recognised object: what the camera and the recogniser say of it.

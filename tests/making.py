@@ -13,13 +13,14 @@ import torch
 from hypothesis import strategies as st
 from oracle import Oracle
 
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.psi import LogLinearModel
 from dcg_torch.model import GroundingModel, example_bag
+from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import (
     Child,
     Correspondence,
+    DriveResult,
     Example,
     Object,
     ParseTree,
@@ -121,13 +122,13 @@ class SpyRobot(FakeRobot):
         self.told.append("spin")
         super().spin(angle)
 
-    def drive_to(self, target: str, percepts: list[Percept], *, avoid: frozenset[str] = frozenset()) -> bool:
+    def drive_to(self, target: str, percepts: Sequence[Percept]) -> DriveResult:
         self.told.append(f"drive to {target}")
-        return True
+        return DriveResult.ARRIVED
 
-    def drive_away(self, target: str, percepts: list[Percept]) -> bool:
+    def drive_away(self, target: str, percepts: Sequence[Percept]) -> DriveResult:
         self.told.append(f"drive away from {target}")
-        return True
+        return DriveResult.ARRIVED
 
 
 def chosen(model: GroundingModel, tree: ParseTree, world: WorldModel) -> Object:

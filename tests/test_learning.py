@@ -27,7 +27,6 @@ from making import (
 )
 
 from dcg_torch.agent.command import carry_out
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import FactorGraph, Solution
@@ -42,6 +41,7 @@ from dcg_torch.learning.commit_first import (
 )
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN, hypothesize_objects, perceive_objects
+from dcg_torch.simulator import FakeRobot
 from dcg_torch.speaker import Command
 from dcg_torch.types import (
     Child,
@@ -64,7 +64,7 @@ Pupil = Callable[[], GroundingModel]
 def told(model: GroundingModel, text: str, world: World) -> list[str]:
     robot = SpyRobot()
     robot.load(world)
-    carry_out(text, model, read, robot, spin_step=math.radians(45))
+    carry_out(text, model, robot, parse=read, spin_step=math.radians(45))
     return robot.told
 
 
@@ -170,7 +170,7 @@ class TestLines7To15:
             heard.append((text, list(vocabulary)))
             return read("cube")
 
-        carry_out("to the cube, please", model, listen, robot)
+        carry_out("to the cube, please", model, robot, parse=listen)
         assert heard == [("to the cube, please", [*KNOWN, "drill"])]
 
     def test_line_11_the_best_configuration(self, trained: GroundingModel) -> None:
@@ -547,7 +547,7 @@ class TestInverted:
     def test_the_robot_drives_away(self, trained: GroundingModel, parser: Parser) -> None:
         robot = SpyRobot()
         robot.load(world_file(("red cube", 2.0, 0.0), ("blue cube", 2.0, 0.5)))
-        outcome = carry_out("stay away from the red cube", trained, parser.parse, robot)
+        outcome = carry_out("stay away from the red cube", trained, robot, parse=parser.parse)
         assert robot.told == ["drive away from red_cube"]
         assert outcome.arrived
 

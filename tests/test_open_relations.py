@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 import torch
 
-from dcg_torch.agent.asking import Answer, Question
+from dcg_torch.agent.asking import Question, Reply
 from dcg_torch.agent.command import _told
 from dcg_torch.agent.explore import LookBefore, compares
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.checkpoint import load, save
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import Solution
@@ -23,6 +22,7 @@ from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.model import Scene, Variant
 from dcg_torch.open_world import OpenWorldModel
 from dcg_torch.open_world.blocks import Blocks
+from dcg_torch.simulator import FakeRobot
 from dcg_torch.supervised import teach
 from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
 from dcg_torch.world.files import World, WorldObject
@@ -249,7 +249,7 @@ def test_what_compares_must_see_all_there_is(taught: OpenWorldModel) -> None:
 def test_an_answer_rules_out_and_leaves_landmarks(taught: OpenWorldModel) -> None:
     """The mailbox is denied, and is still there to be stood in front of."""
     world = taught.world_model(ROW, ROBOT, looked=True)
-    denied = _told(world, Question("?", ("green mailbox", "green drill")), Answer(None))
+    denied = _told(world, Question("?", ("green mailbox", "green drill")), Reply(None))
     assert [o.id for o in denied.objects] == [o.id for o in world.objects]
     tree = go_to(noun("thing", None, pp("behind", noun("mailbox"))))
     found = taught.ground(tree, denied)
@@ -257,7 +257,7 @@ def test_an_answer_rules_out_and_leaves_landmarks(taught: OpenWorldModel) -> Non
     assert found.object is not None
     assert found.object.id == "blue cube"
     assert sum(found.probabilities.values()) == pytest.approx(1.0)
-    twice = _told(denied, Question("?", ("blue cube",)), Answer("blue cube"))
+    twice = _told(denied, Question("?", ("blue cube",)), Reply("blue cube"))
     assert taught.ground(tree, twice).probabilities["blue cube"] == 1.0
 
 

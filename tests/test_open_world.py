@@ -12,9 +12,8 @@ import numpy as np
 import pytest
 import torch
 
-from dcg_torch.agent.asking import Asking
+from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.explore import LookBefore, Worth
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.checkpoint import load, save
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.learning.lexicon import lexicon_table, load_lexicon, save_lexicon
@@ -22,6 +21,7 @@ from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel, Scene, Variant
 from dcg_torch.open_world import Census, OpenWorldModel
 from dcg_torch.records import Iteration
+from dcg_torch.simulator import FakeRobot
 from dcg_torch.speaker import Command, GeneratingSpeaker, draw_trial
 from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind
 from dcg_torch.world.generator import COLORS, generate_world
@@ -188,7 +188,7 @@ def commands(seed: int, n: int = 10) -> list[Command]:
     return draw_trial(worlds, GeneratingSpeaker(1.0), n, rng)
 
 
-def trial(seed: int, asking: Asking | None = None) -> list[Iteration]:
+def trial(seed: int, asking: AskingPolicy | None = None) -> list[Iteration]:
     model = OpenWorldModel.trained(initial_training(), Variant(beam=12))
     worth = Worth(sure=None if asking is None else asking.below)
     rows = run_trial(
@@ -211,7 +211,7 @@ def test_a_trial_gives_the_same_bytes_twice() -> None:
 
 
 def test_with_questions_it_is_right_and_asks_little() -> None:
-    rows = [row for seed in range(2) for row in trial(seed, Asking(below=0.75))]
+    rows = [row for seed in range(2) for row in trial(seed, AskingPolicy(below=0.75))]
     assert all(row.correct for row in rows)
     assert sum(row.asked for row in rows) <= 0.3 * len(rows)
     for row in rows:

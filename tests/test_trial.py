@@ -15,15 +15,17 @@ from hypothesis import strategies as st
 from making import KNOWN, Read, SpyRobot, read, world_file
 
 from dcg_torch.agent.command import Look, Stopwatch, carry_out
-from dcg_torch.agent.robot import FIELD_OF_VIEW, REACH, FakeRobot
 from dcg_torch.experiment.runner import ITERATIONS, run
 from dcg_torch.experiment.trial import run_trial
+from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.records import Iteration, Timing
 from dcg_torch.settings import RobotKind, Settings, SimulatorSettings, Speaker
+from dcg_torch.simulator import FakeRobot
+from dcg_torch.simulator.limits import ARRIVED
 from dcg_torch.speaker import Command
-from dcg_torch.types import Pose
+from dcg_torch.types import DriveResult, Pose
 from dcg_torch.world.files import RobotStart, World
 
 Pupil = Callable[[], GroundingModel]
@@ -191,7 +193,7 @@ class TestCarryOut:
     @pytest.mark.parametrize("step", [10.0, 20.0, 45.0, 57.0, -20.0])
     def test_turning_ends_after_a_full_circle(self, trained: GroundingModel, step: float) -> None:
         robot = self.robot()
-        outcome = carry_out("sphere", trained, read, robot, spin_step=math.radians(step))
+        outcome = carry_out("sphere", trained, robot, parse=read, spin_step=math.radians(step))
         assert robot.turned == pytest.approx(math.tau)
         assert robot.told == ["spin"] * math.ceil(360 / abs(step) - 1e-9)
         assert outcome.arrived is None
@@ -203,27 +205,27 @@ class TestCarryOut:
         world = world_file(("red cube", 0.0, 2.0), ("green cube", 0.0, -2.0))
         for step, name in ((20.0, "red_cube"), (-20.0, "green_cube")):
             robot = self.robot(world)
-            carry_out("cube", trained, read, robot, spin_step=math.radians(step))
+            carry_out("cube", trained, robot, parse=read, spin_step=math.radians(step))
             assert robot.told[-1] == f"drive to {name}"
 
     def test_the_first_one_seen_is_meant(self, trained: GroundingModel) -> None:
         """Between two unknown things, that which is nearer to the middle of the view."""
         world = world_file(("red mailbox", 2.0, 0.6), ("red drill", 2.0, 0.3))
         robot = self.robot(world)
-        assert carry_out("gizmo", trained, read, robot).in_view == ("red_drill", "red_mailbox")
+        assert carry_out("gizmo", trained, robot, parse=read).in_view == ("red_drill", "red_mailbox")
         assert robot.told == ["drive to red_drill"]
 
     def test_what_was_seen_stays_known(self, trained: GroundingModel) -> None:
         """Turning away from a thing does not make it unseen."""
         robot = self.robot()
-        outcome = carry_out("drill", trained, read, robot)
+        outcome = carry_out("drill", trained, robot, parse=read)
         assert [p.id for p in outcome.percepts] == ["red_cube", "green_cube", "blue_drill"]
         assert outcome.solution is not None
         assert [o.id for o in outcome.solution.world.objects][:3] == ["red_cube", "green_cube", "blue_drill"]
 
     def test_the_watcher_sees_every_look(self, trained: GroundingModel) -> None:
         looks: list[Look] = []
-        carry_out("drill", trained, read, self.robot(), watch=looks.append)
+        carry_out("drill", trained, self.robot(), parse=read, watch=looks.append)
         assert [round(math.degrees(look.pose.yaw)) % 360 for look in looks] == list(range(0, 161, 20))
         hypothetical = [o.hypothetical for look in looks if (o := look.solution.object) is not None]
         assert hypothetical == [True] * 8 + [False]
@@ -232,7 +234,7 @@ class TestCarryOut:
 
     def test_no_tree_no_motion(self, trained: GroundingModel) -> None:
         robot = self.robot()
-        outcome = carry_out("?", trained, lambda text, vocabulary: Read(None, "no object phrase found"), robot)
+        outcome = carry_out("?", trained, robot, parse=lambda text, vocabulary: Read(None, "no object phrase found"))
         assert robot.told == []
         assert (outcome.solution, outcome.arrived) == (None, None)
         assert outcome.parse.problem == "no object phrase found"
@@ -240,8 +242,8 @@ class TestCarryOut:
 
     def test_a_drive_that_fails_is_no_grounding(self, pupil: Pupil) -> None:
         class Stuck(FakeRobot):
-            def drive_to(self, *_: Any, **__: Any) -> bool:
-                return False
+            def drive_to(self, *_: Any, **__: Any) -> DriveResult:
+                return DriveResult.BLOCKED
 
         command = Command(WORLD, "red, cube", "cube", "red", "red_cube")
         ((row, _),) = run_trial(0, [command], pupil(), read, Stuck(), np.random.default_rng(0))
@@ -268,8 +270,8 @@ class TestFakeRobot:
         if distance > 1e-6:
             assert {p.id for p in seen} == {"red_cube"}
             assert robot.drive_to("red_cube", seen)
-            assert math.dist((robot.pose.x, robot.pose.y), (ox, oy)) <= REACH + 1e-9
-            assert robot.path_length == pytest.approx(max(0.0, distance - REACH))
+            assert math.dist((robot.pose.x, robot.pose.y), (ox, oy)) <= ARRIVED + 1e-9
+            assert robot.path_length == pytest.approx(max(0.0, distance - ARRIVED))
 
     @given(bearing=st.floats(-math.pi, math.pi))
     def test_it_sees_57_degrees(self, bearing: float) -> None:

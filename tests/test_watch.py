@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from dcg_torch.agent.command import Look
-from dcg_torch.agent.robot import FakeRobot
 from dcg_torch.experiment.runner import ITERATIONS, animation_of, run
 from dcg_torch.grounding.graph import Hypothesis, Solution
 from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.resources import resource
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
-from dcg_torch.simulator import Camera, SimulatedRobot
+from dcg_torch.simulator import Camera, FakeRobot, SimulatedRobot
 from dcg_torch.simulator.stage import Stage
 from dcg_torch.speaker import Command
 from dcg_torch.types import (
@@ -39,7 +38,7 @@ from dcg_torch.watch import paint
 from dcg_torch.watch.animation import SIZE, animate, frames, schedule
 from dcg_torch.watch.floor import FloorPanel
 from dcg_torch.watch.pictures import save_screenshots
-from dcg_torch.watch.recording import Episode, Moment, Recorder
+from dcg_torch.watch.recording import Moment, RecordedCommand, Recorder
 from dcg_torch.watch.wording import bars, doing, label, meant, name_of, words
 from dcg_torch.world.files import World, WorldObject
 
@@ -99,13 +98,13 @@ def record(**changes: object) -> Iteration:
     return Iteration.model_validate(fields | changes)
 
 
-def episode(looks: Sequence[Look], moments: Sequence[Moment], **changes: object) -> Episode:
-    return Episode(
+def recorded(looks: Sequence[Look], moments: Sequence[Moment], **changes: object) -> RecordedCommand:
+    return RecordedCommand(
         Command(THERE, "go to the cube", "cube", None, "cube"), tuple(looks), tuple(moments), record(**changes)
     )
 
 
-def found(**changes: object) -> Episode:
+def found(**changes: object) -> RecordedCommand:
     """It looks for a cube behind it, turns, sees it, and drives there."""
     start, turned, there = Pose(0.0, 0.0, 3.0), Pose(0.0, 0.0, 0.1), Pose(1.5, 0.0, 0.0)
     looks = [
@@ -119,7 +118,7 @@ def found(**changes: object) -> Episode:
         Moment(Pose(0.7, 0.0, 0.0), 2),
         Moment(there, 2),
     ]
-    return episode(looks, moments, **changes)
+    return recorded(looks, moments, **changes)
 
 
 # wording
@@ -149,6 +148,18 @@ def test_what_goes_on_is_said_from_the_look_before() -> None:
     assert told[4] == "It has arrived at the right object."
 
 
+def test_it_looks_on_while_it_looks_on() -> None:
+    """The word may mean what is in view, and the robot wants to see the rest first."""
+    start, turned = Pose(0.0, 0.0, 0.0), Pose(0.0, 0.0, 1.0)
+    sure = solution(CUBE, {CUBE: 0.8, UNSEEN: 0.2})
+    looks = [look(start, [CUBE], sure), look(turned, [CUBE], sure)]
+    moments = [Moment(start, 1, looking=True), Moment(turned, 1), Moment(turned, 2, looking=True), Moment(turned, 2)]
+    them = recorded(looks, moments)
+    told = [doing(them, at, {}) for at in range(3)]
+    assert told[0] == told[1] == "It takes the command to mean the red cube, and looks on to be sure."
+    assert told[2] == "It takes the command to mean the red cube, and drives there."
+
+
 @pytest.mark.parametrize(
     ("changes", "expected"),
     [
@@ -167,10 +178,10 @@ def test_a_lesson_is_told_once() -> None:
 
 
 def test_a_command_without_sense_and_one_to_keep_away_are_said() -> None:
-    nothing = episode([], [Moment(Pose(0.0, 0.0), 0)], chosen=None, correct=False)
+    nothing = recorded([], [Moment(Pose(0.0, 0.0), 0)], chosen=None, correct=False)
     assert "can't make sense" in doing(nothing, 0, {})
     away = look(Pose(0.0, 0.0), [CUBE], solution(CUBE, {CUBE: 1.0}, inverted=True))
-    left = episode([away], [Moment(away.pose, 1, looking=True), Moment(Pose(-1.0, 0.0), 1)], correct=False)
+    left = recorded([away], [Moment(away.pose, 1, looking=True), Moment(Pose(-1.0, 0.0), 1)], correct=False)
     assert "keeps away" in doing(left, 0, {})
     assert "left" in doing(left, 1, {})
 
@@ -188,7 +199,7 @@ def test_the_chart_keeps_its_places_and_loses_no_probability(weights: list[list[
         total = sum(seen.values())
         best = max(seen, key=lambda t: seen[t])
         looks.append(look(Pose(0.0, 0.0), [], solution(best, {t: w / total for t, w in seen.items()})))
-    them = episode(looks, [Moment(Pose(0.0, 0.0), 0)])
+    them = recorded(looks, [Moment(Pose(0.0, 0.0), 0)])
     charts = [bars(them, n, most) for n in range(len(looks) + 1)]
     assert len({tuple(bar.name for bar in chart) for chart in charts}) == 1
     assert len(charts[0]) <= most
@@ -210,12 +221,12 @@ def test_every_look_and_the_end_are_shown_in_order(looking: list[bool]) -> None:
         moments.append(Moment(pose, count, looking=looks_now))
     moments.append(Moment(pose, count))
     one = look(pose, [], solution(UNSEEN, {UNSEEN: 1.0}))
-    shots = schedule(3, episode([one] * count, moments))
+    shots = schedule(3, recorded([one] * count, moments))
     at = [shot.moment for shot in shots]
     assert at == sorted(set(at))
     assert {k for k, moment in enumerate(moments) if moment.looking} | {len(moments) - 1} <= set(at)
     assert max(np.diff([0, *at])) <= 3
-    assert {shot.episode for shot in shots} == {3}
+    assert {shot.command for shot in shots} == {3}
     assert all(shot.hold >= 100 for shot in shots)
 
 
@@ -227,7 +238,7 @@ def near(image: Image.Image, color: paint.RGB) -> NDArray[np.bool_]:
 def test_the_fan_on_the_floor_is_where_the_robot_looks() -> None:
     turning = [Pose(0.0, 0.0, yaw) for yaw in (1.57, -1.57, 0.0)]
     one = look(turning[0], [], solution(UNSEEN, {UNSEEN: 1.0}))
-    them = episode([one], [Moment(pose, 1) for pose in turning])
+    them = recorded([one], [Moment(pose, 1) for pose in turning])
     with Stage(THERE) as stage:
         panel = FloorPanel(stage, them, Camera(), (300, 240))
         pictures = [np.asarray(panel.draw(at), dtype=int) for at in range(3)]
@@ -268,7 +279,7 @@ def test_the_camera_shown_is_the_one_that_perceives() -> None:
     with SimulatedRobot() as robot, Stage(THERE) as stage:
         robot.load(THERE)
         for _ in range(9):
-            view = stage.through(robot.camera, robot.pose, (robot.camera.width, robot.camera.rows))
+            view = robot.camera.view(robot.pose)
             stage.put(robot.pose)
             _, mask = view.render(stage.client)
             drawn = {id_: int((mask == body).sum()) for id_, body in stage.bodies.items()}
@@ -312,7 +323,7 @@ def test_the_recorder_keeps_the_commands_apart() -> None:
     recorder.end(command, record())
     recorder.look(command, second)
     recorder.end(command, record(iteration=1))
-    one, two = recorder.episodes
+    one, two = recorder.commands
     assert one.looks == (first,)
     assert one.moments == (Moment(first.pose, 1, looking=True), Moment(Pose(0.0, 0.0, 2.0), 1), Moment(robot.pose, 1))
     assert two.looks == (second,)

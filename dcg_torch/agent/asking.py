@@ -5,15 +5,29 @@ Descriptions are relative to the robot's start pose, which is where it stood whe
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from dcg_torch.geometry import NEXT_TO, bearing, to_robot_frame, wrap_angle
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept, Pose
 
 Fits = Callable[[Percept], bool]
+"""Whether some words fit an object."""
+
+_SIDES = (
+    ("in front of me", 0.0),
+    ("on my left", math.pi / 2),
+    ("on my right", -math.pi / 2),
+    ("behind me", math.pi),
+)
+_SIDE = math.radians(40.0)  # from the middle of a side, within which a thing is there
+_MARGIN = 0.3  # metres by which the closest and the farthest must stand out, so that it can be seen
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,13 +39,13 @@ class Question:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Reply:
     """What the speaker says: the id of the candidate meant, or None for none of them."""
 
     meant: str | None
 
     def text(self, question: Question) -> str:
-        """The answer in words."""
+        """The reply in words."""
         if self.meant is None:
             return "no" if len(question.candidates) == 1 else "none of them"
         if len(question.candidates) == 1:
@@ -41,17 +55,17 @@ class Answer:
 
 _ORDINALS = ("first", "second", "third", "fourth", "fifth")
 
-Listener = Callable[[Question], Answer]
+Listener = Callable[[Question], Reply]
 """Who answers."""
 
 
 def truthful(target: str) -> Listener:
     """A speaker who meant the object `target` and says so when asked."""
-    return lambda question: Answer(target if target in question.candidates else None)
+    return lambda question: Reply(target if target in question.candidates else None)
 
 
 @dataclass(frozen=True, slots=True)
-class Asking:
+class AskingPolicy:
     """When to ask, and how much.
 
     Attributes:
@@ -67,13 +81,13 @@ class Asking:
     questions: int = 3
 
 
-def candidates(solution: Solution, asking: Asking) -> tuple[str, ...]:
+def candidates(solution: Solution, policy: AskingPolicy) -> tuple[str, ...]:
     """The objects to ask about, the most probable first; none if the robot is sure enough, or has seen none."""
     seen = [(solution.probabilities[o.id], o.id) for o in solution.world.objects if not o.hypothetical]
     seen.sort(key=lambda item: (-item[0], item[1]))
-    if not seen or seen[0][0] >= asking.below:
+    if not seen or seen[0][0] >= policy.below:
         return ()
-    return tuple(id_ for p, id_ in seen[: asking.options] if p >= asking.least)
+    return tuple(id_ for p, id_ in seen[: policy.options] if p >= policy.least)
 
 
 def question(ids: Sequence[str], percepts: Sequence[Percept], start: Pose, names: Mapping[str, str]) -> Question:
@@ -98,77 +112,82 @@ def question(ids: Sequence[str], percepts: Sequence[Percept], start: Pose, names
 
 def describe(thing: Percept, percepts: Sequence[Percept], start: Pose, names: Mapping[str, str]) -> tuple[str, str]:
     """What an object is and, if that fits others as well, where it is: ("the blue thing", "on my left")."""
-    name = names.get(thing.type)
-    base = " ".join(filter(None, ("the", thing.color, name or "thing")))
-    alike = [p for p in percepts if p.color == thing.color and (name is None or names.get(p.type) == name)]
-    if len(alike) == 1:
+    base = _described(thing, names)
+    # "the blue thing" fits whatever is blue, "the blue cube" only blue cubes
+    rivals = [p for p in percepts if p.color == thing.color and names.get(thing.type) in (None, names.get(p.type))]
+    if len(rivals) == 1:
         return base, ""
-    for where, fits in places(thing, percepts, alike, start, names):
-        if [p.id for p in alike if fits(p)] == [thing.id]:
+    for where, fits in location_phrases(thing, percepts, rivals, start, names):
+        if [p.id for p in rivals if fits(p)] == [thing.id]:
             return base, where
-    ahead, left = relative(thing, start)
+    ahead, left = _relative(thing, start)
     return base, (
         f"{abs(ahead):.1f} m {'in front of' if ahead >= 0 else 'behind'} me and "
         f"{abs(left):.1f} m to the {'left' if left >= 0 else 'right'}"
     )
 
 
-def places(
-    thing: Percept, percepts: Sequence[Percept], alike: Sequence[Percept], start: Pose, names: Mapping[str, str]
+def location_phrases(
+    thing: Percept, percepts: Sequence[Percept], rivals: Sequence[Percept], start: Pose, names: Mapping[str, str]
 ) -> Iterator[tuple[str, Fits]]:
-    """Ways to say where a thing is, each with the test that it passes, the simplest first."""
-    sides: tuple[tuple[str, float], ...] = (
-        ("in front of me", 0.0),
-        ("on my left", math.pi / 2),
-        ("on my right", -math.pi / 2),
-        ("behind me", math.pi),
-    )
-    for where, middle in sides:
+    """Ways to say where a thing is, the simplest first, each with the test that it passes.
 
-        def beside(p: Percept, middle: float = middle) -> bool:
-            return abs(math.remainder(_bearing(p, start) - middle, math.tau)) < math.radians(40.0)
-
+    Args:
+        percepts: all that was seen: a landmark is one of them.
+        rivals: those that the thing must be told from, itself among them.
+        start: where the robot stood when it was spoken to.
+        names: type -> a word for it that the robot is sure of.
+    """
+    for where, middle in _SIDES:
+        beside = functools.partial(_is_at_side, start=start, middle=middle)
         if beside(thing):
             yield where, beside
-    for mark in sorted(percepts, key=lambda p: (math.dist(p.position, thing.position), p.id)):
-        name = names.get(mark.type)
-        same = [p for p in percepts if p.color == mark.color and names.get(p.type) == name]
-        if mark.id == thing.id or name is None or len(same) > 1 or math.dist(mark.position, thing.position) > 2.0:
-            continue
-
-        def near(p: Percept, mark: Percept = mark) -> bool:
-            return p.id != mark.id and math.dist(p.position, mark.position) <= 2.0
-
-        yield f"next to {' '.join(filter(None, ('the', mark.color, name)))}", near
-    distances = sorted(_distance(p, start) for p in alike)
-    # said only where the difference can be seen
-    if len(distances) > 1 and distances[1] - distances[0] > 0.3:
+    for landmark in _landmarks(thing, percepts, names):
+        yield f"next to {_described(landmark, names)}", functools.partial(_is_next_to, landmark=landmark)
+    distances = sorted(_distance(p, start) for p in rivals)
+    if len(distances) > 1 and distances[1] - distances[0] > _MARGIN:
         yield "closest to me", lambda p: _distance(p, start) <= distances[0]
-    if len(distances) > 1 and distances[-1] - distances[-2] > 0.3:
+    if len(distances) > 1 and distances[-1] - distances[-2] > _MARGIN:
         yield "farthest from me", lambda p: _distance(p, start) >= distances[-1]
-    for (side, one), (depth, other) in itertools.product(
+    for (side, sign), (depth, forward) in itertools.product(
         (("to the left", 1.0), ("to the right", -1.0)), (("in front of me", 1.0), ("behind me", -1.0))
     ):
-
-        def quarter(p: Percept, one: float = one, other: float = other) -> bool:
-            ahead, left = relative(p, start)
-            return ahead * other > 0 and left * one > 0
-
+        quarter = functools.partial(_is_in_quarter, start=start, forward=forward, sign=sign)
         if quarter(thing):
             yield f"{depth} {side}", quarter
 
 
-def relative(thing: Percept, start: Pose) -> tuple[float, float]:
+def _described(thing: Percept, names: Mapping[str, str]) -> str:
+    """As in "the red cube", "the blue thing"."""
+    return " ".join(filter(None, ("the", thing.color, names.get(thing.type, "thing"))))
+
+
+def _landmarks(thing: Percept, percepts: Sequence[Percept], names: Mapping[str, str]) -> Iterator[Percept]:
+    """Things next to this one that a name, with their colour, says by itself; the nearest first."""
+    for landmark in sorted(percepts, key=lambda p: (math.dist(p.position, thing.position), p.id)):
+        alike = [p for p in percepts if p.color == landmark.color and names.get(p.type) == names.get(landmark.type)]
+        if landmark.type in names and len(alike) == 1 and _is_next_to(thing, landmark):
+            yield landmark
+
+
+def _is_next_to(thing: Percept, landmark: Percept) -> bool:
+    return thing.id != landmark.id and math.dist(thing.position, landmark.position) <= NEXT_TO
+
+
+def _is_at_side(thing: Percept, start: Pose, middle: float) -> bool:
+    return abs(wrap_angle(bearing(start, *thing.position[:2]) - middle)) < _SIDE
+
+
+def _is_in_quarter(thing: Percept, start: Pose, forward: float, sign: float) -> bool:
+    ahead, left = _relative(thing, start)
+    return ahead * forward > 0 and left * sign > 0
+
+
+def _relative(thing: Percept, start: Pose) -> tuple[float, float]:
     """Metres ahead and to the left of the start pose."""
-    x, y = thing.position[0] - start.x, thing.position[1] - start.y
-    ahead, left = math.cos(start.yaw), math.sin(start.yaw)
-    return x * ahead + y * left, y * ahead - x * left
-
-
-def _bearing(thing: Percept, start: Pose) -> float:
-    ahead, left = relative(thing, start)
-    return math.atan2(left, ahead)
+    ((ahead, left),) = to_robot_frame(start, np.array([thing.position[:2]])).tolist()
+    return ahead, left
 
 
 def _distance(thing: Percept, start: Pose) -> float:
-    return math.hypot(*relative(thing, start))
+    return math.dist(thing.position[:2], (start.x, start.y))

@@ -5,21 +5,20 @@ from __future__ import annotations
 import math
 import time
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import Protocol
+from typing import Any, Protocol
 
-from dcg_torch.agent.asking import Answer, Asking, Listener, Question, candidates, question
+from dcg_torch.agent.asking import AskingPolicy, Listener, Question, Reply, candidates, question
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.learner import Experience
-from dcg_torch.model import GroundingModel
-from dcg_torch.types import ParseTree, Percept, Pose, WorldModel
+from dcg_torch.types import DriveResult, ParseTree, Percept, Pose, WorldModel
 
 
-class Parse(Protocol):
+class ParsedCommand(Protocol):
     """What reading a command gives: a tree, or the problem in words."""
 
     @property
@@ -43,7 +42,31 @@ class Parse(Protocol):
         ...
 
 
-Parser = Callable[[str, Collection[str]], Parse]
+CommandParser = Callable[[str, Collection[str]], ParsedCommand]
+"""Reads a command, given the words that are known."""
+
+
+class Grounder(Protocol):
+    """What a command asks of a model; `model.GroundingModel` is one."""
+
+    @property
+    def symbols(self) -> Mapping[str, Any]:
+        """The known words."""
+        ...
+
+    def sure_names(self) -> Mapping[str, str]:
+        """type -> a word for it that the robot holds for certain."""
+        ...
+
+    def world_model(
+        self, percepts: Iterable[Percept], robot: Pose | None = None, *, looked: bool = False
+    ) -> WorldModel:
+        """Upsilon of what was perceived from this start pose."""
+        ...
+
+    def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+        """What a command means in a world."""
+        ...
 
 
 @dataclass
@@ -82,18 +105,23 @@ class Outcome:
         solution: the last grounding; None if there was no tree.
         in_view: ids seen from the start pose.
         percepts: all that was perceived, in the order of first sight.
-        arrived: did the drive end where it should; None if there was nowhere to drive.
+        drive: how the drive ended; None if there was nowhere to drive.
         looked: did the robot look all round before it decided?
         asked: the questions that it asked, with their answers.
     """
 
-    parse: Parse
+    parse: ParsedCommand
     solution: Solution | None
     in_view: tuple[str, ...]
     percepts: tuple[Percept, ...]
-    arrived: bool | None
+    drive: DriveResult | None
     looked: bool = False
-    asked: tuple[tuple[Question, Answer], ...] = ()
+    asked: tuple[tuple[Question, Reply], ...] = ()
+
+    @property
+    def arrived(self) -> bool | None:
+        """Did the drive end where it should; None if there was nowhere to drive."""
+        return None if self.drive is None else bool(self.drive)
 
     def experience(self, source: str) -> Experience:
         """What bears on what can be learned, beside the grounding."""
@@ -102,13 +130,13 @@ class Outcome:
 
 def carry_out(
     text: str,
-    model: GroundingModel,
-    parse: Parser,
+    model: Grounder,
     robot: Robot,
     *,
+    parse: CommandParser | None = None,
     spin_step: float = math.radians(20.0),
     explorer: Explorer | None = None,
-    asking: Asking | None = None,
+    asking: AskingPolicy | None = None,
     listener: Listener | None = None,
     watch: Callable[[Look], None] | None = None,
     stopwatch: Stopwatch | None = None,
@@ -119,7 +147,10 @@ def carry_out(
     by default that is the paper's, which turns in place while the grounding is hypothetical (line 13). Then the
     robot may ask back. A grounding that is still hypothetical is not acted on: what is meant is not there.
 
+    The model does not learn here; give it the outcome for that: `model.learn(outcome.solution, outcome.scene(text))`.
+
     Args:
+        parse: reads the command; None: the parser of `dcg_torch.language`.
         spin_step: radians between two looks of the default explorer; positive turns left.
         explorer: decides on the looks.
         asking: when to ask back; None: never.
@@ -133,46 +164,78 @@ def carry_out(
         percepts = {p.id: p for p in robot.perceive()}
     in_view = tuple(percepts)
     with clock("parse"):
-        reading = parse(text, model.symbols.keys())
+        reading = (parse or _default_parser())(text, model.symbols.keys())
     if reading.tree is None:
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
     explorer = explorer or TurnInPlace(spin_step)
-    while True:
-        with clock("ground"):
-            world = model.world_model(percepts.values(), start, looked=explorer.looked)
-            solution = model.ground(reading.tree, world)
-        if watch is not None:
-            watch(Look(robot.pose, tuple(percepts.values()), solution))
-        with clock("explore"):
-            moved = explorer.move(solution, tuple(percepts.values()), robot)
-        if not moved:
-            break
-        with clock("perceive"):
-            for percept in robot.perceive():
-                percepts.setdefault(percept.id, percept)
-    asked: list[tuple[Question, Answer]] = []
-    while asking is not None and listener is not None and len(asked) < asking.questions:
-        ids = candidates(solution, asking)
-        if not ids:
-            break
-        asked.append((q := question(ids, tuple(percepts.values()), start, model.sure_names()), listener(q)))
-        with clock("ground"):
-            solution = model.ground(reading.tree, _told(solution.world, *asked[-1]))
-    arrived = None
-    if solution.object is not None and not solution.object.hypothetical:
-        move = robot.drive_away if solution.inverted else robot.drive_to
-        with clock("drive"):
-            arrived = move(solution.object.id, list(percepts.values()))
-    return Outcome(
-        reading, solution, in_view, tuple(percepts.values()), arrived, looked=explorer.looked, asked=tuple(asked)
-    )
+    command = _Command(reading.tree, model, robot, start, percepts, clock)
+    solution = command.look(explorer, watch)
+    asked: tuple[tuple[Question, Reply], ...] = ()
+    if asking is not None and listener is not None:
+        solution, asked = command.ask(solution, asking, listener)
+    drive = command.act(solution)
+    return Outcome(reading, solution, in_view, tuple(percepts.values()), drive, looked=explorer.looked, asked=asked)
 
 
-def _told(world: WorldModel, asked: Question, answer: Answer) -> WorldModel:
-    """Upsilon after an answer: only the object that is meant may be, or all but those that are not.
+@dataclass
+class _Command:
+    """A command under way; `percepts`, by id, grow with every look."""
+
+    tree: ParseTree
+    model: Grounder
+    robot: Robot
+    start: Pose
+    percepts: dict[str, Percept]
+    clock: Stopwatch
+
+    def look(self, explorer: Explorer, watch: Callable[[Look], None] | None) -> Solution:
+        """Ground what is seen, and look on until the explorer is content."""
+        while True:
+            with self.clock("ground"):
+                world = self.model.world_model(self.percepts.values(), self.start, looked=explorer.looked)
+                solution = self.model.ground(self.tree, world)
+            if watch is not None:
+                watch(Look(self.robot.pose, tuple(self.percepts.values()), solution))
+            with self.clock("explore"):
+                moved = explorer.move(solution, tuple(self.percepts.values()), self.robot)
+            if not moved:
+                return solution
+            with self.clock("perceive"):
+                for percept in self.robot.perceive():
+                    self.percepts.setdefault(percept.id, percept)
+
+    def ask(
+        self, solution: Solution, policy: AskingPolicy, listener: Listener
+    ) -> tuple[Solution, tuple[tuple[Question, Reply], ...]]:
+        """Ask until the robot is sure enough; the grounding then, and what was asked."""
+        asked: list[tuple[Question, Reply]] = []
+        while len(asked) < policy.questions and (ids := candidates(solution, policy)):
+            asking = question(ids, tuple(self.percepts.values()), self.start, self.model.sure_names())
+            asked.append((asking, listener(asking)))
+            with self.clock("ground"):
+                solution = self.model.ground(self.tree, _told(solution.world, *asked[-1]))
+        return solution, tuple(asked)
+
+    def act(self, solution: Solution) -> DriveResult | None:
+        """Drive to what is meant, or away from it; None: nothing that was seen is meant."""
+        if solution.object is None or solution.object.hypothetical:
+            return None
+        move = self.robot.drive_away if solution.inverted else self.robot.drive_to
+        with self.clock("drive"):
+            return move(solution.object.id, tuple(self.percepts.values()))
+
+
+def _default_parser() -> CommandParser:
+    from dcg_torch.language import default_parser  # here, because spaCy takes seconds to import
+
+    return default_parser().parse
+
+
+def _told(world: WorldModel, asked: Question, reply: Reply) -> WorldModel:
+    """Upsilon after a reply: only the object that is meant may be, or all but those that are not.
 
     The others stay in the world: what is meant may stand next to them.
     """
     before = {o.id for o in world.objects} if world.meant is None else world.meant
-    left = before - set(asked.candidates) if answer.meant is None else {answer.meant}
+    left = before - set(asked.candidates) if reply.meant is None else {reply.meant}
     return replace(world, meant=frozenset(left))

@@ -14,7 +14,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.agent.robot import FIELD_OF_VIEW, Robot
+from dcg_torch.agent.robot import Robot
+from dcg_torch.geometry import FIELD_OF_VIEW, segment_distances
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept, PhraseKind
 
@@ -123,7 +124,7 @@ class LookBefore:
         if len(self.places) > self.worth.views or missing(solution) <= self.worth.absent:
             return False
         place = next_place((robot.pose.x, robot.pose.y), self.places, percepts, self.worth.ground)
-        if place is None or not robot.go_to(*place, list(percepts)):
+        if place is None or not robot.go_to(*place, percepts):
             return False
         self._turned = 0
         return True
@@ -212,12 +213,9 @@ def next_place(here: Point, places: Sequence[Point], percepts: Sequence[Percept]
 
 def in_sight(places: NDArray[np.float64], cells: NDArray[np.float64], discs: NDArray[np.float64]) -> NDArray[np.bool_]:
     """(places, cells): is the line between them free of discs? Cells on a disc count by what is before it."""
-    free = np.ones((len(places), len(cells)), dtype=np.bool_)
-    along = cells[None] - places[:, None]
-    squared = np.maximum((along**2).sum(-1), 1e-12)
+    starts, ends = np.repeat(places, len(cells), axis=0), np.tile(cells, (len(places), 1))
+    free = np.ones(len(starts), dtype=np.bool_)
     for disc in discs:
-        to = disc - places[:, None]
-        at = (to * along).sum(-1) / squared
-        distance = np.linalg.norm(to - np.clip(at, 0.0, 1.0)[..., None] * along, axis=-1)
-        free &= (distance > _BODY) | (at > 1.0) | (at < 0.0)
-    return free
+        distance, foot = segment_distances(starts, ends, disc[None])
+        free &= ((distance > _BODY) | (foot > 1.0) | (foot < 0.0))[:, 0]
+    return free.reshape(len(places), len(cells))

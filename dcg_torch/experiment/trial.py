@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.agent.asking import Asking, truthful
-from dcg_torch.agent.command import Look, Outcome, Parser, Stopwatch, carry_out
+from dcg_torch.agent.asking import AskingPolicy, truthful
+from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, carry_out
 from dcg_torch.agent.explore import Explorer
-from dcg_torch.agent.robot import Robot
+from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.model import GroundingModel
 from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.speaker import Command
@@ -21,13 +21,13 @@ def run_trial(
     trial: int,
     commands: Sequence[Command],
     model: GroundingModel,
-    parse: Parser,
-    robot: Robot,
+    parse: CommandParser,
+    robot: SimulationRobot,
     rng: np.random.Generator,
     *,
     spin_step: float = math.radians(20.0),
     explorer: Callable[[], Explorer] | None = None,
-    asking: Asking | None = None,
+    asking: AskingPolicy | None = None,
     watch: Callable[[Command, Look], None] | None = None,
 ) -> Iterator[tuple[Iteration, Timing]]:
     """Ground, act and learn, command by command; each command's record is yielded as it ends.
@@ -52,8 +52,8 @@ def run_trial(
         outcome = carry_out(
             command.text,
             model,
-            parse,
             robot,
+            parse=parse,
             spin_step=spin_step,
             explorer=None if explorer is None else explorer(),
             asking=asking,

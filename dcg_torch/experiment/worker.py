@@ -16,10 +16,10 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from dcg_torch.agent.asking import Asking
+from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.command import Look
 from dcg_torch.agent.explore import Explorer, LookBefore, Worth
-from dcg_torch.agent.robot import FakeRobot, Robot
+from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.checkpoint import save
 from dcg_torch.experiment.plan import trial_commands, trial_generators
 from dcg_torch.experiment.runner import MODEL, animation_of, lexicon_of, part_of
@@ -32,9 +32,8 @@ from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import TrainingFileError, initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.settings import Asking as WhenToAsk
-from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
-from dcg_torch.simulator import Recogniser, SimulatedRobot, SimulatorError
+from dcg_torch.settings import Asking, ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
+from dcg_torch.simulator import FakeRobot, Recogniser, SimulatedRobot, SimulatorError
 from dcg_torch.speaker import Command, SpeakerError
 from dcg_torch.watch.recording import Recorder
 from dcg_torch.watch.wording import meant
@@ -70,7 +69,7 @@ _initial_training = functools.cache(initial_training)
 
 
 @functools.cache
-def _robot(settings: str, types: int) -> Robot:
+def _robot(settings: str, types: int) -> SimulationRobot:
     """This process's robot: made once, since a world's outcome does not depend on the worlds before it."""
     chosen = SimulatorSettings(**json.loads(settings))
     recogniser = Recogniser(
@@ -112,7 +111,7 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     if recorder:
         from dcg_torch.watch.animation import animate  # here, because it costs a third of a second to import
 
-        animate(recorder.episodes, animation_of(directory, trial))
+        animate(recorder.commands, animation_of(directory, trial))
     if settings.model.posterior:
         save_lexicon(model.lexicon(), lexicon_of(directory, trial))
     if trial == settings.trials - 1:
@@ -120,7 +119,7 @@ def run_one(settings: Settings, trial: int, directory: Path) -> GroundingModel:
     return model
 
 
-def _watcher(robot: Robot, recorder: Recorder | None) -> Callable[[Command, Look], None] | None:
+def _watcher(robot: SimulationRobot, recorder: Recorder | None) -> Callable[[Command, Look], None] | None:
     """Who is told of every look: the recorder, and the window."""
     if recorder is None and not (isinstance(robot, SimulatedRobot) and robot.client.gui):
         return None
@@ -166,15 +165,15 @@ def _explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explore
     chosen = settings.model.open_world
     if not settings.model.posterior:
         return None
-    sure = chosen.ask_below if settings.asking is WhenToAsk.when_unsure else None
+    sure = chosen.ask_below if settings.asking is Asking.when_unsure else None
     worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
     return functools.partial(LookBefore, model.beliefs_of, worth)
 
 
-def _asking(settings: Settings) -> Asking | None:
-    if settings.asking is WhenToAsk.never:
+def _asking(settings: Settings) -> AskingPolicy | None:
+    if settings.asking is Asking.never:
         return None
-    return Asking(below=settings.model.open_world.ask_below)
+    return AskingPolicy(below=settings.model.open_world.ask_below)
 
 
 @functools.cache

@@ -6,7 +6,7 @@ things      by itself: clear or covered, on the floor, held ...; among those ali
 relations   to a landmark: above, beside, at which distance and on which side, closest to it of those alike ...
 """
 
-from dcg_torch.scene.layout import Layout, layout, seen_from
+from dcg_torch.scene.layout import Layout, layout
 from dcg_torch.scene.places import Bounds, groups, places, scene_bounds
 from dcg_torch.scene.ranks import RANKS, STATES, ranks, states
 from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, relations
@@ -24,6 +24,5 @@ __all__ = [
     "ranks",
     "relations",
     "scene_bounds",
-    "seen_from",
     "states",
 ]

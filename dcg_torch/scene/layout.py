@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.geometry import to_robot_frame
 from dcg_torch.types import Object, Pose, WorldModel
 
 Floats = NDArray[np.float64]
@@ -87,21 +88,13 @@ class Layout:
             return np.hypot(offset[..., 0], offset[..., 1])
 
 
-def seen_from(robot: Pose, points: Floats) -> Floats:
-    """Points (n, 2) in the robot's frame, metres."""
-    c, s = math.cos(robot.yaw), math.sin(robot.yaw)
-    moved = points - np.array([robot.x, robot.y])
-    seen: Floats = moved @ np.array([[c, -s], [s, c]])
-    return seen
-
-
 def layout(world: WorldModel) -> Layout:
     """The arrays of a world's things."""
     things = world.things
     n, robot = len(things), world.robot or Pose(0.0, 0.0)
     position = np.array([(math.nan,) * 3 if o.position is None else o.position for o in things], dtype=np.float64)
     position = position.reshape(n, 3)
-    position[:, :2] = seen_from(robot, position[:, :2])
+    position[:, :2] = to_robot_frame(robot, position[:, :2])
     position /= world.unit
     size = np.array([(0.0, 0.0) if o.size is None else o.size[:2] for o in things], dtype=np.float64).reshape(n, 2)
     numbers = np.arange(n)
@@ -140,7 +133,7 @@ def layout(world: WorldModel) -> Layout:
         middle,
         None
         if world.speaker is None
-        else seen_from(robot, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit,
+        else to_robot_frame(robot, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit,
     )
 
 

@@ -7,12 +7,12 @@ latter two ("on your left"). A group is: "the row of barrels" means all its memb
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS, NEXT, SAME_SPOT, Bools, Floats, seen_from
+from dcg_torch.geometry import from_robot_frame, to_robot_frame
+from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS, NEXT, SAME_SPOT, Bools, Floats
 from dcg_torch.types import Object, Pose
 
 Bounds = tuple[float, float, float, float]
@@ -29,7 +29,7 @@ _MOST = 12
 
 def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> Bounds:
     """The bounding box of positions."""
-    points = seen_from(robot or Pose(0.0, 0.0), np.array([p[:2] for p in positions], dtype=np.float64))
+    points = to_robot_frame(robot or Pose(0.0, 0.0), np.array([p[:2] for p in positions], dtype=np.float64))
     low, high = points.min(axis=0), points.max(axis=0)
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
@@ -46,8 +46,7 @@ def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> t
     found: list[Object] = []
 
     def add(kind: str, x: float, y: float, sides: Sequence[str] = (), size: tuple[float, float] = (0.0, 0.0)) -> None:
-        c, s = math.cos(origin.yaw), math.sin(origin.yaw)
-        where = (origin.x + c * x - s * y, origin.y + s * x + c * y, 0.0)
+        where = (*from_robot_frame(origin, x, y), 0.0)
         name = " ".join(("place:", *sides, kind))
         found.append(Object(name, kind, known=True, position=where, size=(*size, 0.0), attributes=frozenset(sides)))
 
@@ -64,7 +63,7 @@ def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> t
     add(GROUND, 0.0, 0.0)
     for kind, pose in (("robot", robot), ("speaker", speaker)):
         if pose is not None:
-            x, y = map(float, seen_from(origin, np.array([[pose.x, pose.y]]))[0])
+            x, y = map(float, to_robot_frame(origin, np.array([[pose.x, pose.y]]))[0])
             add(kind, x, y)
             for side in HEADINGS:
                 add(DIRECTION, x, y, (side, f"of {kind}"))

@@ -9,9 +9,8 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
-import pybullet
-
 from dcg_torch.simulator.client import STEP, Client
+from dcg_torch.simulator.engine import pybullet
 from dcg_torch.types import Pose
 
 ROBOT_RADIUS = 0.178

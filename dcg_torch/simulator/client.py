@@ -11,8 +11,8 @@ import time
 from collections.abc import Iterator
 from types import TracebackType
 
-import pybullet
-
+from dcg_torch.simulator.engine import pybullet
+from dcg_torch.simulator.errors import SimulatorError
 from dcg_torch.types import Pose
 
 STEP = 1.0 / 120.0
@@ -22,12 +22,10 @@ _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
 
 
-class SimulatorError(RuntimeError):
-    """The simulator can't do what was asked; the message is one line."""
-
-
 class Client:
     """A physics server of its own, so that several may live in one process without knowing each other.
+
+    It is empty at first; `empty` lays a floor.
 
     Args:
         gui: open PyBullet's window (needs a screen); otherwise nothing is shown.
@@ -47,7 +45,6 @@ class Client:
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
         self.floor = -1
-        self.empty()
 
     def __enter__(self) -> Client:
         return self

@@ -1,8 +1,9 @@
 """Paths among round obstacles: plane geometry, no physics.
 
-The planner is a visibility graph (Lozano-Perez and Wesley 1979) whose corners are points on rings just outside the
-obstacles; networkx finds the shortest way through it. A point that moves along a path keeps outside every circle,
-so the circles must already be as wide as the object, the robot and a margin together.
+The planner is a visibility graph (Lozano-Perez and Wesley 1979) of the obstacles that are in the way, whose corners are
+points on rings just outside them. `roadmap` says whether there is a way at all, and gives one where very many obstacles
+are in it. A point that moves along a path keeps outside every circle, so the circles must already be as wide as the
+object, the robot and a margin together.
 
 Conventions: lengths in metres; points are (n, 2) float64 arrays; a path is (k, 2) with k >= 2, its first row the
 start. None means that there is no way.
@@ -10,19 +11,21 @@ start. None means that there is no way.
 
 from __future__ import annotations
 
-import bisect
 import itertools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
+
+from dcg_torch.geometry import segment_distances, segments_clear
+from dcg_torch.simulator.roadmap import roadmap_path, shortest, tightened
 
 Points = NDArray[np.float64]
 
 _RING = 16  # corners round an obstacle: no turn of more than 22.5 degrees at one of them
+_IN_THE_WAY = 12  # obstacles in one visibility graph, at the most: it grows as their third power
 _SLACK = 1e-6  # metres; keeps a path's own corners from counting as inside by rounding
 
 
@@ -41,14 +44,9 @@ class Circle:
 
 def clearance(starts: Points, ends: Points, circles: Sequence[Circle]) -> Points:
     """How far each segment stays outside each circle (negative: inside), as (segments, circles)."""
-    centres = np.array([(c.x, c.y) for c in circles], dtype=np.float64).reshape(-1, 2)
-    radii = np.array([c.radius for c in circles], dtype=np.float64)
-    along = (ends - starts)[:, None, :]
-    to_centre = centres[None, :, :] - starts[:, None, :]
-    squared = np.maximum((along**2).sum(-1), 1e-18)  # a segment may be a point
-    nearest = np.clip((to_centre * along).sum(-1) / squared, 0.0, 1.0)
-    distance: Points = np.linalg.norm(to_centre - nearest[:, :, None] * along, axis=-1) - radii
-    return distance
+    centres, radii = _arrays(circles)
+    outside: Points = segment_distances(starts, ends, centres)[0] - radii
+    return outside
 
 
 def is_clear(path: Points, circles: Sequence[Circle]) -> bool:
@@ -74,10 +72,11 @@ def shrink_to_reach(circles: Sequence[Circle], point: tuple[float, float]) -> li
 
 
 def shortest_path(start: tuple[float, float], goals: Points, obstacles: Sequence[Circle]) -> Points | None:
-    """The shortest path from `start` to any of the `goals` outside all obstacles.
+    """The shortest path from `start` to any of the `goals` outside all obstacles, or nearly so among very many.
 
-    An obstacle that contains `start` shrinks until it doesn't. Obstacles enter the graph only once they are in the
-    way, so that a far object costs nothing; all are checked.
+    An obstacle that contains `start` shrinks until it doesn't. Obstacles enter the visibility graph only once they
+    are in the way, so that a far object costs nothing; all are checked. Where more than `_IN_THE_WAY` are, a way
+    through the power diagram is tightened instead, so that time and memory stay n log n in the obstacles.
     """
     obstacles = shrink_to_reach(obstacles, start)
     goals = goals[(clearance(goals, goals, obstacles) >= -_SLACK).all(axis=1)]
@@ -85,19 +84,24 @@ def shortest_path(start: tuple[float, float], goals: Points, obstacles: Sequence
         return None
     # the nearest goal in a straight line, if nothing is in between: nothing can be shorter
     nearest = goals[np.argmin(np.linalg.norm(goals - start, axis=1))]
-    straight = np.array([start, nearest])
-    if is_clear(straight, obstacles):
-        return straight
+    path = np.array([start, nearest])
+    if is_clear(path, obstacles):
+        return path
+    centres, radii = _arrays(obstacles)
+    rough = roadmap_path(np.array(start), goals, centres, radii)
+    if rough is None:
+        return None
     active: set[int] = set()
-    path: Points | None = straight
-    while path is not None:
-        blocking = set(np.flatnonzero((clearance(path[:-1], path[1:], obstacles) < -_SLACK).any(axis=0)).tolist())
-        if not blocking:
-            return path
-        active |= blocking
-        path = _through(start, goals, [obstacles[i] for i in sorted(active)])
-    # the rings of the others may still lead round
-    return _through(start, goals, obstacles)
+    while True:
+        active |= set(np.flatnonzero((clearance(path[:-1], path[1:], obstacles) < -_SLACK).any(axis=0)).tolist())
+        found = None
+        if len(active) <= _IN_THE_WAY:
+            found = _through(start, goals, [obstacles[i] for i in sorted(active)])
+        if found is None:
+            return tightened(rough, centres, radii - _SLACK)
+        if is_clear(found, obstacles):
+            return found
+        path = found
 
 
 def _through(start: tuple[float, float], goals: Points, obstacles: Sequence[Circle]) -> Points | None:
@@ -106,26 +110,22 @@ def _through(start: tuple[float, float], goals: Points, obstacles: Sequence[Circ
     corners = np.concatenate(
         [ring(replace(c, radius=(c.radius + 10 * _SLACK) / math.cos(math.pi / _RING))) for c in obstacles]
     )
-    corners = corners[(clearance(corners, corners, obstacles) >= -_SLACK).all(axis=1)]
+    centres, radii = _arrays(obstacles)
+    corners = corners[segments_clear(corners, corners, centres, radii - _SLACK)]
     points = np.concatenate([np.array([start]), goals, corners])
     first, second = np.triu_indices(len(points), k=1)
     # two goals are never joined: a path ends at the first it meets
     useful = (first == 0) | (second > len(goals))
     first, second = first[useful], second[useful]
-    visible = (clearance(points[first], points[second], obstacles) >= -_SLACK).all(axis=1)
-    first, second = first[visible], second[visible]
-    graph = nx.Graph()
-    graph.add_nodes_from(range(len(points)))
-    lengths = np.linalg.norm(points[first] - points[second], axis=1)
-    graph.add_weighted_edges_from(zip(first.tolist(), second.tolist(), lengths.tolist(), strict=True))
-    end = -1  # a node beyond all goals, at no cost
-    graph.add_weighted_edges_from((goal, end, 0.0) for goal in range(1, 1 + len(goals)))
-    try:
-        nodes = nx.dijkstra_path(graph, 0, end)
-    except nx.NetworkXNoPath:
-        return None
-    path: Points = points[nodes[:-1]]
-    return path
+    visible = segments_clear(points[first], points[second], centres, radii - _SLACK)
+    nodes = shortest(points, first[visible], second[visible], 0, np.arange(1, 1 + len(goals)))
+    return None if nodes is None else points[nodes]
+
+
+def _arrays(obstacles: Sequence[Circle]) -> tuple[Points, Points]:
+    """Centres (n, 2) and radii (n,)."""
+    centres = np.array([(c.x, c.y) for c in obstacles], dtype=np.float64).reshape(-1, 2)
+    return centres, np.array([c.radius for c in obstacles], dtype=np.float64)
 
 
 def approach(
@@ -156,46 +156,3 @@ def retreat(
         if path is not None:
             return path
     return None
-
-
-class Track:
-    """A path with the place reached on it, measured in metres along it."""
-
-    def __init__(self, path: Points) -> None:
-        steps = np.linalg.norm(np.diff(path, axis=0), axis=1)
-        # plain floats: one short path is asked thousands of times
-        corners = path[np.concatenate([[True], steps > 1e-9])]
-        self._corners: list[tuple[float, float]] = [(float(x), float(y)) for x, y in corners]
-        self._at = [0.0, *np.cumsum(steps[steps > 1e-9]).tolist()]
-        self.length: float = self._at[-1]
-        self._reached = 0.0
-
-    def progress(self, x: float, y: float, *, window: float = 0.5) -> float:
-        """The place on the path nearest to (x, y), at most `window` metres on from the last one; never back."""
-        best, found = math.inf, self._reached
-        pieces = zip(itertools.pairwise(self._corners), itertools.pairwise(self._at), strict=True)
-        for (a, b), (begin, end) in pieces:
-            low, high = max(begin, self._reached), min(end, self._reached + window)
-            if low > high:
-                continue
-            ux, uy = (b[0] - a[0]) / (end - begin), (b[1] - a[1]) / (end - begin)
-            place = min(max(begin + (x - a[0]) * ux + (y - a[1]) * uy, low), high)
-            distance = math.hypot(a[0] + (place - begin) * ux - x, a[1] + (place - begin) * uy - y)
-            if distance < best:
-                best, found = distance, place
-        self._reached = found
-        return found
-
-    def point(self, place: float) -> tuple[float, float]:
-        """The point `place` metres along; beyond the end, straight on."""
-        if self.length == 0.0:
-            return self._corners[0]
-        piece = min(bisect.bisect_right(self._at, place), len(self._at) - 1)
-        (a, b), begin, end = self._corners[piece - 1 : piece + 1], self._at[piece - 1], self._at[piece]
-        part = (place - begin) / (end - begin)
-        return a[0] + part * (b[0] - a[0]), a[1] + part * (b[1] - a[1])
-
-    def rest(self, place: float) -> Points:
-        """The path from `place` on, as (k, 2)."""
-        later = [corner for corner, at in zip(self._corners, self._at, strict=True) if at > place]
-        return np.array([self.point(place), *(later or [self._corners[-1]])], dtype=np.float64)

@@ -16,7 +16,7 @@ import numpy as np
 from PIL import Image, ImageDraw, ImageFilter
 
 from dcg_torch.simulator.bodies import extent, footprint
-from dcg_torch.simulator.stage import AddRobot, Stage
+from dcg_torch.simulator.stage import Stage
 from dcg_torch.simulator.view import Pixels, View, circle, direction
 from dcg_torch.world.files import World, WorldObject
 
@@ -26,36 +26,31 @@ _OVERSAMPLING: Final = 2
 _ELEVATION: Final = math.radians(36.0)
 
 
-def world_screenshot(
-    world: World, highlight: str | None = None, size: tuple[int, int] = (640, 480), add_robot: AddRobot | None = None
-) -> Pixels:
+def world_screenshot(world: World, highlight: str | None = None, size: tuple[int, int] = (640, 480)) -> Pixels:
     """The world as a person would be shown it, uint8 of shape (height, width, 3).
 
     Args:
         world: what to show.
         highlight: id of the object to point at, or None for the bare world.
         size: (width, height) in pixels.
-        add_robot: puts a robot into the client at a pose and returns its body; None takes the one that drives.
 
     Raises:
         ValueError: `highlight` is no object of this world, or one of its types has no body.
     """
-    with Stage(world, add_robot) as stage:
-        return _Scene(stage, size).picture(highlight)
+    with Stage(world) as stage:
+        return _Screenshot(stage, size).picture(highlight)
 
 
-def save_pair_screenshots(
-    worlds: Sequence[World], directory: Path, size: tuple[int, int] = (640, 480), add_robot: AddRobot | None = None
-) -> list[Path]:
+def save_pair_screenshots(worlds: Sequence[World], directory: Path, size: tuple[int, int] = (640, 480)) -> list[Path]:
     """Write `<world>-<object id>.png` for every object of every world; a world is rendered once for all of its own."""
     directory.mkdir(parents=True, exist_ok=True)
     paths = []
     for world in worlds:
-        with Stage(world, add_robot) as stage:
-            scene = _Scene(stage, size)
+        with Stage(world) as stage:
+            shot = _Screenshot(stage, size)
             for item in world.objects:
                 path = directory / f"{world.name}-{item.id}.png"
-                Image.fromarray(scene.picture(item.id)).save(path)
+                Image.fromarray(shot.picture(item.id)).save(path)
                 paths.append(path)
     return paths
 
@@ -73,7 +68,7 @@ def close_up(type: str, color: str, side: int = 220) -> Pixels:
     return np.asarray(Image.fromarray(picture).reduce(_OVERSAMPLING))
 
 
-class _Scene:
+class _Screenshot:
     """One world, rendered once; `picture` adds the highlight of one object."""
 
     def __init__(self, stage: Stage, size: tuple[int, int]) -> None:

@@ -3,24 +3,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from types import TracebackType
 from typing import Final
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFilter
 
-from dcg_torch.simulator.base import add_robot as add_own_robot
+from dcg_torch.simulator.base import add_robot
 from dcg_torch.simulator.bodies import Model, Part, add_model, add_object, extent, footprint
 from dcg_torch.simulator.bodies.meshes import Mesh, merged
-from dcg_torch.simulator.camera import NEAR, Camera
+from dcg_torch.simulator.client import Client
+from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
 from dcg_torch.types import Pose
 from dcg_torch.world.files import World
-
-AddRobot = Callable[[int, Pose], int]
 
 ROBOT_RADIUS, ROBOT_HEIGHT = 0.2, 0.4  # metres that a picture should leave it
 _TILES: Final = ((0.89, 0.89, 0.87), (0.85, 0.85, 0.83))
@@ -32,19 +30,18 @@ class Stage:
 
     Args:
         world: what stands on the floor.
-        add_robot: puts a robot into the client at a pose and returns its body; None takes the one that drives.
 
     Raises:
         ValueError: an object of a type or colour that the simulator doesn't have.
     """
 
-    def __init__(self, world: World, add_robot: AddRobot | None = None) -> None:
+    def __init__(self, world: World) -> None:
         self.world = world
-        self.client: int = pybullet.connect(pybullet.DIRECT)
+        self.client = Client()
         try:
-            self.floor = add_model(self.client, _floor(world), _TILES[0], (0.0, 0.0))
-            self.bodies = {o.id: add_object(self.client, o.type, o.color, o.position, o.yaw) for o in world.objects}
-            self.robot = (add_robot or add_own_robot)(self.client, world.start)
+            self.floor = add_model(self.client.id, _floor(world), _TILES[0], (0.0, 0.0))
+            self.bodies = {o.id: add_object(self.client.id, o.type, o.color, o.position, o.yaw) for o in world.objects}
+            self.robot = add_robot(self.client.id, world.start)
         except BaseException:
             self.close()
             raise
@@ -59,15 +56,13 @@ class Stage:
 
     def close(self) -> None:
         """Let go of the client; a second call does nothing."""
-        if self.client >= 0:
-            pybullet.disconnect(self.client)
-        self.client = -1
+        self.client.close()
 
     def put(self, pose: Pose | None) -> None:
         """Stand the robot at `pose`, or out of every picture."""
         x, y = (pose.x, pose.y) if pose else (1e4, 1e4)
         turn = pybullet.getQuaternionFromEuler([0.0, 0.0, pose.yaw if pose else 0.0])
-        pybullet.resetBasePositionAndOrientation(self.robot, [x, y, 0.0], turn, physicsClientId=self.client)
+        pybullet.resetBasePositionAndOrientation(self.robot, [x, y, 0.0], turn, physicsClientId=self.client.id)
 
     def overview(self, size: tuple[int, int], down: float, places: Sequence[Pose] = ()) -> View:
         """A camera behind the robot's start and above it, looking `down` radians below the horizon.
@@ -77,10 +72,6 @@ class Stage:
         corners = [_corners(o.position, footprint(o.type), extent(o.type)[2]) for o in self.world.objects]
         corners += [_corners((p.x, p.y), ROBOT_RADIUS, ROBOT_HEIGHT) for p in (self.world.start, *places)]
         return fitting_view(np.concatenate(corners), direction(self.world.start.yaw, down), _FIELD_OF_VIEW, size)
-
-    def through(self, camera: Camera, pose: Pose, size: tuple[int, int]) -> View:
-        """What a robot at `pose` looks through, at a size of its own."""
-        return View(np.array(camera.eye(pose)), direction(pose.yaw, 0.0), camera.vertical(*size), size, NEAR)
 
     def render(self, view: View) -> tuple[Pixels, NDArray[np.int64]]:
         """Colours (h, w, 3) with the objects' shadows on the floor, and body ids (h, w)."""

@@ -11,28 +11,33 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-import pybullet
 from numpy.typing import NDArray
+
+from dcg_torch.simulator.client import Client
+from dcg_torch.simulator.engine import pybullet
 
 Points = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 Box = tuple[int, int, int, int]  # left, top, right, bottom in pixels, the last two not included
 
 HAZE: Final = (225, 225, 220)  # where the floor ends
-_FAR: Final = 60.0  # metres
 _NEAREST: Final = 8.0  # metres from a fitted camera to the nearest point
 _FILLED: Final = 0.86  # share of the picture's width and height that the points may take
 
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """A camera at `eye` that looks along `forward`; `size` (width, height) in pixels, `fov` vertical in radians."""
+    """A camera at `eye` that looks along `forward`; `size` (width, height) in pixels, `fov` vertical in radians.
+
+    Only what is `near` to `far` metres away is shown.
+    """
 
     eye: Points
     forward: Points
     fov: float
     size: tuple[int, int]
     near: float = 0.1
+    far: float = 60.0
 
     @property
     def axes(self) -> tuple[Points, Points]:
@@ -52,8 +57,11 @@ class View:
         """World points (n, 3) as the pixels that a drawing takes."""
         return [(float(x), float(y)) for x, y in self.project(points)]
 
-    def render(self, client: int, box: Box | None = None) -> tuple[Pixels, NDArray[np.int64]]:
-        """Colours (h, w, 3) and body ids (h, w), -1 where there is nothing; of the whole picture or a part of it."""
+    def render(self, client: Client, box: Box | None = None) -> tuple[Pixels, NDArray[np.int64]]:
+        """Colours (h, w, 3) and body ids (h, w), -1 where there is nothing; of the whole picture or a part of it.
+
+        Shadows are left out: they triple the time, and the renderer's end in the middle of a large floor.
+        """
         width, height = self.size
         left, top, right, bottom = box or (0, 0, width, height)
         axis, up = self.axes
@@ -70,15 +78,15 @@ class View:
                 (height / 2 - bottom) * pixel,
                 (height / 2 - top) * pixel,
                 self.near,
-                _FAR,
+                self.far,
             ),
             lightDirection=light.tolist(),
             lightAmbientCoeff=0.55,
             lightDiffuseCoeff=0.5,
             lightSpecularCoeff=0.05,
-            shadow=0,  # the renderer's own end in the middle of a floor this large
-            renderer=pybullet.ER_TINY_RENDERER,
-            physicsClientId=client,
+            shadow=0,
+            renderer=pybullet.ER_TINY_RENDERER,  # the same pixels with and without a window
+            physicsClientId=client.id,
         )
         mask = np.asarray(bodies, dtype=np.int64).reshape(down, across)
         image = np.array(colors, dtype=np.uint8).reshape(down, across, 4)[..., :3]

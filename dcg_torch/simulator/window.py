@@ -7,10 +7,10 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-import pybullet
 
 from dcg_torch.simulator.bodies import footprint
 from dcg_torch.simulator.camera import Camera
+from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.view import View, direction
 from dcg_torch.world.files import World
 

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch import scene
+from dcg_torch.geometry import to_robot_frame
 from dcg_torch.speaker.phrases import PLURALS, a_side, noun_phrase, person, plural, prepositional
 from dcg_torch.types import ParseTree
 from dcg_torch.world.files import World
@@ -46,7 +46,7 @@ class View:
     def of(cls, world: World, size: Floats | None = None) -> View:
         """A world as it is seen from the robot's start."""
         objects = world.objects
-        position = scene.seen_from(world.start, np.array([o.position for o in objects], dtype=np.float64))
+        position = to_robot_frame(world.start, np.array([o.position for o in objects], dtype=np.float64))
         return cls(tuple(o.type for o in objects), tuple(o.color for o in objects), position, size)
 
 

@@ -14,7 +14,7 @@ from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.stage import Stage
 from dcg_torch.watch import paint
 from dcg_torch.watch.floor import FloorPanel
-from dcg_torch.watch.recording import Episode
+from dcg_torch.watch.recording import RecordedCommand
 from dcg_torch.watch.wording import bars, doing, words
 
 SIZE: Final = (860, 500)
@@ -30,31 +30,31 @@ _FRAME, _GLANCE, _FIRST, _DECIDED, _LAST = 100, 180, 1800, 1600, 2600  # millise
 
 
 class Shot(NamedTuple):
-    """A frame: which episode, which of its moments, for how many milliseconds."""
+    """A frame: which command of the trial, which of its moments, for how many milliseconds."""
 
-    episode: int
+    command: int
     moment: int
     hold: int
 
 
-def animate(episodes: Sequence[Episode], path: Path, camera: Camera | None = None) -> Path:
+def animate(commands: Sequence[RecordedCommand], path: Path, camera: Camera | None = None) -> Path:
     """Write the commands of a trial, one after the other, about three times as fast as they were.
 
     Args:
-        episodes: of one trial, from its first command on.
+        commands: of one trial, from its first command on.
         path: of the GIF; its folder is made if need be. The file is there only once it is whole.
         camera: the robot's own.
 
     Raises:
-        ValueError: there is no episode.
+        ValueError: there is no command.
     """
-    if not episodes:
+    if not commands:
         raise ValueError("there is nothing to animate")
     camera = camera or Camera()
-    shots = [shot for number, episode in enumerate(episodes) for shot in schedule(number, episode)]
+    shots = [shot for number, recorded in enumerate(commands) for shot in schedule(number, recorded)]
     held = [shot for shot in shots if shot.hold > _GLANCE]
-    palette = _palette(frames(episodes, held[:: -(-len(held) // 12)], camera))
-    flat = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in frames(episodes, shots, camera))
+    palette = _palette(frames(commands, held[:: -(-len(held) // 12)], camera))
+    flat = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in frames(commands, shots, camera))
     path.parent.mkdir(parents=True, exist_ok=True)
     part = path.with_suffix(".part")
     first = next(flat)
@@ -65,19 +65,19 @@ def animate(episodes: Sequence[Episode], path: Path, camera: Camera | None = Non
     return path
 
 
-def schedule(number: int, episode: Episode) -> list[Shot]:
-    """The frames of an episode: all looks, some of the moments between them, longer where there is much to read."""
+def schedule(number: int, recorded: RecordedCommand) -> list[Shot]:
+    """The frames of a command: all looks, some of the moments between them, longer where there is much to read."""
     shots = []
-    last = len(episode.moments) - 1
+    last = len(recorded.moments) - 1
     since = 0
-    for at, moment in enumerate(episode.moments):
+    for at, moment in enumerate(recorded.moments):
         since += 1
         if at == last:
             hold = _LAST
         elif at == 0:
             hold = _FIRST
         elif moment.looking:
-            hold = _DECIDED if moment.looks == len(episode.looks) else _GLANCE
+            hold = _DECIDED if moment.looks == len(recorded.looks) else _GLANCE
         elif since >= _EVERY:
             hold = _FRAME
         else:
@@ -87,17 +87,17 @@ def schedule(number: int, episode: Episode) -> list[Shot]:
     return shots
 
 
-def frames(episodes: Sequence[Episode], shots: Iterable[Shot], camera: Camera) -> Iterator[Image.Image]:
-    """The pictures of these shots, which go from episode to episode."""
+def frames(commands: Sequence[RecordedCommand], shots: Iterable[Shot], camera: Camera) -> Iterator[Image.Image]:
+    """The pictures of these shots, which go from command to command."""
     current, stage, sheet = -1, None, None
     try:
         for shot in shots:
-            if shot.episode != current or sheet is None:
+            if shot.command != current or sheet is None:
                 if stage is not None:
                     stage.close()
-                current = shot.episode
-                stage = Stage(episodes[current].command.world)
-                sheet = _Sheet(stage, episodes, current, camera)
+                current = shot.command
+                stage = Stage(commands[current].command.world)
+                sheet = _Sheet(stage, commands, current, camera)
             yield sheet.draw(shot.moment)
     finally:
         if stage is not None:
@@ -105,14 +105,14 @@ def frames(episodes: Sequence[Episode], shots: Iterable[Shot], camera: Camera) -
 
 
 class _Sheet:
-    """One episode's frames: title, floor, camera, chart, words."""
+    """One command's frames: title, floor, camera, chart, words."""
 
-    def __init__(self, stage: Stage, episodes: Sequence[Episode], number: int, camera: Camera) -> None:
+    def __init__(self, stage: Stage, commands: Sequence[RecordedCommand], number: int, camera: Camera) -> None:
         self._stage, self._camera = stage, camera
-        self._episode = episodes[number]
-        self._place = f"command {number + 1} of {len(episodes)}"
-        self._before: Mapping[str, str] = episodes[number - 1].row.symbols if number else {}
-        self._floor = FloorPanel(stage, self._episode, camera, _FLOOR)
+        self._recorded = commands[number]
+        self._place = f"command {number + 1} of {len(commands)}"
+        self._before: Mapping[str, str] = commands[number - 1].row.symbols if number else {}
+        self._floor = FloorPanel(stage, self._recorded, camera, _FLOOR)
 
     def draw(self, at: int) -> Image.Image:
         image, draw = paint.empty(SIZE)
@@ -125,13 +125,13 @@ class _Sheet:
         return image
 
     def _title(self, draw: ImageDraw.ImageDraw, at: int) -> None:
-        text = f"“{self._episode.command.text}”"
+        text = f"“{self._recorded.command.text}”"
         draw.text((10, 24), text, font=paint.fitted(text, SIZE[0] - 160, 23, bold=True), fill=paint.INK, anchor="lm")
         draw.text((SIZE[0] - 10, 24), self._place, font=paint.font(13), fill=paint.GREY, anchor="rm")
         color = paint.INK
-        if at == len(self._episode.moments) - 1:
-            color = paint.RIGHT if self._episode.row.correct else paint.WRONG
-        text = doing(self._episode, at, self._before)
+        if at == len(self._recorded.moments) - 1:
+            color = paint.RIGHT if self._recorded.row.correct else paint.WRONG
+        text = doing(self._recorded, at, self._before)
         draw.text((11, 51), text, font=paint.fitted(text, SIZE[0] - 20, 15), fill=color, anchor="lm")
 
     def _legend(self, draw: ImageDraw.ImageDraw) -> None:
@@ -148,11 +148,11 @@ class _Sheet:
 
     def _see(self, image: Image.Image, draw: ImageDraw.ImageDraw, at: int) -> None:
         """The camera's picture, with a frame round the object that the command is taken to mean."""
-        moment = self._episode.moments[at]
+        moment = self._recorded.moments[at]
         self._stage.put(moment.pose)
-        picture, bodies = self._stage.through(self._camera, moment.pose, _CAMERA).render(self._stage.client)
+        picture, bodies = self._camera.view(moment.pose, _CAMERA).render(self._stage.client)
         image.paste(Image.fromarray(picture), (_SIDE, _HEAD))
-        solution = self._episode.looks[moment.looks - 1].solution if moment.looks else None
+        solution = self._recorded.looks[moment.looks - 1].solution if moment.looks else None
         thing = solution.object if solution else None
         if thing is not None and not thing.hypothetical:
             rows, columns = np.nonzero(bodies == self._stage.bodies[thing.id])
@@ -175,7 +175,7 @@ class _Sheet:
             (_SIDE, top), "What does the command mean?", font=paint.font(13, bold=True), fill=paint.INK, anchor="lm"
         )
         left, right = _SIDE + 196, _SIDE + _WIDTH - 40
-        for k, bar in enumerate(bars(self._episode, self._episode.moments[at].looks, _BARS)):
+        for k, bar in enumerate(bars(self._recorded, self._recorded.moments[at].looks, _BARS)):
             if bar.probability is None:
                 continue
             y = top + 20 + 18 * k
@@ -196,15 +196,15 @@ class _Sheet:
             draw.text((_SIDE + _WIDTH, y), f"{100 * bar.probability:.0f} %", font=letters, fill=paint.INK, anchor="rm")
 
     def _words(self, draw: ImageDraw.ImageDraw, at: int, y: int) -> None:
-        over = at == len(self._episode.moments) - 1
-        known = self._episode.row.symbols if over else self._before
+        over = at == len(self._recorded.moments) - 1
+        known = self._recorded.row.symbols if over else self._before
         draw.text((_SIDE, y), "Words learned so far", font=paint.font(13, bold=True), fill=paint.INK, anchor="lm")
         lines = _wrapped(words(known), _WIDTH, 11.5)
         for k, line in enumerate(lines):
             draw.text((_SIDE, y + 18 + 15 * k), line, font=paint.font(11.5), fill=paint.INK, anchor="lm")
         if not lines:
             text = paint.shortened(
-                f"none yet; known before: {', '.join(self._episode.row.known_types)}", _WIDTH, paint.font(11.5)
+                f"none yet; known before: {', '.join(self._recorded.row.known_types)}", _WIDTH, paint.font(11.5)
             )
             draw.text((_SIDE, y + 18), text, font=paint.font(11.5), fill=paint.GREY, anchor="lm")
 

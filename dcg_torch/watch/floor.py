@@ -15,7 +15,7 @@ from dcg_torch.simulator.stage import ROBOT_HEIGHT, ROBOT_RADIUS, Stage
 from dcg_torch.simulator.view import Box, Points, circle, sector
 from dcg_torch.types import Pose
 from dcg_torch.watch import paint
-from dcg_torch.watch.recording import Episode
+from dcg_torch.watch.recording import RecordedCommand
 from dcg_torch.watch.wording import label
 
 _OVERSAMPLING: Final = 2
@@ -25,17 +25,17 @@ _VIEW: Final = (120, 175, 255)
 
 
 class FloorPanel:
-    """Draws one episode; what doesn't move is rendered once.
+    """Draws one command; what doesn't move is rendered once.
 
     Args:
-        stage: the episode's world.
+        stage: the command's world.
         camera: whose field of view is drawn.
         size: (width, height) in pixels.
     """
 
-    def __init__(self, stage: Stage, episode: Episode, camera: Camera, size: tuple[int, int]) -> None:
-        self._stage, self._episode, self._camera = stage, episode, camera
-        places = [moment.pose for moment in episode.moments]
+    def __init__(self, stage: Stage, recorded: RecordedCommand, camera: Camera, size: tuple[int, int]) -> None:
+        self._stage, self._recorded, self._camera = stage, recorded, camera
+        places = [moment.pose for moment in recorded.moments]
         self._view = stage.overview((size[0] * _OVERSAMPLING, size[1] * _OVERSAMPLING), _DOWN, places)
         stage.put(None)
         image, mask = stage.render(self._view)
@@ -43,13 +43,13 @@ class FloorPanel:
         self._bare = Image.fromarray((mask == stage.floor).astype(np.uint8) * 255)
 
     def draw(self, at: int) -> Image.Image:
-        """The panel at a moment of the episode."""
-        moment = self._episode.moments[at]
+        """The panel at a moment of the command."""
+        moment = self._recorded.moments[at]
         image, floor = self._with_robot(moment.pose)
         robot = circle((moment.pose.x, moment.pose.y), ROBOT_RADIUS)
         self._stain(image, floor, [self._sector(moment.pose)], _VIEW, 95)
         self._stain(image, floor, [robot], (0, 0, 0), 50)
-        way = np.array([(m.pose.x, m.pose.y, 0.0) for m in self._episode.moments[: at + 1]])
+        way = np.array([(m.pose.x, m.pose.y, 0.0) for m in self._recorded.moments[: at + 1]])
         self._stain(image, floor, [way], paint.WAY, line=7)
         self._ring(image, floor, at)
         small = image.reduce(_OVERSAMPLING)
@@ -114,13 +114,13 @@ class FloorPanel:
 
     def _ring(self, image: Image.Image, floor: Image.Image, at: int) -> None:
         """Round the object that the command is taken to mean; green or red in the end."""
-        moment = self._episode.moments[at]
-        solution = self._episode.looks[moment.looks - 1].solution if moment.looks else None
+        moment = self._recorded.moments[at]
+        solution = self._recorded.looks[moment.looks - 1].solution if moment.looks else None
         if solution is None or solution.object is None or solution.object.hypothetical:
             return
         color = paint.CHOICE
-        if at == len(self._episode.moments) - 1 and not solution.inverted:
-            color = paint.RIGHT if self._episode.row.correct else paint.WRONG
+        if at == len(self._recorded.moments) - 1 and not solution.inverted:
+            color = paint.RIGHT if self._recorded.row.correct else paint.WRONG
         (item,) = [o for o in self._stage.world.objects if o.id == solution.object.id]
         radius = footprint(item.type)
         for wider, filled in ((0.025, paint.RIM), (0.0, color)):
@@ -130,8 +130,8 @@ class FloorPanel:
     def _write(self, image: Image.Image, at: int) -> None:
         """Names at the objects, an arrow over the one that was meant, the robot's guess over the robot."""
         draw = ImageDraw.Draw(image)
-        moment = self._episode.moments[at]
-        look = self._episode.looks[moment.looks - 1] if moment.looks else None
+        moment = self._recorded.moments[at]
+        look = self._recorded.looks[moment.looks - 1] if moment.looks else None
         letters = paint.font(12)
         for item in self._stage.world.objects:
             text, seen = label(item, look)
@@ -151,7 +151,7 @@ class FloorPanel:
                     stroke_fill=paint.PAPER,
                 )
             (above,) = self._view.project(np.array([[*item.position, extent(item.type)[2]]])) / _OVERSAMPLING
-            if item.id == self._episode.row.target:
+            if item.id == self._recorded.row.target:
                 paint.chip(draw, above[0], above[1] - 4, "meant", paint.MEANT, paint.PAPER)
         guess = look.solution.object if look else None
         if guess is not None and guess.hypothetical:

@@ -21,7 +21,7 @@ class Moment:
 
 
 @dataclass(frozen=True)
-class Episode:
+class RecordedCommand:
     """One command from its start to its end.
 
     Attributes:
@@ -38,15 +38,15 @@ class Episode:
 
 @dataclass
 class Recorder:
-    """Takes down a trial: `look` is a watcher for `trial.loop.run_trial`, `tick` an observer of a moving robot.
+    """Takes down a trial: `look` is a watcher for `experiment.trial.run_trial`, `tick` an observer of a moving robot.
 
     Attributes:
         robot: that carries the commands out.
-        episodes: the commands that are over.
+        commands: the commands that are over.
     """
 
     robot: Robot
-    episodes: list[Episode] = field(default_factory=list)
+    commands: list[RecordedCommand] = field(default_factory=list)
     _looks: list[Look] = field(default_factory=list)
     _moments: list[Moment] = field(default_factory=list)
 
@@ -62,5 +62,5 @@ class Recorder:
     def end(self, command: Command, row: Iteration) -> None:
         """The command is over, and the robot stands where it ended."""
         self._moments.append(Moment(self.robot.pose, len(self._looks)))
-        self.episodes.append(Episode(command, tuple(self._looks), tuple(self._moments), row))
+        self.commands.append(RecordedCommand(command, tuple(self._looks), tuple(self._moments), row))
         self._looks, self._moments = [], []

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from dcg_torch.agent.command import Look
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Object
-from dcg_torch.watch.recording import Episode
+from dcg_torch.watch.recording import RecordedCommand
 from dcg_torch.world.files import WorldObject
 
 
@@ -38,7 +38,7 @@ def meant(solution: Solution) -> str:
     return f"{name_of(solution.object)} ({100 * solution.probability:.0f} %)"
 
 
-def bars(episode: Episode, looks: int, most: int) -> list[Bar]:
+def bars(recorded: RecordedCommand, looks: int, most: int) -> list[Bar]:
     """The groundings' probabilities after so many looks, at most `most` rows, in the same places throughout.
 
     First what is hypothetical, then what is perceived, in the order of first sight; where there are too many, those
@@ -46,7 +46,7 @@ def bars(episode: Episode, looks: int, most: int) -> list[Bar]:
     """
     things: dict[str, Object] = {}
     highest: dict[str, float] = {}
-    for look in episode.looks:
+    for look in recorded.looks:
         for thing in look.solution.world.objects:
             things[thing.id] = thing
             highest[thing.id] = max(look.solution.probabilities[thing.id], highest.get(thing.id, 0.0))
@@ -54,7 +54,7 @@ def bars(episode: Episode, looks: int, most: int) -> list[Bar]:
     if len(rows) > most:
         kept = sorted(highest, key=lambda id_: -highest[id_])[: most - 1]
         rows = [thing for thing in rows if thing.id in kept]
-    now = episode.looks[looks - 1].solution if looks else None
+    now = recorded.looks[looks - 1].solution if looks else None
     probabilities: Mapping[str, float] = now.probabilities if now else {}
     chosen = now.object.id if now and now.object else None
     found = [Bar(name_of(t), probabilities.get(t.id), t.known, t.hypothetical, chosen=t.id == chosen) for t in rows]
@@ -64,12 +64,12 @@ def bars(episode: Episode, looks: int, most: int) -> list[Bar]:
     return found
 
 
-def doing(episode: Episode, moment: int, before: Mapping[str, str]) -> str:
+def doing(recorded: RecordedCommand, moment: int, before: Mapping[str, str]) -> str:
     """What goes on at a moment, in a sentence or two; `before` are the words learned from earlier commands."""
-    at, last = episode.moments[moment], len(episode.moments) - 1
+    at, last = recorded.moments[moment], len(recorded.moments) - 1
     if moment == last:
-        return f"{ending(episode)}  {lesson(episode, before)}".strip()
-    solution = episode.looks[at.looks - 1].solution if at.looks else None
+        return f"{ending(recorded)}  {lesson(recorded, before)}".strip()
+    solution = recorded.looks[at.looks - 1].solution if at.looks else None
     if solution is None:
         return "It can't make sense of the command."
     if solution.object is None:
@@ -77,15 +77,17 @@ def doing(episode: Episode, moment: int, before: Mapping[str, str]) -> str:
     means = f"It takes the command to mean {_with_article(solution.object)}"
     if solution.object.hypothetical:
         return f"{means}, and turns to look for one."
+    if at.looks < len(recorded.looks):
+        return f"{means}, and looks on to be sure."
     return f"{means}, and {'keeps away from it' if solution.inverted else 'drives there'}."
 
 
-def ending(episode: Episode) -> str:
+def ending(recorded: RecordedCommand) -> str:
     """How it came out."""
-    row = episode.row
-    if not episode.looks:
+    row = recorded.row
+    if not recorded.looks:
         return "It can't make sense of the command."
-    solution = episode.looks[-1].solution
+    solution = recorded.looks[-1].solution
     if row.chosen is None:
         return "It has turned full circle and found no such thing."
     if solution.inverted:
@@ -95,9 +97,9 @@ def ending(episode: Episode) -> str:
     return "It has arrived at the right object." if row.correct else "It has arrived, but another object was meant."
 
 
-def lesson(episode: Episode, before: Mapping[str, str]) -> str:
+def lesson(recorded: RecordedCommand, before: Mapping[str, str]) -> str:
     """What it learned from this command, or nothing."""
-    new = [(word, type_) for word, type_ in episode.row.symbols.items() if before.get(word) != type_]
+    new = [(word, type_) for word, type_ in recorded.row.symbols.items() if before.get(word) != type_]
     return "  ".join(
         f"It now knows the word “{word}”." if word == type_ else f"It now knows that “{word}” means {type_}."
         for word, type_ in new

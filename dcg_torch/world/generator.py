@@ -21,13 +21,13 @@ from typing import Final
 import numpy as np
 import yaml
 
+from dcg_torch.geometry import FIELD_OF_VIEW, bearing
 from dcg_torch.world.files import RobotStart, World, WorldObject
 
 TYPES: Final = ("cube", "sphere", "cylinder", "fire hydrant", "drill", "mailbox", "door handle", "traffic cone")
 COLORS: Final = ("red", "green", "blue")
 HALF_WIDTH: Final = 4.0  # m
 OBJECT_RADIUS: Final = 0.17  # m, of an ordinary object seen from above
-VIEW: Final = math.radians(57.0)
 
 _DRAWS = 1_000  # of the set of objects, until it is not empty
 _RESTARTS = 20  # of a placement that got stuck
@@ -142,7 +142,7 @@ def _rounded(value: float) -> float:
     return round(float(value), 4)
 
 
-def share_out_of_view(worlds: Sequence[World], view: float = VIEW, radius: float = 0.0) -> float:
+def share_out_of_view(worlds: Sequence[World], view: float = FIELD_OF_VIEW, radius: float = 0.0) -> float:
     """Share of all objects that are wholly outside the robot's first view, `view` radians wide; hiding not counted.
 
     Objects are discs of `radius` metres about their feet; with 0 the feet alone count.
@@ -150,9 +150,9 @@ def share_out_of_view(worlds: Sequence[World], view: float = VIEW, radius: float
     outside = []
     for world in worlds:
         for item in world.objects:
-            x, y = item.position[0] - world.robot.x, item.position[1] - world.robot.y
-            bearing = abs(math.remainder(math.atan2(y, x) - world.robot.yaw, math.tau))
-            outside.append(bearing - math.asin(min(1.0, radius / math.hypot(x, y))) > view / 2)
+            distance = math.dist(item.position, (world.robot.x, world.robot.y))
+            off = abs(bearing(world.start, *item.position))
+            outside.append(off - math.asin(min(1.0, radius / distance)) > view / 2)
     return sum(outside) / len(outside)
 
 
