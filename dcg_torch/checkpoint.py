@@ -16,6 +16,7 @@ from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 
+from dcg_torch.errors import UserError
 from dcg_torch.grounding.encoding import Statistics
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import LogLinearModel, Merged
@@ -29,7 +30,7 @@ from dcg_torch.words import Words
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 
 
-class StoreError(ValueError):
+class StoreError(UserError):
     """A saved model that is missing or not valid; the message is one line."""
 
 

@@ -19,22 +19,24 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from dcg_torch.__main__ import refuse, run_application
 from dcg_torch.checkpoint import save
-from dcg_torch.cli.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
-from dcg_torch.cli.config import explain as explain_error
+from dcg_torch.cli.application import one_line_errors, run_application
+from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
-from dcg_torch.evaluation.episodes import Episode, EpisodeError, read_episodes, split_folds
+from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds
 from dcg_torch.evaluation.protocol import CAUSES, Answer, Evaluation, summarise
-from dcg_torch.experiment.worker import variant
+from dcg_torch.experiment.factory import variant
 from dcg_torch.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
-from dcg_torch.lessons import initial_training
+from dcg_torch.lessons import training_set
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
+from dcg_torch.storage.claim import claim
+from dcg_torch.storage.whole import write_whole, write_whole_folder
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
+MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")
 _REASONS = 8  # shown for each phrase
 
 
@@ -64,7 +66,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
             with Bar("training", settings.rounds, console) as bar:
                 evaluation = Evaluation(
                     train,
-                    initial_training(),
+                    training_set(settings.training),
                     chosen,
                     default_parser().parse,
                     known_types=settings.known_types,
@@ -91,7 +93,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
                 baseline += bag_of_words(train, test)
     os.replace(part, directory / PREDICTIONS)
     if settings.save and not settings.folds:
-        save(evaluation.model, directory / MODEL)
+        write_whole_folder(directory / MODEL, lambda folder: save(evaluation.model, folder))
     figures = summarise(answers, train_seconds, by_color=settings.known_colors is not None)
     _print_errors(answers, console)
     if settings.learn:
@@ -124,10 +126,6 @@ def _check(settings: EvaluateSettings, pairs: Sequence[tuple[list[Episode], list
     Raises:
         SettingsError: one does not.
     """
-    if settings.rounds < 1:
-        raise SettingsError(f"rounds={settings.rounds}: give a number of at least 1")
-    if not settings.model.l2 > 0.0:
-        raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
     if settings.explain is not None and not any(e.id == settings.explain for _, test in pairs for e in test):
         some = ", ".join(e.id for e in pairs[0][1][:5])
         raise SettingsError(f"explain={settings.explain}: no test episode has this id; ids are {some} ...")
@@ -194,18 +192,13 @@ def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> Non
 
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
-    try:
-        figures = evaluate(evaluate_settings_of(config), directory, console)
-        save_composed(config, directory)
-        text = json.dumps({**figures, "run_dir": str(directory)})
-        part = directory / f"{SUMMARY}.part"
-        part.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-        os.replace(part, directory / SUMMARY)
-        print(text, flush=True)
-    except CONFIG_ERRORS as error:
-        sys.exit(refuse(explain_error(error), directory))
-    except (EpisodeError, SettingsError) as error:
-        sys.exit(refuse(str(error), directory))
+    with one_line_errors(directory):
+        settings = evaluate_settings_of(config)
+        with claim(directory, MARKS):
+            figures = evaluate(settings, directory, console)
+            save_composed(config, directory)
+            write_whole(directory / SUMMARY, json.dumps(figures, indent=1) + "\n")
+            print(json.dumps({**figures, "run_dir": str(directory)}), flush=True)
 
 
 def main() -> int:

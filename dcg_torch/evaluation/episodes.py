@@ -125,7 +125,9 @@ def read_episodes(path: Path) -> list[Episode]:
         episode = _parse(path, number, line)
         first = lines.setdefault(episode.id, number)
         if first != number:
-            raise EpisodeError(f"{path}, line {number}: id: {shown(episode.id)} is that of line {first} too; rename one")
+            raise EpisodeError(
+                f"{path}, line {number}: id: {shown(episode.id)} is that of line {first} too; rename one"
+            )
         episodes.append(episode)
     if not episodes:
         raise EpisodeError(f"{path}: holds no episodes; write one JSON object a line")

@@ -27,7 +27,6 @@ from dcg_torch.types import (
     WorldModel,
 )
 
-
 _Words = Annotated[str, Field(strict=True, min_length=1, max_length=200, pattern=r"\S")]
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from dcg_torch.errors import UserError
 from dcg_torch.records import Iteration
 from dcg_torch.report.measures import Measures, measure
 
@@ -18,7 +19,7 @@ SUMMARY = "summary.json"
 ROWS = "iterations.jsonl"
 
 
-class ReportError(ValueError):
+class ReportError(UserError):
     """A folder or file that the report can't read; the message is one line for the user."""
 
 

@@ -13,6 +13,7 @@ from types import TracebackType
 
 import pybullet
 
+from dcg_torch.errors import UserError
 from dcg_torch.types import Pose
 
 STEP = 1.0 / 120.0
@@ -22,7 +23,7 @@ _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
 
 
-class SimulatorError(RuntimeError):
+class SimulatorError(UserError):
     """The simulator can't do what was asked; the message is one line."""
 
 

@@ -24,7 +24,7 @@ def claim(directory: Path, marks: Collection[str] = (), *, setting: str = "hydra
     """Own a folder for the length of a `with` block: nobody else who claims it gets past the first line.
 
     The folder is made if need be. The lock is the kernel's and ends with the process that holds it, however that
-    ends; the empty file `.lock` stays. What an earlier owner left half written is removed.
+    ends. What an earlier owner left half written is removed.
 
     Args:
         directory: the folder.
@@ -36,16 +36,13 @@ def claim(directory: Path, marks: Collection[str] = (), *, setting: str = "hydra
         ClaimError: another process has it, it holds other things, or it is no place for a folder.
     """
     check_place(directory, marks, setting=setting)
+    descriptor = _locked(directory, setting)
     try:
-        directory.mkdir(parents=True, exist_ok=True)
-        descriptor = os.open(directory / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
-    except OSError as error:
-        raise ClaimError(f"{setting}={directory}: {error.strerror}; give a folder that can be made and written") from None
-    try:
-        _lock(descriptor, directory, setting)
         sweep_parts(directory)
         yield
     finally:
+        with contextlib.suppress(OSError):
+            (directory / LOCK).unlink()
         os.close(descriptor)
 
 
@@ -70,12 +67,26 @@ def check_place(directory: Path, marks: Collection[str] = (), *, setting: str = 
         raise ClaimError(f"{setting}={directory}: holds other files, {min(there)} for one; give a folder of its own")
 
 
-def _lock(descriptor: int, directory: Path, setting: str) -> None:
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except OSError as error:
-        if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
-            raise ClaimError(
-                f"{setting}={directory}: another process works in this folder; wait for it, or give another folder"
-            ) from None
-        raise ClaimError(f"{setting}={directory}: {error.strerror}; give a folder on a disk that knows locks") from None
+def _locked(directory: Path, setting: str) -> int:
+    """The open lock file, locked."""
+    while True:
+        try:
+            directory.mkdir(parents=True, exist_ok=True)
+            descriptor = os.open(directory / LOCK, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o644)
+        except OSError as error:
+            said = f"{setting}={directory}: {error.strerror}"
+            raise ClaimError(f"{said}; give a folder that can be made and written") from None
+        try:
+            fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            # The owner before may have removed the file between the two lines above: then this is a lock on nothing.
+            if os.path.samestat(os.fstat(descriptor), os.stat(directory / LOCK)):
+                return descriptor
+        except FileNotFoundError:
+            pass
+        except OSError as error:
+            os.close(descriptor)
+            said = f"{setting}={directory}: {error.strerror}; give a folder on a disk that knows locks"
+            if error.errno in (errno.EWOULDBLOCK, errno.EACCES):
+                said = f"{setting}={directory}: another process works in this folder; wait for it, or give another"
+            raise ClaimError(said) from None
+        os.close(descriptor)

@@ -18,7 +18,7 @@ _NEAR = 0.75  # how alike a misspelt key is to the right one
 
 
 def shown(value: object, longest: int = _LONGEST) -> str:
-    """A value of a foreign file as a message may quote it: short, in quotes if it is text, without control characters."""
+    """A value of a foreign file as a message may quote it: short, text in quotes, no control characters."""
     if isinstance(value, str):
         text = f"'{plain(value[: longest + 1], longest)}'"
     elif isinstance(value, int) and not isinstance(value, bool) and value.bit_length() > 200:
@@ -86,15 +86,19 @@ def read_yaml(path: Path, what: str, error: type[Exception]) -> Any:
     """The content of a YAML file, as plain Python values; arguments as in `read_text`."""
     text = read_text(path, what, error)
     try:
-        return yaml.load(text, _Loader)  # noqa: S506  (a safe loader)
+        return yaml.load(text, _Loader)
     except yaml.MarkedYAMLError as wrong:
         mark = wrong.problem_mark or wrong.context_mark
         where = f"line {mark.line + 1}: " if mark else ""
-        raise error(f"{path}: not readable as YAML: {where}{plain(wrong.problem or wrong.context or '', 120)}") from None
+        raise error(
+            f"{path}: not readable as YAML: {where}{plain(wrong.problem or wrong.context or '', 120)}"
+        ) from None
     except yaml.YAMLError as wrong:
         raise error(f"{path}: not readable as YAML: {plain(str(wrong), 120)}") from None
     except RecursionError:
-        raise error(f"{path}: not readable as YAML: brackets or aliases within one another beyond all measure") from None
+        raise error(
+            f"{path}: not readable as YAML: brackets or aliases within one another beyond all measure"
+        ) from None
     except _UNREADABLE:
         raise error(f"{path}: not readable as YAML: a date, number or tag in it makes no sense") from None
 

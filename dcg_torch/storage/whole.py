@@ -59,3 +59,26 @@ def _to_disk(path: Path) -> None:
         os.fsync(descriptor)
     finally:
         os.close(descriptor)
+
+
+def write_whole_folder(path: Path, content: Callable[[Path], object]) -> Path:
+    """The same for a folder of files: `content` fills an empty one, which then takes the place of `path`.
+
+    Raises:
+        OSError: it cannot be written; the old folder stays, if there was one.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part, old = (path.with_name(f".{path.name}.{secrets.token_hex(4)}{_MARK}") for _ in range(2))
+    part.mkdir()
+    try:
+        content(part)
+        for file in part.rglob("*"):
+            if file.is_file():
+                _to_disk(file)
+        if path.exists():
+            os.rename(path, old)
+        os.rename(part, path)
+    finally:
+        for rest in (part, old):
+            shutil.rmtree(rest, ignore_errors=True)
+    return path

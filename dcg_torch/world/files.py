@@ -40,13 +40,15 @@ class WorldObject(_Strict):
 class WrittenCommand(_Strict):
     """A command that was written for a world, the id of the object it means, and what it says of that object.
 
-    `noun` is the noun as said, in the singular; `color` the stated colour, or null.
+    `noun` is the noun as said, in the singular; `color` the stated colour, or null. `away`:
+    the command is to keep away from the object.
     """
 
     text: Text
     target: FileName
     noun: Name
     color: Name | None = None
+    away: bool = Field(False, strict=True)
 
 
 class RobotStart(_Strict):
@@ -124,7 +126,9 @@ def load_worlds(directory: Path) -> list[World]:
     for path in paths:
         world = load_world(path)
         if world.name in found:
-            raise WorldFileError(f"{path}: the name {shown(world.name)} is taken by {found[world.name]}; give it another")
+            raise WorldFileError(
+                f"{path}: the name {shown(world.name)} is taken by {found[world.name]}; give it another"
+            )
         found[world.name] = path
         worlds.append(world)
     return sorted(worlds, key=lambda world: world.name)
