@@ -43,8 +43,8 @@ from dcg_torch.world.generator import COLORS, TYPES
 _L2 = 1.0
 _TOLERANCE = 1e-7  # of the gradient's max-norm, per row
 _COLD = (
-    "from dcg_torch.experiment.worker import _initial_training, default_parser; from dcg_torch.model import GroundingModel; "
-    "default_parser().parse('go to the cube', ()); GroundingModel.trained(_initial_training())"
+    "from dcg_torch.lessons import initial_training; from dcg_torch.language import default_parser; from dcg_torch.model import GroundingModel; "
+    "default_parser().parse('go to the cube', ()); GroundingModel.trained(initial_training())"
 )
 
 

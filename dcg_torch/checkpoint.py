@@ -22,6 +22,7 @@ from safetensors import SafetensorError
 from safetensors.numpy import load as load_bytes
 from safetensors.numpy import save_file
 
+from dcg_torch.errors import UserError
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearModel
 from dcg_torch.learning.commit_first import CommitFirst
@@ -36,7 +37,7 @@ _MOST_BEAM = 1000
 _Arrays = dict[str, np.ndarray]
 
 
-class CheckpointError(ValueError):
+class CheckpointError(UserError):
     """A saved model that is missing or not valid; the message is one line."""
 
 
@@ -60,7 +61,7 @@ def save(model: GroundingModel, directory: Path | str) -> None:
     directory.mkdir(parents=True, exist_ok=True)
     learner = model.learner
     description = _Description(
-        FORMAT,
+        2,
         model.variant,
         model.factor.correspondences,
         tuple(model.features.language),

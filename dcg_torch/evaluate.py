@@ -1,14 +1,15 @@
-"""`python -m dcg_torch.evaluate train=FILE test=FILE`: train on one episode file and ground another."""
+"""`python -m dcg_torch.evaluate test=FILE [train=FILE]`: ground the commands of episode files."""
 
 from __future__ import annotations
 
 import gc
 import json
-import os
 import sys
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import hydra
 import numpy as np
@@ -19,120 +20,148 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from dcg_torch.__main__ import refuse, run_application
 from dcg_torch.checkpoint import save
-from dcg_torch.cli.config import CONFIG_ERRORS, evaluate_settings_of, save_composed
-from dcg_torch.cli.config import explain as explain_error
+from dcg_torch.cli.application import one_line_errors, run_application
+from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
-from dcg_torch.evaluation.episodes import Episode, EpisodeError, read_episodes, split_folds
-from dcg_torch.evaluation.protocol import CAUSES, Answer, Evaluation, summarise
-from dcg_torch.experiment.worker import variant
-from dcg_torch.explanation import Reason, explain, rivalry
+from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds
+from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
+from dcg_torch.evaluation.summary import summarise
+from dcg_torch.experiment.factory import make_model
+from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
-from dcg_torch.lessons import initial_training
-from dcg_torch.lessons.generated import generated_lessons
+from dcg_torch.model import GroundingModel
 from dcg_torch.resources import resource
 from dcg_torch.settings import EvaluateSettings, SettingsError
+from dcg_torch.storage.claim import claim
+from dcg_torch.storage.whole import write_whole, write_whole_folder
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
+MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")
 _REASONS = 8  # shown for each phrase
+
+
+@dataclass(frozen=True)
+class Split:
+    """What one model is taught and tested on: files by their stems."""
+
+    train: dict[str, list[Episode]]
+    test: dict[str, list[Episode]]
 
 
 def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> dict[str, object]:
     """Train, ground, write `predictions.jsonl` and the model into `directory`; the figures.
-
-    Files of an earlier run there are removed first, and each appears whole or not at all.
 
     Raises:
         EpisodeError: an episode file is missing or not valid.
         SettingsError: a setting makes no sense.
     """
     torch.set_num_threads(1)
-    pairs = _pairs(settings)
-    _check(settings, pairs)
-    chosen = variant(settings.model)
-    answers: list[Answer] = []
-    learned: dict[str, dict[str, str]] = {"nouns": {}, "colors": {}}
-    train_seconds, baseline = 0.0, []
-    directory.mkdir(parents=True, exist_ok=True)
+    splits = read_splits(settings)
+    _check(settings, splits)
+    found: list[Answer] = []
+    learned: dict[str, str] = {}
+    train_seconds = 0.0
     for name in (PREDICTIONS, SUMMARY):
         (directory / name).unlink(missing_ok=True)
     part = directory / f"{PREDICTIONS}.part"
     with part.open("w", encoding="utf-8") as file:
-        for train, test in pairs:
-            console.print(f"training on {len(train)} episodes, {settings.rounds} rounds")
-            with Bar("training", settings.rounds, console) as bar:
-                evaluation = Evaluation(
-                    train,
-                    initial_training(),
-                    chosen,
-                    default_parser().parse,
-                    known_types=settings.known_types,
-                    known_colors=settings.known_colors,
-                    generated=generated_lessons(default_parser().parse, settings.model.lessons),
-                    rounds=settings.rounds,
-                    progress=bar.advance,
-                )
-            train_seconds += evaluation.train_seconds
-            gc.collect()
-            gc.freeze()  # the corpus lives on: walking it would stop a command for up to 0.1 s now and then
-            with Bar("grounding", len(test), console) as bar:
-                for answer in evaluation.answers(test, learn=settings.learn):
-                    answers.append(answer)
+        for split in splits:
+            model = make_model(settings.model, settings.training)
+            train_seconds += _train(model, split, settings, console)
+            first = set(model.symbols)
+            with Bar("grounding", sum(map(len, split.test.values())), console) as bar:
+                for answer in _answers(model, split, settings, console):
+                    found.append(answer)
                     file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
-                    if answer.episode.id == settings.explain:
-                        _print_reasons(evaluation, answer, console)
                     bar.advance()
-            for kind, words in evaluation.learned.items():
-                learned[kind] |= words
-            if settings.baseline:
-                from dcg_torch.evaluation.baseline import bag_of_words
-
-                baseline += bag_of_words(train, test)
-    os.replace(part, directory / PREDICTIONS)
+            learned |= {w: s.type for w, s in model.symbols.items() if w not in first}
+    part.replace(directory / PREDICTIONS)
     if settings.save and not settings.folds:
-        save(evaluation.model, directory / MODEL)
-    figures = summarise(answers, train_seconds, by_color=settings.known_colors is not None)
-    _print_errors(answers, console)
+        write_whole_folder(directory / MODEL, lambda folder: save(model, folder))
+    figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
+    _print_files(figures["by_file"], console)
+    _print_errors(found, console)
     if settings.learn:
         figures["learned"] = learned
-        for kind, words in learned.items():
-            told = ", ".join(f"{word} = {meaning}" for word, meaning in words.items()) or "none"
-            console.print(f"{kind} learned: {told}", markup=False)
-    if settings.baseline:
-        figures["baseline_accuracy"] = sum(baseline) / len(baseline)
-        console.print(f"logistic regression on words x object features: {figures['baseline_accuracy']:.4f}")
+        told = ", ".join(f"{word} = {meaning}" for word, meaning in learned.items()) or "none"
+        console.print(f"nouns learned: {told}", markup=False)
     return figures
 
 
-def _pairs(settings: EvaluateSettings) -> list[tuple[list[Episode], list[Episode]]]:
-    """The training and test episodes, of each fold if there are folds."""
-    train = read_episodes(Path(settings.train).expanduser())
-    if settings.folds:
-        if settings.test is not None or settings.folds < 2:
-            raise SettingsError(f"folds={settings.folds}: give at least 2, and no test file")
-        parts = split_folds(train, settings.folds, np.random.default_rng(0))
-        return [([e for other in parts if other is not part for e in other], part) for part in parts]
-    if settings.test is None:
-        raise SettingsError("test: no file given; write test=FILE, or folds=5 to cross-validate the training file")
-    return [(train, read_episodes(Path(settings.test).expanduser()))]
+def _train(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> float:
+    """Teach a model its training files, if there are any; the seconds that it took."""
+    if not split.train:
+        return 0.0
+    console.print(f"training on {sum(map(len, split.train.values()))} episodes, {settings.rounds} rounds")
+    training = Training(settings.known_types, settings.known_colors, settings.rounds)
+    with Bar("training", settings.rounds, console) as bar:
+        seconds = train(model, list(split.train.values()), default_parser().parse, training, bar.advance)
+    gc.collect()
+    gc.freeze()  # walking what is left of the corpus would stop a command for up to 0.1 s now and then
+    return seconds
 
 
-def _check(settings: EvaluateSettings, pairs: Sequence[tuple[list[Episode], list[Episode]]]) -> None:
+def _answers(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> Iterable[Answer]:
+    """The answers to all test files, one after the other."""
+    for name, episodes in split.test.items():
+        for answer in answers(model, episodes, default_parser().parse, file=name, learn=settings.learn):
+            if answer.episode.id == settings.explain:
+                _print_reasons(model, answer, console)
+            yield answer
+
+
+def read_splits(settings: EvaluateSettings) -> list[Split]:
+    """What to train and test on; a split for each fold if there are folds.
+
+    Raises:
+        EpisodeError: an episode file is missing or not valid.
+        SettingsError: files are missing or too many, or two have one name.
+    """
+    files = {key: _read(key, getattr(settings, key)) for key in ("train", "test")}
+    if not settings.folds:
+        if not files["test"]:
+            raise SettingsError("test: no file given; write test=FILE, or train=FILE folds=5 to cross-validate one")
+        return [Split(files["train"], files["test"])]
+    if files["test"] or not files["train"] or settings.folds < 2:
+        raise SettingsError(f"folds={settings.folds}: give at least 2, a training file, and no test file")
+    rng = np.random.default_rng(0)
+    parts = {name: split_folds(episodes, settings.folds, rng) for name, episodes in files["train"].items()}
+    return [
+        Split(
+            {name: [e for other in of if other is not of[k] for e in other] for name, of in parts.items()},
+            {name: of[k] for name, of in parts.items()},
+        )
+        for k in range(settings.folds)
+    ]
+
+
+def _read(key: str, given: object) -> dict[str, list[Episode]]:
+    """The files of a setting that names none, one or several."""
+    named = [] if given is None else list(given) if isinstance(given, list | tuple) else [given]
+    if not all(isinstance(one, str) and one for one in named):
+        raise SettingsError(f"{key}: write {key}=FILE, or {key}=[FILE,FILE]")
+    found: dict[str, list[Episode]] = {}
+    for one in named:
+        path = Path(str(one)).expanduser()
+        if path.stem in found:
+            raise SettingsError(f"{key}: two files are called {path.stem}; rename one")
+        found[path.stem] = read_episodes(path)
+    return found
+
+
+def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:
     """See that the settings fit the episodes, before anything is written.
 
     Raises:
         SettingsError: one does not.
     """
-    if settings.rounds < 1:
-        raise SettingsError(f"rounds={settings.rounds}: give a number of at least 1")
-    if not settings.model.l2 > 0.0:
-        raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
-    if settings.explain is not None and not any(e.id == settings.explain for _, test in pairs for e in test):
-        some = ", ".join(e.id for e in pairs[0][1][:5])
+    test = [e for split in splits for episodes in split.test.values() for e in episodes]
+    if settings.explain is not None and not any(e.id == settings.explain for e in test):
+        some = ", ".join(e.id for e in test[:5])
         raise SettingsError(f"explain={settings.explain}: no test episode has this id; ids are {some} ...")
-    train = [e for episodes, _ in pairs for e in episodes]
-    meant = [o for e in train for o in e.objects if o.id in e.target]
+    taught = [e for split in splits for episodes in split.train.values() for e in episodes]
+    meant = [o for e in taught for o in e.objects if o.id in e.target]
     for name, wanted, there in (
         ("known_types", settings.known_types, {o.type for o in meant}),
         ("known_colors", settings.known_colors, {o.color for o in meant if o.color is not None}),
@@ -143,24 +172,33 @@ def _check(settings: EvaluateSettings, pairs: Sequence[tuple[list[Episode], list
         if strange or not wanted:
             what = f"{strange[0]!r} is meant in no training episode" if strange else "there is nothing to learn from"
             raise SettingsError(f"{name}={wanted}: {what}; choose from {', '.join(sorted(there)) or 'none'}")
-    if settings.baseline:
-        try:
-            import sklearn  # noqa: F401
-        except ImportError:
-            raise SettingsError("baseline=true needs scikit-learn; install dcg-torch[bench]") from None
 
 
-def _print_errors(answers: Sequence[Answer], console: Console) -> None:
-    counts = Counter(a.cause for a in answers if a.cause is not None)
-    table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(answers)} commands")
-    for column in ("cause", "commands", "share"):
-        table.add_column(column, justify="left" if column == "cause" else "right")
-    for cause in CAUSES:
-        table.add_row(cause, str(counts[cause]), f"{100 * counts[cause] / len(answers):.1f} %")
+def _print_files(by_file: dict[str, dict[str, Any]], console: Console) -> None:
+    if len(by_file) < 2:
+        return
+    table = Table(title="By file")
+    for column in ("file", "commands", "right", "95 % interval", "calibration error"):
+        table.add_column(column, justify="left" if column == "file" else "right")
+    for name, of in by_file.items():
+        low, high = of["ci95"]
+        error = of["calibration_error"]
+        shown = "-" if error is None else f"{error:.3f}"
+        table.add_row(escape(name), str(of["n"]), f"{of['accuracy']:.3f}", f"{low:.3f} to {high:.3f}", shown)
     console.print(table)
 
 
-def _print_reasons(evaluation: Evaluation, answer: Answer, console: Console) -> None:
+def _print_errors(found: Sequence[Answer], console: Console) -> None:
+    counts = Counter(a.cause for a in found if a.cause is not None)
+    table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(found)} commands")
+    for column in ("cause", "commands", "share"):
+        table.add_column(column, justify="left" if column == "cause" else "right")
+    for cause in CAUSES:
+        table.add_row(cause, str(counts[cause]), f"{100 * counts[cause] / len(found):.1f} %")
+    console.print(table)
+
+
+def _print_reasons(model: GroundingModel, answer: Answer, console: Console) -> None:
     """Which phrases, which groundings, which features moved them; and what told the answer from the second best."""
     console.print(f"{answer.episode.id}: {answer.episode.text}", markup=False)
     solution = answer.solution
@@ -168,8 +206,8 @@ def _print_reasons(evaluation: Evaluation, answer: Answer, console: Console) -> 
         console.print(f"not grounded: {answer.parse.problem}", markup=False)
         return
     console.print(f"grounded to {list(answer.predicted)}, probability {answer.probability:.3f}", markup=False)
-    _print_table("what moved it, as log-odds", explain(evaluation.model, solution), console)
-    second = rivalry(evaluation.model, solution)
+    _print_table("what moved it, as log-odds", explain(model, solution), console)
+    second = rivalry(model, solution)
     if second is not None:
         probability = solution.probabilities[second.object.id]
         title = (
@@ -194,18 +232,13 @@ def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> Non
 
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
-    try:
-        figures = evaluate(evaluate_settings_of(config), directory, console)
-        save_composed(config, directory)
-        text = json.dumps({**figures, "run_dir": str(directory)})
-        part = directory / f"{SUMMARY}.part"
-        part.write_text(json.dumps(figures, indent=1) + "\n", encoding="utf-8")
-        os.replace(part, directory / SUMMARY)
-        print(text, flush=True)
-    except CONFIG_ERRORS as error:
-        sys.exit(refuse(explain_error(error), directory))
-    except (EpisodeError, SettingsError) as error:
-        sys.exit(refuse(str(error), directory))
+    with one_line_errors(directory):
+        settings = evaluate_settings_of(config)
+        with claim(directory, MARKS):
+            figures = evaluate(settings, directory, console)
+            save_composed(config, directory)
+            write_whole(directory / SUMMARY, json.dumps(figures, indent=1) + "\n")
+            print(json.dumps({**figures, "run_dir": str(directory)}), flush=True)
 
 
 def main() -> int:

@@ -15,7 +15,7 @@ from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
-from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.model import GroundingModel, TrainingSet, Variant
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, beam=12)
 LESSONS = 1000
@@ -29,17 +29,17 @@ def pretrained() -> GroundingModel:
 
 
 def train_open_world(
-    variant: Variant = VARIANT, lessons: int = LESSONS, assumed: Assumptions | None = None
+    training: TrainingSet, variant: Variant = VARIANT, lessons: int = LESSONS, assumed: Assumptions | None = None
 ) -> GroundingModel:
     """An open-world model from the hand-made examples and so many generated lessons.
 
     Args:
+        training: the hand-made examples, or others of their kind.
         variant: with the feature group `relation` if there are lessons.
         assumed: what its learner takes for granted.
     """
     from dcg_torch.language import default_parser
 
-    training = initial_training()
     model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed))
     if lessons and Group.RELATION in variant.groups:
         model.teach(generated_lessons(default_parser().parse, lessons), relations_only=True, rounds=_ROUNDS)
@@ -48,7 +48,7 @@ def train_open_world(
 
 def main() -> int:
     """Make the shipped model anew."""
-    save(train_open_world(), _SHIPPED)
+    save(train_open_world(initial_training()), _SHIPPED)
     size = sum(path.stat().st_size for path in _SHIPPED.iterdir())
     print(f"{_SHIPPED}: {size / 1e6:.2f} MB")
     return 0

@@ -1,18 +1,56 @@
-"""The settings of an experiment: plain dataclasses with their defaults, checked once they are complete."""
+"""The settings of an experiment and of an evaluation: plain dataclasses, checked once they are complete.
+
+What a setting means and what values make sense stand beside its default, in one place that both the check and the help
+read.
+"""
 
 from __future__ import annotations
 
 import enum
 import math
-from dataclasses import dataclass, field
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, is_dataclass
+from typing import Any
 
-from dcg_torch.geometry import FIELD_OF_VIEW
+from dcg_torch.errors import UserError
 from dcg_torch.world.generator import TYPES
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
 
+MOST = 100_000
+"""Of anything that is counted: trials, commands, lessons."""
 
-class SettingsError(ValueError):
+
+class SettingsError(UserError):
     """A setting that makes no sense; the message is one line: which, what is wrong, how to mend it."""
+
+
+@dataclass(frozen=True)
+class Bounds:
+    """The numbers that make sense for a setting, from `low` to `high`; `open` leaves `low` itself out."""
+
+    low: float
+    high: float
+    open: bool = False
+
+    def hold(self, number: float) -> bool:
+        """Whether a number is finite and within."""
+        above = number > self.low if self.open else number >= self.low
+        return math.isfinite(number) and above and number <= self.high
+
+    def __str__(self) -> str:
+        low, high = f"{self.low:g}", f"{self.high:g}"
+        return f"above {low}, at most {high}" if self.open else f"from {low} to {high}"
+
+
+def _setting(default: Any, text: str, bounds: Bounds | None = None) -> Any:
+    """A field with its default, what it means, and what numbers make sense."""
+    metadata = {"help": text, "bounds": bounds}
+    if isinstance(default, list):
+        return field(default_factory=lambda: list(default), metadata=metadata)
+    return field(default=default, metadata=metadata)
+
+
+_COUNT, _SHARE = Bounds(1, MOST), Bounds(0, 1)
 
 
 class Speaker(enum.StrEnum):
@@ -22,6 +60,13 @@ class Speaker(enum.StrEnum):
     written = "written"
     relational = "relational"
     human = "human"
+
+
+class LearnerKind(enum.StrEnum):
+    """How a model learns words."""
+
+    commit_first = "commit_first"
+    word_posterior = "word_posterior"
 
 
 class Asking(enum.StrEnum):
@@ -47,203 +92,156 @@ class Order(enum.StrEnum):
 
 @dataclass
 class OpenWorldSettings:
-    """What `model=open_world` assumes, and when it looks and asks.
+    """When `model=open_world` looks further and when it asks."""
 
-    Attributes:
-        synonym: factor for a word that names a type which has a name already.
-        unmet: weight of all types that were never met, where each met one has weight 1.
-        slip: share of commands whose noun is not the one for the type that the recogniser reports.
-        hidden: objects of a type and colour that are expected though the robot has looked all round.
-        strength: of the soft examples; more is closer to the posterior, and slower.
-        look_above: look on while types out of view have more than this share of the belief about the word.
-        views: places that the robot drives to for a look behind things, at the most.
-        ask_below: with asking=when_unsure, ask if the best object is less probable than this.
-    """
-
-    synonym: float = 0.05
-    unmet: float = 1.0
-    slip: float = 0.02
-    hidden: float = 0.01
-    strength: float = 5.0
-    look_above: float = 0.03
-    views: int = 2
-    ask_below: float = 0.75
+    look_above: float = _setting(
+        0.03, "look on while types out of view have more than this share of the belief", _SHARE
+    )
+    views: int = _setting(2, "places that the robot drives to for a look behind things, at the most", Bounds(0, 100))
+    ask_below: float = _setting(0.75, "with asking=when_unsure: ask if the best object is less probable", _SHARE)
 
 
 @dataclass
 class ModelSettings:
-    """See `model.Variant`; `posterior` makes it an `open_world.OpenWorldModel`, which `open_world` is for.
+    """The kind of model: a variant of the paper's, or one beyond it."""
 
-    `lessons` is the number of generated lessons on relations (`training.generated`) that it is taught before a trial,
-    or before the episodes of a corpus.
-    """
-
-    name: str = "dcg_upup_away_color"
-    groups: list[str] = field(default_factory=lambda: ["dcg", "unknown", "hypothetical", "color"])
-    unknown: bool = True
-    hypothetical: bool = True
-    learns: bool = True
-    ternary: bool = True
-    l2: float = 0.05
-    beam: int = 8
-    synonyms: float | None = None
-    lessons: int = 0
-    posterior: bool = False
+    name: str = _setting("dcg_upup_away_color", "of the kind, in tables")
+    groups: list[str] = _setting(["dcg", "unknown", "hypothetical", "color"], "feature groups")
+    hypothetical: bool = _setting(True, "believe in objects out of view")
+    learns: bool = _setting(True, "learn new words")
+    ternary: bool = _setting(True, "correspondences -1, 0, 1 (eq. 4); false: 0 and 1 (eq. 6)")
+    l2: float = _setting(0.05, "penalty on the weights", Bounds(0, 1e6, open=True))
+    beam: int = _setting(8, "configurations kept a phrase", Bounds(1, 1_000))
+    synonyms: float | None = _setting(None, "of a corpus: take a new word for a known type from this on", _SHARE)
+    lessons: int = _setting(0, "generated lessons on relations before the first command", Bounds(0, MOST))
+    learner: LearnerKind = _setting(
+        LearnerKind.commit_first, "commit at once, as the paper does, or keep a posterior over what words mean"
+    )
     open_world: OpenWorldSettings = field(default_factory=OpenWorldSettings)
 
 
 @dataclass
 class SimulatorSettings:
-    """The robot and its camera.
+    """The robot and its camera."""
 
-    Attributes:
-        kind: pybullet, or fake for a robot of pure geometry.
-        gui: open PyBullet's window.
-        spin_step: degrees between two looks while it turns.
-        min_pixels: of an object in the picture, for it to be recognised.
-        wrong_class: share of objects that the recogniser takes for another type.
-        missed: share of objects that it never recognises.
-    """
-
-    kind: RobotKind = RobotKind.pybullet
-    gui: bool = False
-    spin_step: float = 20.0
-    min_pixels: int = 4
-    wrong_class: float = 0.0
-    missed: float = 0.0
+    kind: RobotKind = _setting(RobotKind.pybullet, "pybullet, or fake for a robot of pure geometry")
+    gui: bool = _setting(False, "open PyBullet's window")
+    spin_step: float = _setting(
+        20.0, "degrees between two looks while it turns; below 0: to the right", Bounds(-57, 57)
+    )
+    min_pixels: int = _setting(4, "of an object in the picture, for it to be recognised", Bounds(1, MOST))
+    wrong_class: float = _setting(0.0, "share of objects that the recogniser takes for another type", _SHARE)
+    missed: float = _setting(0.0, "share of objects that it never recognises", _SHARE)
 
 
 @dataclass
 class Settings:
-    """One experiment.
+    """One experiment."""
 
-    Attributes:
-        name: of the run folder and in the tables.
-        experiment: the overlay it was composed with, for the record.
-        worlds: committed, generated (ten fresh ones a trial), or a directory of world files.
-        types: number of types in generated worlds, the paper's eight first; beyond these only with the fake robot.
-        colors: number of colours in generated worlds, the paper's three first.
-        object_rate: probability of each type in each colour in a generated world.
-        order: commands drawn at random, or as they stand in the files.
-        color_rate: share of generated commands that state the colour.
-        workers: processes; 0 takes one per core.
-        animate: trials to save as animations.
-        figures: draw the figures.
-        tensorboard: write TensorBoard event files.
-        screenshots: save a picture of every pair of world and highlighted object.
-    """
-
-    name: str = "run"
+    name: str = _setting("run", "of the run folder and in the tables")
     model: ModelSettings = field(default_factory=ModelSettings)
     simulator: SimulatorSettings = field(default_factory=SimulatorSettings)
-    seed: int = 0
-    trials: int = 30
-    iterations: int = 10
-    worlds: str = "committed"
-    worlds_per_trial: int = 10
-    types: int = 8
-    colors: int = 3
-    object_rate: float = 0.15
-    order: Order = Order.drawn
-    speaker: Speaker = Speaker.written
-    color_rate: float = 1.0
-    asking: Asking = Asking.never
-    workers: int = 0
-    animate: list[int] = field(default_factory=list)
-    figures: bool = True
-    tensorboard: bool = True
-    screenshots: bool = False
+    training: str | None = _setting(None, "YAML file of initial examples, instead of the 53 that come along")
+    seed: int = _setting(0, "of all that is drawn", Bounds(0, 1e15))
+    trials: int = _setting(30, "each starts with the initial examples alone", _COUNT)
+    iterations: int = _setting(10, "commands in a trial", _COUNT)
+    worlds: str = _setting("committed", "committed, generated (fresh ones a trial), or a folder of world files")
+    worlds_per_trial: int = _setting(10, "of generated worlds", Bounds(1, 10_000))
+    types: int = _setting(
+        8, "in generated worlds, the paper's eight first; more need the fake robot", Bounds(1, len(MORE_TYPES))
+    )
+    colors: int = _setting(3, "in generated worlds, the paper's three first", Bounds(1, len(MORE_COLORS)))
+    object_rate: float = _setting(
+        0.15, "probability of each type in each colour in a generated world", Bounds(0, 1, open=True)
+    )
+    order: Order = _setting(Order.drawn, "commands drawn at random, or as they stand in the files")
+    speaker: Speaker = _setting(Speaker.written, "who gives the commands")
+    color_rate: float = _setting(1.0, "share of generated commands that state the colour", _SHARE)
+    asking: Asking = _setting(Asking.never, "when the robot asks back")
+    workers: int = _setting(0, "processes; 0 takes one a core", Bounds(0, 1_024))
+    animate: list[int] = _setting([], "trials to save as animations")
+    figures: bool = _setting(True, "draw the figures")
+    tensorboard: bool = _setting(True, "write TensorBoard event files")
+    screenshots: bool = _setting(False, "save a picture of every pair of world and object")
 
 
 @dataclass
 class EvaluateSettings:
-    """Training on one episode file and grounding another.
+    """Grounding the commands of episode files, perhaps after training on others."""
 
-    Attributes:
-        train, test: the files (JSON lines).
-        known_types: leave the training rows about other types out; null: keep all.
-        known_colors: leave the training rows about objects of other colours out; null: keep all.
-        learn: learn after each test command, in file order, without seeing its target.
-        explain: id of a test episode whose grounding is to be explained.
-        rounds: of expectation-maximisation over the landmarks.
-        folds: instead of `test`, cross-validate `train` in so many parts; episodes of one `group` stay together.
-        baseline: also fit scikit-learn's logistic regression, on words x object features, to the same episodes.
-        save: write the model as it is at the end into `model/` of the run folder; not with folds.
-    """
-
-    train: str = "???"  # Hydra's mark of what must be given
-    test: str | None = None
+    train: Any = _setting(None, "episode file (JSON lines) to train on, or a list of them; none: the model as it is")
+    test: Any = _setting(None, "episode file to ground, or a list of them")
     model: ModelSettings = field(default_factory=ModelSettings)
-    known_types: list[str] | None = None
-    known_colors: list[str] | None = None
-    learn: bool = False
-    explain: str | None = None
-    rounds: int = 4
-    folds: int = 0
-    baseline: bool = False
-    save: bool = True
+    training: str | None = _setting(None, "YAML file of initial examples, instead of the 53 that come along")
+    known_types: list[str] | None = _setting(None, "leave the training rows about other types out")
+    known_colors: list[str] | None = _setting(None, "leave the training rows about objects of other colours out")
+    learn: bool = _setting(False, "learn after each test command, in file order, without seeing its target")
+    explain: str | None = _setting(None, "id of a test episode whose grounding is to be explained")
+    rounds: int = _setting(4, "of expectation-maximisation over the landmarks", Bounds(1, 1_000))
+    folds: int = _setting(0, "instead of test: cross-validate train in so many parts, by group", Bounds(0, 1_000))
+    save: bool = _setting(True, "write the model as it is at the end into model/; not with folds")
+
+
+def described(schema: type, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:
+    """(dotted name, default, what it means, bounds) of every setting of a schema."""
+    yield from ((prefix + name, value, text, bounds) for name, value, text, bounds in _walk(schema()))
+
+
+def _walk(settings: Any, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:
+    for one in fields(settings):
+        value = getattr(settings, one.name)
+        if is_dataclass(value):
+            yield from _walk(value, f"{prefix}{one.name}.")
+        else:
+            yield prefix + one.name, value, one.metadata["help"], one.metadata["bounds"]
+
+
+def check_bounds(settings: Settings | EvaluateSettings) -> None:
+    """See that every number lies within its bounds, and that the model has features.
+
+    Raises:
+        SettingsError: one does not.
+    """
+    for name, value, _, bounds in _walk(settings):
+        if bounds is not None and value is not None and not bounds.hold(value):
+            raise SettingsError(f"{name}={_short(value)}: give a number {bounds}")
+        if isinstance(value, str) and ("\0" in value or len(value) > 4_000):
+            raise SettingsError(f"{name}: a text of {len(value)} characters makes no sense here; give a shorter one")
+    if not settings.model.groups:
+        raise SettingsError("model.groups=[]: a model needs features; give some, [dcg,unknown] for one")
+
+
+def _short(number: float) -> str:
+    text = str(number)
+    return text if len(text) <= 20 else f"{text[:20]}..."
 
 
 def check(settings: Settings) -> None:
-    """See that the values make sense together.
+    """See that the values of an experiment make sense, each alone and together.
 
     Raises:
         SettingsError: one of them does not.
     """
-    positive = {"trials": settings.trials, "iterations": settings.iterations, "model.beam": settings.model.beam}
-    positive |= {"worlds_per_trial": settings.worlds_per_trial, "simulator.min_pixels": settings.simulator.min_pixels}
-    for name, number in positive.items():
-        if number < 1:
-            raise SettingsError(f"{name}={number}: give a number of at least 1")
-    if settings.seed < 0 or settings.workers < 0:
-        name = "seed" if settings.seed < 0 else "workers"
-        raise SettingsError(f"{name}={getattr(settings, name)}: give a number of at least 0")
-    shares = {"color_rate": settings.color_rate}
-    shares |= {f"simulator.{name}": getattr(settings.simulator, name) for name in ("wrong_class", "missed")}
-    for name, share in shares.items():
-        if not 0.0 <= share <= 1.0:
-            raise SettingsError(f"{name}={share}: a share lies between 0 and 1")
-    if settings.model.lessons < 0:
-        raise SettingsError(f"model.lessons={settings.model.lessons}: give a number of at least 0")
-    if not settings.model.l2 > 0.0:
-        raise SettingsError(f"model.l2={settings.model.l2}: it must be positive, or the optimum is not unique")
-    widest = round(math.degrees(FIELD_OF_VIEW), 6)
-    if not 0.0 < abs(settings.simulator.spin_step) <= widest:
-        raise SettingsError(
-            f"simulator.spin_step={settings.simulator.spin_step}: give degrees up to {widest:g}, the width of the view"
-        )
+    check_bounds(settings)
+    if settings.simulator.spin_step == 0.0:
+        raise SettingsError("simulator.spin_step=0: the robot would never look round; give degrees up to 57")
     wrong = [trial for trial in settings.animate if not 0 <= trial < settings.trials]
     if wrong:
-        raise SettingsError(f"animate={settings.animate}: trials go from 0 to {settings.trials - 1}")
+        raise SettingsError(f"animate: there is no trial {_short(wrong[0])}; trials go from 0 to {settings.trials - 1}")
     for name, asked in (("simulator.gui", settings.simulator.gui), ("animate", settings.animate)):
         if asked and settings.simulator.kind is RobotKind.fake:
             raise SettingsError(f"{name}={asked}: the fake robot has nothing to show; take simulator=pybullet")
-    most = {"types": (settings.types, len(MORE_TYPES)), "colors": (settings.colors, len(MORE_COLORS))}
-    for name, (number, limit) in most.items():
-        if not 1 <= number <= limit:
-            raise SettingsError(f"{name}={number}: give a number from 1 to {limit}")
     if settings.types > len(TYPES) and settings.simulator.kind is not RobotKind.fake:
         raise SettingsError(
             f"types={settings.types}: the simulator has bodies for {len(TYPES)}; take simulator=fake, or fewer types"
         )
-    if not 0.0 < settings.object_rate <= 1.0:
-        raise SettingsError(f"object_rate={settings.object_rate}: a probability above 0 and at most 1")
-    _check_open_world(settings.model.open_world)
-    if settings.asking is Asking.when_unsure and not settings.model.posterior:
+    least = _FEWEST_OBJECTS / (settings.types * settings.colors)
+    if settings.worlds == "generated" and settings.object_rate < least:
+        raise SettingsError(f"object_rate={settings.object_rate}: worlds would stay empty; give at least {least:g}")
+    if settings.asking is Asking.when_unsure and settings.model.learner is LearnerKind.commit_first:
         raise SettingsError(
             "asking=when_unsure: the paper's models ask nothing; take model=open_world, or asking=never"
         )
 
 
-def _check_open_world(settings: OpenWorldSettings) -> None:
-    for name in ("synonym", "slip"):
-        if not 0.0 < getattr(settings, name) < 1.0:
-            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a share between 0 and 1")
-    for name in ("unmet", "hidden", "strength"):
-        if not getattr(settings, name) > 0.0:
-            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a number above 0")
-    for name in ("look_above", "ask_below"):
-        if not 0.0 <= getattr(settings, name) <= 1.0:
-            raise SettingsError(f"model.open_world.{name}={getattr(settings, name)}: give a probability from 0 to 1")
-    if settings.views < 0:
-        raise SettingsError(f"model.open_world.views={settings.views}: give a number of at least 0")
+_FEWEST_OBJECTS = 0.05  # expected in a world, so that one of the generator's 1,000 draws has an object

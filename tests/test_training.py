@@ -171,5 +171,5 @@ class TestReading:
     def test_bytes_that_are_no_text(self, tmp_path: Path) -> None:
         path = tmp_path / "latin.yaml"
         path.write_bytes(b"symbols: {w\xfcrfel: cube}")
-        with pytest.raises(TrainingFileError, match="not readable as YAML"):
+        with pytest.raises(TrainingFileError, match="no UTF-8 text"):
             read_training(path)

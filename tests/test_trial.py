@@ -15,7 +15,8 @@ from hypothesis import strategies as st
 from making import KNOWN, Read, SpyRobot, read, world_file
 
 from dcg_torch.agent.command import Look, Stopwatch, carry_out
-from dcg_torch.experiment.runner import ITERATIONS, run
+from dcg_torch.experiment.folder import ITERATIONS
+from dcg_torch.experiment.runner import run
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.language import Parser

@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from dcg_torch.agent.command import Look
-from dcg_torch.experiment.runner import ITERATIONS, animation_of, run
+from dcg_torch.experiment.folder import ITERATIONS, animation_of
+from dcg_torch.experiment.outcome import save_screenshots
+from dcg_torch.experiment.runner import run
 from dcg_torch.grounding.graph import Hypothesis, Solution
 from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.resources import resource
@@ -37,7 +39,6 @@ from dcg_torch.types import (
 from dcg_torch.watch import paint
 from dcg_torch.watch.animation import SIZE, animate, frames, schedule
 from dcg_torch.watch.floor import FloorPanel
-from dcg_torch.watch.pictures import save_screenshots
 from dcg_torch.watch.recording import Moment, RecordedCommand, Recorder
 from dcg_torch.watch.wording import bars, doing, label, meant, name_of, words
 from dcg_torch.world.files import World, WorldObject
@@ -363,8 +364,9 @@ def test_the_fake_robot_has_nothing_to_show(changes: dict[str, object]) -> None:
 
 
 def test_a_picture_for_every_pair(tmp_path: Path) -> None:
-    paths = save_screenshots(laboratory(), tmp_path / "shots", workers=1)
-    assert [path.name for path in paths] == [f"laboratory-{id_}.png" for id_ in ("cone", "cube", "crate")]
-    for path in paths:
+    save_screenshots(laboratory(), tmp_path / "shots")
+    paths = {path.name: path for path in (tmp_path / "shots").iterdir()}
+    assert paths.keys() == {f"laboratory-{id_}.png" for id_ in ("cone", "cube", "crate")}
+    for path in paths.values():
         with Image.open(path) as image:
             assert image.size == (640, 480)

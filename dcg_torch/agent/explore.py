@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from dcg_torch.agent.robot import Robot
 from dcg_torch.geometry import FIELD_OF_VIEW, segment_distances
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.types import Percept, PhraseKind
+from dcg_torch.types import Percept
 
 Point = tuple[float, float]
 
@@ -143,7 +143,7 @@ class LookBefore:
 
 def compares(solution: Solution) -> bool:
     """Is the object meant told by what else there is? Then all of that must be seen: "farthest", "next to the cube"."""
-    noun = next((node for node in solution.tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    noun = solution.target
     return noun is not None and bool(noun.phrase.words or noun.children)
 
 

@@ -1,1 +1,10 @@
-"""The command line: Hydra's schemas and errors, the terminal."""
+"""The command line: Hydra's side of the settings, errors as one line and an exit status, sweeps, and the terminal.
+
+config         schemas, settings from what Hydra composed, Hydra's errors explained
+settings_help  what each setting means, for --help
+application    errors -> one line and an exit status
+sweep          the folder and the table of a sweep
+console        width, colours, progress bars
+commands       `dcg-torch COMMAND`: which there are, each loaded when it is called
+completion     what a shell completes
+"""

@@ -1,33 +1,42 @@
-"""Hydra's side of the settings: their schemas, its errors in one line, and what is added to a sweep."""
+"""Hydra's side of the settings: their schemas, and its errors in one line."""
 
 from __future__ import annotations
 
 import difflib
 import functools
-from dataclasses import fields, is_dataclass
+import secrets
 from pathlib import Path
-from typing import Any, cast, get_type_hints
+from typing import Any, cast
 
 from hydra.core.config_store import ConfigStore
 from hydra.core.hydra_config import HydraConfig
-from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
-from hydra.experimental.callback import Callback
-from omegaconf import DictConfig, OmegaConf, open_dict, read_write
+from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from dcg_torch.cli.console import make_console
-from dcg_torch.report.runs import load_runs
-from dcg_torch.report.show import print_several, save_several_figure
+from dcg_torch.cli.settings_help import SCHEMAS, settings_help
 from dcg_torch.report.summary import flatten
 from dcg_torch.resources import resource
-from dcg_torch.settings import EvaluateSettings, ModelSettings, Settings, SettingsError, SimulatorSettings, check
+from dcg_torch.settings import (
+    EvaluateSettings,
+    ModelSettings,
+    Settings,
+    SettingsError,
+    SimulatorSettings,
+    check,
+    check_bounds,
+    described,
+)
+from dcg_torch.storage.whole import write_whole
 
 CONFIG_ERRORS = (HydraException, OmegaConfBaseException)
 """What Hydra raises when overrides or YAML files are wrong; `explain` says it in one line."""
 
 # At import, since the jobs of a parallel sweep start in processes that never see `register`.
 OmegaConf.register_new_resolver("resource", lambda name: str(resource(name)), replace=True)
+OmegaConf.register_new_resolver("settings_help", settings_help, replace=True)
+# Two processes that start in the same second get folders of their own.
+OmegaConf.register_new_resolver("unique", lambda: secrets.token_hex(3), use_cache=True, replace=True)
 
 
 def register() -> None:
@@ -46,6 +55,7 @@ def settings_of(config: DictConfig) -> Settings:
         SettingsError: a value makes no sense, or is of no use to any setting.
         OmegaConfBaseException: a value is missing, or refers to one that does not exist.
     """
+    _refuse_choices()
     _refuse_added(config, Settings)
     settings = cast(Settings, OmegaConf.to_object(config))
     check(settings)
@@ -53,9 +63,24 @@ def settings_of(config: DictConfig) -> Settings:
 
 
 def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
-    """The same for `evaluate`, whose values are checked against the episodes."""
+    """The same for `evaluate`; what depends on the episodes is checked with them."""
+    _refuse_choices()
     _refuse_added(config, EvaluateSettings)
-    return cast(EvaluateSettings, OmegaConf.to_object(config))
+    settings = cast(EvaluateSettings, OmegaConf.to_object(config))
+    check_bounds(settings)
+    return settings
+
+
+def _refuse_choices() -> None:
+    """See that a kind of model and of simulator was chosen."""
+    if not HydraConfig.initialized():
+        return
+    for group, chosen in HydraConfig.get().runtime.choices.items():
+        if group in ("model", "simulator") and chosen in (None, "null", "schema"):
+            there = (path.stem for path in (resource("conf") / group).glob("*.yaml"))
+            raise SettingsError(
+                f"{group}={chosen or 'null'}: there is no such {group}; choose from {', '.join(sorted(there))}"
+            )
 
 
 def _refuse_added(config: DictConfig, schema: type) -> None:
@@ -70,11 +95,12 @@ def save_composed(config: DictConfig, directory: Path) -> None:
     Hydra would write it before the program runs, over that of the experiment which the folder may hold.
     """
     own = HydraConfig.get()
-    target = directory / ".hydra"
-    target.mkdir(parents=True, exist_ok=True)
-    OmegaConf.save(config, target / "config.yaml")
-    OmegaConf.save(OmegaConf.create({"hydra": own}), target / "hydra.yaml")
-    OmegaConf.save(own.overrides.task, target / "overrides.yaml")
+    for name, part in (
+        ("config", config),
+        ("hydra", OmegaConf.create({"hydra": own})),
+        ("overrides", own.overrides.task),
+    ):
+        write_whole(directory / ".hydra" / f"{name}.yaml", OmegaConf.to_yaml(part))
 
 
 def explain(error: Exception) -> str:
@@ -86,7 +112,9 @@ def explain(error: Exception) -> str:
         choices = sorted(set(error.options or ()) - {"schema"})
         if not group:
             return f"there is no configuration {option!r} in {resource('conf')}; leave --config-name out"
-        return f"{group}={option}: there is no such {group}; choose from {', '.join(choices)}"
+        extra = _LAUNCHERS.get(option) if group == "hydra/launcher" else None
+        get = f", or install {extra[0]} (the extra {extra[1]}: pip install -e '.[{extra[1]}]')" if extra else ""
+        return f"{group}={option}: there is no such {group}; choose from {', '.join(choices)}{get}"
     if isinstance(error, OverrideParseException):
         return f"{error.override}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
@@ -97,53 +125,22 @@ def explain(error: Exception) -> str:
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
 
 
+_LAUNCHERS = {"joblib": ("hydra-joblib-launcher==1.2.0", "sweep")}
+"""Launchers that may be installed besides: their package, and our extra that draws it in."""
+
+
 def _unknown_key(key: str) -> str:
-    near = difflib.get_close_matches(key, (*_keys(Settings), *_keys(EvaluateSettings)), n=1)
+    near = difflib.get_close_matches(key[:100], [k for schema in SCHEMAS.values() for k in _keys(schema)], n=1)
     hint = f"did you mean {near[0]}?" if near else "python -m dcg_torch --help lists all"
     return f"{key}: there is no such setting; {hint}"
 
 
 @functools.cache
-def _keys(schema: type, prefix: str = "") -> tuple[str, ...]:
-    """The dotted names of all settings."""
-    found: list[str] = []
-    types = get_type_hints(schema)
-    for field in fields(schema):
-        found.append(prefix + field.name)
-        if is_dataclass(types[field.name]):
-            found += _keys(cast(type, types[field.name]), f"{prefix}{field.name}.")
-    return tuple(found)
+def _keys(schema: type) -> frozenset[str]:
+    """The dotted names of all settings, and of the groups that they are in."""
+    names = [name for name, *_ in described(schema)]
+    return frozenset(names) | {name.rpartition(".")[0] for name in names if "." in name}
 
 
 def _lines(error: BaseException) -> list[str]:
     return [line.strip() for line in str(error).splitlines() if line.strip()]
-
-
-class Sweep(Callback):
-    """Names the folders of a sweep by what differs between its runs, and compares the runs when all are done."""
-
-    def on_multirun_start(self, config: DictConfig, **_: Any) -> None:
-        """Leave the overrides that all runs share out of the folder names."""
-        settings = cast(dict[str, Any], OmegaConf.to_container(config.hydra, resolve=False))
-        params = settings["sweeper"].get("params") or {}
-        given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
-        overrides = OverridesParser.create().parse_overrides(given)
-        shared = {o.get_key_element() for o in overrides if not o.is_sweep_override()}
-        if len(shared) < len(overrides):
-            with read_write(config), open_dict(config):
-                excluded = f"hydra.job.config.override_dirname.exclude_keys=[{','.join(sorted(shared))}]"
-                config.hydra.overrides.hydra.append(excluded)
-
-    def on_multirun_end(self, config: DictConfig, **_: Any) -> None:
-        """Print the table and the comparison, and draw the latter."""
-        compare_runs(Path(config.hydra.sweep.dir))
-
-
-def compare_runs(directory: Path) -> None:
-    """Print what the runs at or below `directory` amount to side by side, and draw it in `comparison.png` there."""
-    console = make_console()
-    runs = load_runs([directory])
-    print_several(runs, console)
-    if len(runs) > 1:
-        console.print(f"figure: {save_several_figure(runs, directory)}")
-        console.print(f"curves: tensorboard --logdir {directory}")

@@ -16,8 +16,15 @@ _LOG_WIDTH = 140  # columns; into a pipe or a file there is no width to keep to
 
 def make_console() -> Console:
     """Standard output; wide enough for the tables where it is no terminal."""
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(width=max(_LOG_WIDTH, console.width), highlight=False)
+    console = _Console(highlight=False)
+    return console if console.is_terminal else _Console(width=max(_LOG_WIDTH, console.width), highlight=False)
+
+
+class _Console(Console):
+    """Leaves it to the program what to do when nobody reads on; Rich would end it without a word."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
 
 
 class _Shown:

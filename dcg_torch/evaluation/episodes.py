@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,11 +11,13 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
+from dcg_torch.errors import UserError
 from dcg_torch.scene.workspace import Workspace
+from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
 
 
-class EpisodeError(ValueError):
+class EpisodeError(UserError):
     """An episode file that is missing or not valid; the message is one line."""
 
 
@@ -22,32 +25,40 @@ class _Record(BaseModel):
     model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
 
 
+_Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]  # metres, or whatever a corpus counts in
+_Length = Annotated[float, Field(ge=0.0, le=1e6)]
+_Shade = Annotated[float, Field(ge=0.0, le=255.0)]
+_Name = Annotated[str, Field(min_length=1, max_length=200, pattern=r"\S")]
+
+
 class _Place(_Record):
-    x: float
-    y: float
-    yaw: float = 0.0
-
-
-_Positive = Annotated[float, Field(gt=0.0)]
+    x: _Coordinate
+    y: _Coordinate
+    yaw: _Coordinate = 0.0
 
 
 class EpisodeObject(_Record):
-    """One object: metres; `size` are its extents, one number for all three, or a word, if known."""
+    """One object: metres; `size` are its extents, one number for all three, or a word, if known.
+
+    A size of 0 is what scanners write when they could not tell: it counts as unknown. `rgb` is what the object looks
+    like, 0 to 255. Further keys are attributes where they are true or a text; what else they hold is not used, and
+    `unused_keys` counts it.
+    """
 
     model_config = ConfigDict(extra="allow")
 
-    id: str
-    type: str
-    color: str | None = None
-    position: tuple[float, float, float] | tuple[float, float]
-    size: tuple[_Positive, _Positive, _Positive] | _Positive | str | None = None
+    id: _Name
+    type: _Name
+    color: str | None = Field(None, max_length=200)
+    position: tuple[_Coordinate, _Coordinate, _Coordinate] | tuple[_Coordinate, _Coordinate]
+    size: tuple[_Length, _Length, _Length] | _Length | Annotated[str, Field(max_length=200)] | None = None
+    rgb: tuple[_Shade, _Shade, _Shade] | None = None
 
     @property
     def extents(self) -> tuple[float, float, float] | None:
-        """Along x, y and z, if they are given as numbers."""
-        if isinstance(self.size, float):
-            return self.size, self.size, self.size
-        return self.size if isinstance(self.size, tuple) else None
+        """Along x, y and z, if they are given as numbers above 0."""
+        sizes = (self.size,) * 3 if isinstance(self.size, float) else self.size
+        return sizes if isinstance(sizes, tuple) and all(sizes) else None
 
     @property
     def attributes(self) -> frozenset[str]:
@@ -60,14 +71,14 @@ class EpisodeObject(_Record):
 class Episode(_Record):
     """One command in one scene; further keys are ignored.
 
-    `target` lists the ids of the objects meant, `holding` is the object in the gripper. Episodes of one `group`
-    show the same scene and its changes.
+    `target` lists the ids of the objects meant; empty: nothing that is there is meant. `holding` is the object in the
+    gripper. Episodes of one `group` show the same scene and its changes.
     """
 
-    id: str
-    text: str
+    id: Annotated[str, Field(max_length=1_000)]
+    text: Annotated[str, Field(max_length=10_000)]
     objects: tuple[EpisodeObject, ...] = Field(min_length=1)
-    target: tuple[str, ...] = Field(min_length=1)
+    target: tuple[str, ...]
     robot: _Place | None = None
     speaker: _Place | None = None
     holding: str | None = None
@@ -104,14 +115,7 @@ def read_episodes(path: Path) -> list[Episode]:
     Raises:
         EpisodeError: the file is absent or empty, or a line of it is not a valid episode; the line is named.
     """
-    try:
-        text = path.read_text(encoding="utf-8-sig")
-    except FileNotFoundError:
-        raise EpisodeError(f"{path}: no such episode file") from None
-    except UnicodeDecodeError as error:
-        raise EpisodeError(f"{path}: not UTF-8 text ({error.reason}); unpack it, or save it as UTF-8") from None
-    except OSError as error:
-        raise EpisodeError(f"{path}: cannot be read: {error.strerror}") from None
+    text = read_text(path, "episode file", EpisodeError, "utf-8-sig")
     episodes: list[Episode] = []
     lines: dict[str, int] = {}
     # Not str.splitlines, which also breaks lines at characters that may stand inside a JSON string.
@@ -121,7 +125,9 @@ def read_episodes(path: Path) -> list[Episode]:
         episode = _parse(path, number, line)
         first = lines.setdefault(episode.id, number)
         if first != number:
-            raise EpisodeError(f"{path}, line {number}: id: {episode.id!r} is that of line {first} too; rename one")
+            raise EpisodeError(
+                f"{path}, line {number}: id: {shown(episode.id)} is that of line {first} too; rename one"
+            )
         episodes.append(episode)
     if not episodes:
         raise EpisodeError(f"{path}: holds no episodes; write one JSON object a line")
@@ -136,7 +142,8 @@ _MEND = {
     "objects": "give a list of objects, each with id, type and position",
     "target": "give the ids of the objects meant, as a list",
     "position": "give metres as [x, y, z], or [x, y]",
-    "size": "give metres above 0, as [x, y, z] or one number, or a word",
+    "size": "give metres, as [x, y, z] or one number, or a word",
+    "rgb": "give three numbers from 0 to 255",
     "color": "write a text in quotes, or null",
     "robot": "give metres and radians, as {x, y, yaw}",
     "speaker": "give metres and radians, as {x, y, yaw}",
@@ -147,30 +154,61 @@ _MEND = {
 
 
 def _parse(path: Path, number: int, line: str) -> Episode:
+    where = f"{path}, line {number}"
+    try:
+        _check_keys(read_json(line), where)
+    except EpisodeError:
+        raise
+    except ValueError as error:
+        raise EpisodeError(f"{where}: the line: {error}; {_MEND['the line']}") from None
     try:
         episode = Episode.model_validate_json(line, strict=True)
     except ValidationError as error:
-        first: Any = error.errors()[0]
-        # The innermost key that an episode has; what follows are pydantic's names for the choices it tried.
-        keys = [k for k, part in enumerate(first["loc"]) if part in _MEND]
-        where = ".".join(map(str, first["loc"][: keys[-1] + 1])) if keys else "the line"
-        said = "not understood" if where.endswith(("size", "position")) else first["msg"]
-        raise EpisodeError(f"{path}, line {number}: {where}: {said}; {_MEND[where.rpartition('.')[2]]}") from None
-    ids = [o.id for o in episode.objects]
-    if len(set(ids)) < len(ids):
-        raise EpisodeError(
-            f"{path}, line {number}: objects: the id {_repeated(ids)!r} is there twice; give each object its own"
-        )
+        raise EpisodeError(f"{where}: {_problem(error.errors(include_url=False)[0])}") from None
+    ids = Counter(o.id for o in episode.objects)
+    if len(ids) < len(episode.objects):
+        repeated = next(name for name, times in ids.items() if times > 1)
+        raise EpisodeError(f"{where}: objects: the id {shown(repeated)} is there twice; give each object its own")
     for what, named in (("target", episode.target), ("holding", (episode.holding,))):
         for one in named:
             if one is not None and one not in ids:
-                some = ", ".join(ids[:8])
-                raise EpisodeError(f"{path}, line {number}: {what}: {one!r} is no object of this episode: {some}")
+                some = ", ".join(plain(name, 20) for name in list(ids)[:8])
+                raise EpisodeError(f"{where}: {what}: {shown(one)} is no object of this episode: {some}")
     return episode
 
 
-def _repeated(ids: Sequence[str]) -> str:
-    return next(i for i in ids if ids.count(i) > 1)
+_MOST_KEYS = 100  # of one record that are compared with the known ones
+
+
+def _problem(found: Any) -> str:
+    """Where, what and how to mend it, of one thing that pydantic found."""
+    # The innermost key that an episode has; what follows are pydantic's names for the choices it tried.
+    keys = [k for k, part in enumerate(found["loc"]) if part in _MEND]
+    where = ".".join(map(str, found["loc"][: keys[-1] + 1])) if keys else "the line"
+    said = "not understood" if where.endswith(("size", "position", "rgb")) else plain(found["msg"], 120)
+    return f"{where}: {said}; {_MEND[where.rpartition('.')[2]]}"
+
+
+def _check_keys(line: Any, where: str) -> None:
+    """Refuse a key that must be a misspelt one: near to one that is known, which is not there."""
+    if not isinstance(line, dict):
+        return
+    things = line.get("objects")
+    records: list[tuple[str, Any, type[BaseModel]]] = [("", line, Episode)]
+    records += [(f"objects.{k}.", o, EpisodeObject) for k, o in enumerate(things if isinstance(things, list) else [])]
+    for prefix, record, model in records:
+        if not isinstance(record, dict) or len(record) > _MOST_KEYS:
+            continue
+        absent = tuple(key for key in model.model_fields if key not in record)
+        for key in record if absent else ():
+            if key not in model.model_fields and (near := misspelt(key, absent)):
+                raise EpisodeError(f"{where}: {prefix}{plain(key)}: there is no such key; did you mean {near}?")
+
+
+def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
+    """Further keys of objects whose values are neither text nor true or false, with the number of their objects."""
+    further = (item for episode in episodes for o in episode.objects for item in (o.model_extra or {}).items())
+    return dict(Counter(key for key, value in further if not isinstance(value, (str, bool, type(None)))))
 
 
 def workspace(episodes: Sequence[Episode]) -> Workspace:

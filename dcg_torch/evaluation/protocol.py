@@ -7,14 +7,11 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
-from dcg_torch.agent.command import Parse, Parser
+from dcg_torch.agent.command import CommandParser, ParsedCommand
 from dcg_torch.evaluation.episodes import Episode, workspace
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.model import GroundingModel
-from dcg_torch.report.intervals import wilson
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
 
@@ -35,13 +32,15 @@ class Answer:
     """What came of one test episode.
 
     Attributes:
+        file: the stem of the file it is from.
         kind: was the noun known to the robot when it heard it, unknown, or learned from an earlier command?
         form: does the command describe the object by more than its noun and colour?
         shared: how many objects have the type and colour of the one meant.
     """
 
+    file: str
     episode: Episode
-    parse: Parse
+    parse: ParsedCommand
     solution: Solution | None
     kind: str
     form: str
@@ -80,6 +79,7 @@ class Answer:
         """Its line of `predictions.jsonl`."""
         return {
             "id": self.episode.id,
+            "file": self.file,
             "predicted": list(self.predicted),
             "probability": self.probability,
             "noun": self.parse.noun,
@@ -89,6 +89,8 @@ class Answer:
             "kind": self.kind,
             "cause": self.cause,
             "problem": self.parse.problem,
+            "refused": getattr(self.parse, "refused", None),
+            "unread": list(getattr(self.parse, "unread", ())),
         }
 
 
@@ -108,14 +110,14 @@ class Training:
 
     def kept(self, episodes: Iterable[Episode]) -> list[Episode]:
         """The episodes that are not left out."""
-        found = [e for e in episodes if self.known_types is None or _types_meant(e) <= set(self.known_types)]
-        return [e for e in found if self.known_colors is None or _colors_meant(e) <= set(self.known_colors)]
+        found = [e for e in episodes if self.known_types is None or types_meant(e) <= set(self.known_types)]
+        return [e for e in found if self.known_colors is None or colors_meant(e) <= set(self.known_colors)]
 
 
 def train(
     model: GroundingModel,
     corpora: Sequence[Sequence[Episode]],
-    parse: Parser,
+    parse: CommandParser,
     training: Training,
     progress: Callable[[int], None] | None = None,
 ) -> float:
@@ -157,10 +159,13 @@ def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> Wor
     return model.world_model(episode.percepts(), episode.pose, episode.speaker_pose, looked=True, workspace=where)
 
 
-def answers(model: GroundingModel, test: Sequence[Episode], parse: Parser, *, learn: bool = False) -> Iterator[Answer]:
+def answers(
+    model: GroundingModel, test: Sequence[Episode], parse: CommandParser, *, file: str = "", learn: bool = False
+) -> Iterator[Answer]:
     """Ground the test episodes in order.
 
     Args:
+        file: its stem.
         learn: learn after each from what it was grounded to; the target is never looked at.
     """
     first_words, where = frozenset(model.symbols), workspace(test)
@@ -178,79 +183,17 @@ def answers(model: GroundingModel, test: Sequence[Episode], parse: Parser, *, le
             model.learn(solution)
         seconds = Seconds(read - began, grounded - read, time.perf_counter() - grounded)
         form = "relation" if solution is not None and solution.modifiers else "plain"
-        yield Answer(episode, reading, solution, kind, form, _shared(episode), seconds)
+        yield Answer(file, episode, reading, solution, kind, form, _shared(episode), seconds)
 
 
-def _types_meant(episode: Episode) -> set[str]:
+def types_meant(episode: Episode) -> set[str]:
     return {o.type for o in episode.objects if o.id in episode.target}
 
 
-def _colors_meant(episode: Episode) -> set[str | None]:
+def colors_meant(episode: Episode) -> set[str | None]:
     return {o.color for o in episode.objects if o.id in episode.target}
 
 
 def _shared(episode: Episode) -> int:
     kinds = {(o.type, o.color) for o in episode.objects if o.id in episode.target}
     return sum((o.type, o.color) in kinds for o in episode.objects)
-
-
-def summarise(answers: Sequence[Answer], train_seconds: float, *, by_color: bool = False) -> dict[str, Any]:
-    """The figures of an evaluation: accuracy with its 95 % interval (Wilson), and by kinds of commands.
-
-    A half is one of the whole file, in its order, also where it is that of a type.
-
-    Args:
-        by_color: also by the colour of the object meant.
-    """
-    half = len(answers) // 2
-    halves = {id(a): k < half for k, a in enumerate(answers)}
-    kinds = {kind: [a for a in answers if a.kind == kind] for kind in ("known", "unknown", "learned")}
-    kinds |= {form: [a for a in answers if a.form == form] for form in ("plain", "relation")}
-    kinds |= {"several share type and colour": [a for a in answers if a.shared > 1]}
-    meant = {t: [a for a in answers if _types_meant(a.episode) == {t}] for t in _sorted(answers, _types_meant)}
-    if by_color:
-        colors = _sorted(answers, _colors_meant)
-        meant |= {f"color {c}": [a for a in answers if _colors_meant(a.episode) == {c}] for c in colors}
-    for name, of in {"": answers, **meant}.items():
-        kinds |= {name: list(of)} if name else {}
-        for which, first in (("first half", True), ("second half", False)):
-            kinds[f"{name}, {which}" if name else which] = [a for a in of if halves[id(a)] is first]
-    estimate = wilson(sum(a.correct for a in answers), len(answers))
-    return {
-        "n": len(answers),
-        "accuracy": estimate.value,
-        "ci95": [estimate.low, estimate.high],
-        "no_answer": sum(not a.predicted for a in answers),
-        "train_seconds": train_seconds,
-        "seconds_per_command": sum(a.seconds.parse + a.seconds.ground for a in answers) / len(answers),
-        "parse_ms": _milliseconds([a.seconds.parse for a in answers]),
-        "ground_ms": _milliseconds([a.seconds.ground for a in answers]),
-        "learn_ms": _milliseconds([a.seconds.learn for a in answers]),
-        "calibration_error": calibration_error(answers),
-        "errors": {cause: sum(a.cause == cause for a in answers) for cause in CAUSES},
-        "by_kind": {
-            kind: {"n": len(of), "accuracy": sum(a.correct for a in of) / len(of)} for kind, of in kinds.items() if of
-        },
-    }
-
-
-def calibration_error(answers: Sequence[Answer], bins: int = 10) -> float:
-    """How far the answers' probability is from the share that is right: the expected calibration error.
-
-    The answers fall into equal bins of probability; in each, the mean probability is compared with the accuracy
-    (Guo et al. 2017, "On calibration of modern neural networks", eq. 3). No answer counts as one of probability 0.
-    """
-    probability = np.array([a.probability or 0.0 for a in answers])
-    correct = np.array([a.correct for a in answers], dtype=np.float64)
-    which = np.minimum((probability * bins).astype(np.int64), bins - 1)
-    apart = np.bincount(which, weights=probability - correct, minlength=bins)
-    return float(np.abs(apart).sum() / len(answers))
-
-
-def _milliseconds(seconds: Sequence[float]) -> dict[str, float]:
-    median, high = np.percentile(1e3 * np.array(seconds), (50, 95))
-    return {"median": float(median), "p95": float(high)}
-
-
-def _sorted(answers: Sequence[Answer], values: Callable[[Episode], Collection[str | None]]) -> list[str]:
-    return sorted({v for a in answers for v in values(a.episode) if v is not None})

@@ -25,6 +25,7 @@ def trial_worlds(settings: Settings, rng: np.random.Generator) -> list[World]:
 
     Raises:
         WorldFileError: a world file is missing or not valid.
+        SettingsError: such worlds cannot be generated.
     """
     if settings.worlds == "generated":
         draw = functools.partial(
@@ -34,8 +35,11 @@ def trial_worlds(settings: Settings, rng: np.random.Generator) -> list[World]:
             colors=MORE_COLORS[: settings.colors],
             probability=settings.object_rate,
         )
-        return [draw(f"generated_{k:02d}") for k in range(settings.worlds_per_trial)]
-    return _worlds_of(resource("worlds") if settings.worlds == "committed" else Path(settings.worlds))
+        try:
+            return [draw(f"generated_{k:02d}") for k in range(settings.worlds_per_trial)]
+        except ValueError as error:
+            raise SettingsError(f"worlds=generated: {error}") from None
+    return _worlds_of(resource("worlds") if settings.worlds == "committed" else Path(settings.worlds).expanduser())
 
 
 _worlds_of = functools.cache(load_worlds)

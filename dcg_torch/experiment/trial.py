@@ -5,6 +5,8 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -15,6 +17,7 @@ from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.model import GroundingModel
 from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.speaker import Command
+from dcg_torch.types import Pose
 
 
 def run_trial(
@@ -45,10 +48,7 @@ def run_trial(
         clock = Stopwatch()
         with clock("load_world"):
             robot.load(command.world, rng=rng)
-        start = robot.pose
-        kind: Kind = (
-            "known" if command.noun in first_words else "learned" if command.noun in model.symbols else "unknown"
-        )
+        before = _Before(robot.pose, _kind(command.noun, first_words, model))
         outcome = carry_out(
             command.text,
             model,
@@ -64,60 +64,87 @@ def run_trial(
         with clock("train"):
             if outcome.solution is not None:
                 model.learn(outcome.solution, outcome.experience(f"{iteration}"))
-        fitted = model.fitted
         met |= {o.type for o in command.world.objects if o.id == command.target}
-        chosen = _chosen(outcome)
-        inverted = outcome.solution is not None and outcome.solution.inverted
-        grounded = chosen if outcome.arrived and not inverted else None
-        yield (
-            Iteration(
-                trial=trial,
-                iteration=iteration,
-                world=command.world.name,
-                command=command.text,
-                noun=command.noun,
-                color=command.color,
-                robot=PoseRecord(x=start.x, y=start.y, yaw=start.yaw),
-                objects=tuple(
-                    ObjectRecord(id=o.id, type=o.type, color=o.color, position=o.position)
-                    for o in command.world.objects
-                ),
-                in_view=outcome.in_view,
-                known_types=known_types,
-                target=command.target,
-                grounded=grounded,
-                # Of an order to keep away, `arrived` says that the robot has left the object's surroundings.
-                correct=bool(outcome.arrived) and chosen == command.target,
-                kind=kind,
-                probability=None if chosen is None or outcome.solution is None else outcome.solution.probability,
-                asked=len(outcome.asked),
-                symbols={s.word: s.type for s in model.symbols.values() if s.word not in first_words},
-                path_length=robot.path_length,
-                turned=robot.turned,
-                parsed=None
-                if outcome.parse.tree is None
-                else ParsedRecord(noun=outcome.parse.noun, color=outcome.parse.color),
-                seen=tuple(p.id for p in outcome.percepts),
-                chosen=chosen,
-                arrived=outcome.arrived,
-                collisions=robot.collisions,
-                expected_symbols=float(len(met)),
-                beliefs=model.beliefs_about(first_words),
-                dialogue=tuple((q.text, a.text(q)) for q, a in outcome.asked) or None,
-            ),
-            Timing(
-                trial=trial,
-                iteration=iteration,
-                **{name: clock.seconds[name] for name in _TIMED},
-                groundings=clock.counts["ground"],
-                train_steps=0 if fitted is None else fitted.steps,
-                train_loss=0.0 if fitted is None else fitted.value,
-                train_rows=0 if fitted is None else fitted.rows,
-                language_columns=model.features.shape[0],
-                grounding_columns=model.features.shape[1],
-                moving=robot.seconds,
-            ),
-        )
+        said = _of_command(command, known_types, before)
+        done = _of_outcome(command, outcome, robot)
+        knows = _of_model(model, first_words, len(met))
+        at: dict[str, Any] = {"trial": trial, "iteration": iteration}
+        yield Iteration(**at, **said, **done, **knows), Timing(**at, **_timing(clock, model, robot))
+
+
+@dataclass(frozen=True)
+class _Before:
+    """What was the case when a command was heard: the robot's pose, and what the noun was to it."""
+
+    pose: Pose
+    kind: Kind
+
+
+def _kind(noun: str, first_words: frozenset[str], model: GroundingModel) -> Kind:
+    return "known" if noun in first_words else "learned" if noun in model.symbols else "unknown"
+
+
+def _of_command(command: Command, known_types: tuple[str, ...], before: _Before) -> dict[str, Any]:
+    """The fields of a record that were settled when the command was given."""
+    start, objects = before.pose, command.world.objects
+    return {
+        "world": command.world.name,
+        "command": command.text,
+        "noun": command.noun,
+        "color": command.color,
+        "robot": PoseRecord(x=start.x, y=start.y, yaw=start.yaw),
+        "objects": tuple(ObjectRecord(id=o.id, type=o.type, color=o.color, position=o.position) for o in objects),
+        "known_types": known_types,
+        "target": command.target,
+        "kind": before.kind,
+    }
+
+
+def _of_outcome(command: Command, outcome: Outcome, robot: SimulationRobot) -> dict[str, Any]:
+    """The fields that say what the robot understood and did."""
+    solution, parse = outcome.solution, outcome.parse
+    chosen = _chosen(outcome)
+    reached = chosen if outcome.arrived and solution is not None else None
+    grounded = reached if solution is not None and not solution.inverted else None
+    obeyed = reached if (grounded is None) == command.away else None
+    return {
+        "in_view": outcome.in_view,
+        "grounded": grounded,
+        "correct": obeyed == command.target,
+        "probability": None if chosen is None or solution is None else solution.probability,
+        "asked": len(outcome.asked),
+        "path_length": robot.path_length,
+        "turned": robot.turned,
+        "parsed": None if parse.tree is None else ParsedRecord(noun=parse.noun, color=parse.color),
+        "seen": tuple(p.id for p in outcome.percepts),
+        "chosen": chosen,
+        "arrived": outcome.arrived,
+        "collisions": robot.collisions,
+        "dialogue": tuple((q.text, a.text(q)) for q, a in outcome.asked) or None,
+    }
+
+
+def _of_model(model: GroundingModel, first_words: frozenset[str], met: int) -> dict[str, Any]:
+    """The fields that say what the robot knows after the command."""
+    return {
+        "symbols": {s.word: s.type for s in model.symbols.values() if s.word not in first_words},
+        "expected_symbols": float(met),
+        "beliefs": model.beliefs_about(first_words),
+    }
+
+
+def _timing(clock: Stopwatch, model: GroundingModel, robot: SimulationRobot) -> dict[str, Any]:
+    fitted = model.fitted
+    return {
+        **{name: clock.seconds[name] for name in _TIMED},
+        "groundings": clock.counts["ground"],
+        "train_steps": 0 if fitted is None else fitted.steps,
+        "train_loss": 0.0 if fitted is None else fitted.value,
+        "train_rows": 0 if fitted is None else fitted.rows,
+        "language_columns": model.features.shape[0],
+        "grounding_columns": model.features.shape[1],
+        "moving": robot.seconds,
+    }
 
 
 _TIMED = ("load_world", "parse", "perceive", "ground", "explore", "drive", "train")

@@ -93,7 +93,7 @@ class CommitFirst:
 
     def names(self) -> dict[str, str]:
         """type -> the first word learned for it."""
-        return {s.type: s.word for s in reversed(self.symbols.values())}
+        return {s.type: s.word for s in reversed(list(self.symbols.values()))}
 
     def meanings(self, word: str) -> dict[str, float]:
         """The type of the word's symbol, for certain."""

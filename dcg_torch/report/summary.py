@@ -10,13 +10,14 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from dcg_torch.errors import UserError
 from dcg_torch.report.measures import Measures
 
 SUMMARY = "summary.json"
 
 
-class ReportError(ValueError):
-    """A folder or file that the report can't read or write; the message is one line for the user."""
+class ReportError(UserError):
+    """A folder or file that the report can't read; the message is one line for the user."""
 
 
 class Summary(BaseModel):

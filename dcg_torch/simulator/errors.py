@@ -1,5 +1,7 @@
 """What goes wrong in the simulator."""
 
+from dcg_torch.errors import UserError
 
-class SimulatorError(RuntimeError):
+
+class SimulatorError(UserError):
     """The simulator can't do what was asked; the message is one line."""

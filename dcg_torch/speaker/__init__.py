@@ -15,19 +15,24 @@ from typing import Protocol
 import numpy as np
 import yaml
 
+from dcg_torch.errors import UserError
 from dcg_torch.speaker import phrases, where
 from dcg_torch.world.files import World, WorldObject
 
 
 @dataclass(frozen=True, slots=True)
 class Command:
-    """A command in a world: the text, the noun (singular) and colour it says, the id of the object meant."""
+    """A command in a world: the text, the noun (singular) and colour it says, the id of the object meant.
+
+    `away`: it is an order to keep away from that object.
+    """
 
     world: World
     text: str
     noun: str
     color: str | None
     target: str
+    away: bool = False
 
 
 class Speaker(Protocol):
@@ -39,7 +44,7 @@ class Speaker(Protocol):
         ...
 
 
-class SpeakerError(ValueError):
+class SpeakerError(UserError):
     """A speaker has nothing to say; the message is one line."""
 
 
@@ -56,7 +61,7 @@ class WrittenSpeaker:
             raise SpeakerError(
                 f"world {world.name} has no written commands; add some, or take speaker=canonical or speaker=human"
             )
-        return [Command(world, c.text, c.noun, c.color, c.target) for c in world.commands]
+        return [Command(world, c.text, c.noun, c.color, c.target, c.away) for c in world.commands]
 
 
 CANONICAL_FORMS = (

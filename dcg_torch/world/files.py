@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
-import yaml
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from dcg_torch.errors import UserError
+from dcg_torch.storage.foreign import problem_of, read_yaml, shown
 from dcg_torch.types import Pose
+
+REACH_OF_A_WORLD = 1_000.0
+"""Metres from the origin within which everything stands."""
+
+Metres = Annotated[float, Field(strict=True, ge=-REACH_OF_A_WORLD, le=REACH_OF_A_WORLD)]
+Radians = Annotated[float, Field(strict=True, ge=-1_000.0, le=1_000.0)]
+Name = Annotated[str, Field(strict=True, min_length=1, max_length=100, pattern=r"\S")]
+# Pictures are named by the world and the object.
+FileName = Annotated[str, Field(strict=True, min_length=1, max_length=80, pattern=r"^[^/\x00-\x1f.][^/\x00-\x1f]*$")]
+Text = Annotated[str, Field(strict=True, min_length=1, max_length=1_000)]
 
 
 class _Strict(BaseModel):
@@ -18,31 +30,33 @@ class _Strict(BaseModel):
 class WorldObject(_Strict):
     """One object: `position` is its foot (x, y) in metres, `yaw` its heading in radians."""
 
-    id: str = Field(min_length=1)
-    type: str = Field(min_length=1)
-    color: str = Field(min_length=1)
-    position: tuple[float, float]
-    yaw: float = 0.0
+    id: FileName
+    type: Name
+    color: Name
+    position: tuple[Metres, Metres]
+    yaw: Radians = 0.0
 
 
 class WrittenCommand(_Strict):
     """A command that was written for a world, the id of the object it means, and what it says of that object.
 
-    `noun` is the noun as said, in the singular; `color` the stated colour, or null.
+    `noun` is the noun as said, in the singular; `color` the stated colour, or null. `away`:
+    the command is to keep away from the object.
     """
 
-    text: str = Field(min_length=1)
-    target: str
-    noun: str = Field(min_length=1)
-    color: str | None = None
+    text: Text
+    target: FileName
+    noun: Name
+    color: Name | None = None
+    away: bool = Field(False, strict=True)
 
 
 class RobotStart(_Strict):
     """Where the robot starts, metres and radians."""
 
-    x: float = 0.0
-    y: float = 0.0
-    yaw: float = 0.0
+    x: Metres = 0.0
+    y: Metres = 0.0
+    yaw: Radians = 0.0
 
 
 class World(_Strict):
@@ -51,7 +65,7 @@ class World(_Strict):
     `relational` are commands in which noun and colour alone do not say what is meant.
     """
 
-    name: str = Field(min_length=1)
+    name: FileName
     robot: RobotStart = RobotStart()
     objects: Annotated[tuple[WorldObject, ...], Field(min_length=1)]
     commands: tuple[WrittenCommand, ...] = ()
@@ -59,12 +73,15 @@ class World(_Strict):
 
     @model_validator(mode="after")
     def _consistent(self) -> World:
-        ids = [o.id for o in self.objects]
-        if len(set(ids)) != len(ids):
-            raise ValueError(f"object ids repeat: {sorted({i for i in ids if ids.count(i) > 1})}")
+        ids = Counter(o.id for o in self.objects)
+        repeated = [name for name, times in ids.items() if times > 1]
+        if repeated:
+            raise ValueError(f"object ids repeat: {shown(repeated[0])}; give each object its own")
         for command in (*self.commands, *self.relational):
             if command.target not in ids:
-                raise ValueError(f"command {command.text!r} means {command.target!r}, which is no object of this world")
+                raise ValueError(
+                    f"the command {shown(command.text)} means {shown(command.target)}, which is no object of this world"
+                )
         return self
 
     @property
@@ -73,7 +90,7 @@ class World(_Strict):
         return Pose(self.robot.x, self.robot.y, self.robot.yaw)
 
 
-class WorldFileError(ValueError):
+class WorldFileError(UserError):
     """A world file that is missing or not valid; the message is one line."""
 
 
@@ -84,16 +101,9 @@ def load_world(path: Path) -> World:
         WorldFileError: the file is absent, not YAML, or not a valid world.
     """
     try:
-        raw = yaml.safe_load(path.read_text(encoding="utf-8"))
-        return World.model_validate(raw)
-    except FileNotFoundError:
-        raise WorldFileError(f"{path}: no such world file") from None
-    except (UnicodeDecodeError, yaml.YAMLError) as error:
-        raise WorldFileError(f"{path}: not readable as YAML: {' '.join(str(error).split())}") from None
+        return World.model_validate(read_yaml(path, "world file", WorldFileError))
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"]) or "the file"
-        raise WorldFileError(f"{path}: {where}: {first['msg']}") from None
+        raise WorldFileError(f"{path}: {problem_of(error, World)}") from None
 
 
 def load_worlds(directory: Path) -> list[World]:
@@ -102,9 +112,13 @@ def load_worlds(directory: Path) -> list[World]:
     Raises:
         WorldFileError: no such directory, no world file in it, one that is not valid, or a name used twice.
     """
-    if not directory.is_dir():
+    try:
+        paths = sorted(directory.glob("*.yaml")) if directory.is_dir() else None
+    except (OSError, RuntimeError) as error:
+        said = getattr(error, "strerror", None) or "its links lead in a circle"
+        raise WorldFileError(f"{directory}: cannot be read: {said}") from None
+    if paths is None:
         raise WorldFileError(f"{directory}: no such directory of world files")
-    paths = sorted(directory.glob("*.yaml"))
     if not paths:
         raise WorldFileError(f"{directory}: holds no world file (*.yaml)")
     found: dict[str, Path] = {}
@@ -112,7 +126,9 @@ def load_worlds(directory: Path) -> list[World]:
     for path in paths:
         world = load_world(path)
         if world.name in found:
-            raise WorldFileError(f"{path}: the name {world.name!r} is taken by {found[world.name]}; give it another")
+            raise WorldFileError(
+                f"{path}: the name {shown(world.name)} is taken by {found[world.name]}; give it another"
+            )
         found[world.name] = path
         worlds.append(world)
     return sorted(worlds, key=lambda world: world.name)

@@ -1,0 +1,95 @@
+"""From errors to one line on standard error and an exit status: 0 done, 2 wrong input, 130 interrupted."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from types import FrameType
+
+from hydra._internal.utils import get_args_parser
+
+import dcg_torch
+from dcg_torch.cli.config import CONFIG_ERRORS, explain, register
+from dcg_torch.errors import UserError, explain_os_error
+from dcg_torch.storage.foreign import plain
+
+_LONGEST = 1_000  # characters of a message
+
+
+class Stopped(KeyboardInterrupt):
+    """The process was asked to end by a signal other than Ctrl-C."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__()
+        self.number = number
+
+
+def refuse(message: str, directory: Path | None = None) -> int:
+    """Say what is wrong, in one line; the exit status. A folder that was made for nothing goes away."""
+    with contextlib.suppress(OSError):
+        print(f"dcg_torch: {plain(' '.join(message.split()), _LONGEST)}", file=sys.stderr, flush=True)
+    if directory is not None:
+        with contextlib.suppress(OSError):
+            directory.rmdir()  # only if it is empty
+    return 2
+
+
+@contextlib.contextmanager
+def one_line_errors(directory: Path | None = None, goes_on: str = "") -> Iterator[None]:
+    """End the program with one line, where the user or the machine has to mend something.
+
+    Args:
+        directory: the run folder; it goes away if nothing was written into it.
+        goes_on: what to say after "interrupted", of how to go on.
+    """
+    try:
+        yield
+    except CONFIG_ERRORS as error:
+        sys.exit(refuse(explain(error), directory))
+    except UserError as error:
+        sys.exit(refuse(str(error), directory))
+    except BrokenPipeError:
+        _close_output()
+        sys.exit(refuse("standard output was closed before all was said; the rest is not shown", directory))
+    except OSError as error:
+        sys.exit(refuse(explain_os_error(error), directory))
+    except MemoryError:
+        sys.exit(refuse("there is not enough memory; ask for less at a time", directory))
+    except KeyboardInterrupt as error:
+        with contextlib.suppress(OSError):
+            print(f"dcg_torch: interrupted{goes_on and '; ' + goes_on}", file=sys.stderr, flush=True)
+        sys.exit(128 + (error.number if isinstance(error, Stopped) else signal.SIGINT))
+
+
+def _close_output() -> None:
+    """Keep Python from complaining once more about a closed pipe, when it flushes at its end."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def run_application(application: Callable[[], None]) -> int:
+    """Run a Hydra application; the exit status: 0 done, 2 wrong input, 130 interrupted."""
+    os.environ["HYDRA_FULL_ERROR"] = "1"  # errors come here as exceptions, not as Hydra's own printed report
+    for number in (signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) is signal.SIG_DFL:  # not under nohup
+            signal.signal(number, _stop)
+    with one_line_errors():
+        if "--version" in sys.argv[1:]:
+            print(f"dcg_torch {dcg_torch.__version__}")
+            return 0
+        # Hydra would answer an option that it doesn't have with ten lines of usage.
+        _, strange = get_args_parser().parse_known_args()
+        if strange:
+            return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
+        register()
+        application()
+        sys.stdout.flush()
+    return 0
+
+
+def _stop(number: int, _: FrameType | None) -> None:
+    raise Stopped(number)

@@ -1,0 +1,69 @@
+"""`dcg-torch COMMAND ...` and `python -m dcg_torch ...`: which commands there are, each loaded when it is called."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Command:
+    """One command: the module whose `main()` it is, what it does, and the extra that it needs, if any.
+
+    `needs` are the packages of that extra which the module imports.
+    """
+
+    module: str
+    does: str
+    extra: str | None = None
+    needs: tuple[str, ...] = ()
+
+
+COMMANDS: Mapping[str, Command] = {
+    "run": Command("run", "one experiment, or a sweep of them with -m (the default)"),
+    "evaluate": Command("evaluate", "train on one episode file and ground another"),
+    "report": Command("report.__main__", "tables of runs and sweeps"),
+    "bench": Command("bench", "time the parts", "bench", ("sklearn",)),
+    "schema": Command("schema", "the JSON Schemas of all files"),
+    "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
+}
+
+
+def main(commands: Mapping[str, Command] = COMMANDS) -> int:
+    """Run the command that the first argument names, `run` without one; the exit status."""
+    program, *arguments = sys.argv
+    name = arguments[0] if arguments else ""
+    if name == "help" or (Path(program).name.startswith("dcg-torch") and name in ("", "-h", "--help")):
+        print(usage(commands))
+        return 0
+    if name not in commands:
+        return _main_of("run", commands["run"])
+    sys.argv = [f"{program} {name}", *arguments[1:]]
+    return _main_of(name, commands[name])
+
+
+def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
+    """The commands, a line each."""
+    lines = [f"  {name:<12}{command.does}" for name, command in commands.items()]
+    head = ["usage: dcg-torch COMMAND ...", "", *lines, "", "dcg-torch COMMAND --help says more of each."]
+    return "\n".join([*head, "dcg-torch --version says which version this is."])
+
+
+def _main_of(name: str, command: Command) -> int:
+    try:
+        module = importlib.import_module(f"dcg_torch.{command.module}")
+    except ModuleNotFoundError as error:
+        missing = (error.name or "").partition(".")[0]
+        if command.extra is None or missing not in command.needs:
+            raise
+        print(
+            f"dcg_torch: {name} needs {missing}, of the extra {command.extra}: "
+            f"pip install 'dcg-torch[{command.extra}]', in a checkout pip install -e '.[{command.extra}]'",
+            file=sys.stderr,
+        )
+        return 2
+    status: int = module.main()
+    return status

@@ -1,0 +1,104 @@
+"""From settings to what they describe: the model, the robot, how it explores and asks."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+import functools
+import json
+from collections.abc import Callable
+
+import numpy as np
+
+from dcg_torch.agent.asking import AskingPolicy
+from dcg_torch.agent.explore import Explorer, LookBefore, Worth
+from dcg_torch.agent.robot import SimulationRobot
+from dcg_torch.grounding.features import Group
+from dcg_torch.lessons import training_set
+from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.pretrain import LESSONS, VARIANT, pretrained, train_open_world
+from dcg_torch.settings import Asking, LearnerKind, ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
+from dcg_torch.simulator.fake import FakeRobot
+from dcg_torch.world.names import MORE_TYPES
+
+
+def variant(settings: ModelSettings) -> Variant:
+    """The model variant of a configuration.
+
+    Raises:
+        SettingsError: a feature group that does not exist.
+    """
+    try:
+        groups = frozenset(Group(name) for name in settings.groups)
+    except ValueError:
+        raise SettingsError(f"model.groups={settings.groups}: choose from {', '.join(Group)}") from None
+    return Variant(
+        groups=groups,
+        unknown=Group.UNKNOWN in groups,
+        hypothetical=settings.hypothetical,
+        learns=settings.learns,
+        ternary=settings.ternary,
+        l2=settings.l2,
+        beam=settings.beam,
+    )
+
+
+def make_model(settings: ModelSettings, training: str | None = None) -> GroundingModel:
+    """A model of one's own, after the initial examples and the generated lessons, before the first command.
+
+    Args:
+        training: a YAML file of initial examples; None: those that come along.
+
+    Raises:
+        SettingsError: a feature group that does not exist.
+        TrainingFileError: the file is missing or not valid.
+    """
+    return copy.deepcopy(_made(variant(settings), settings.lessons, settings.learner, training))
+
+
+@functools.cache
+def _made(chosen: Variant, lessons: int, learner: LearnerKind, training: str | None) -> GroundingModel:
+    """The model of a configuration, which is the same for every trial: the shipped one, where that is what is asked."""
+    if learner is LearnerKind.commit_first:
+        return GroundingModel.trained(training_set(training), chosen)
+    if (chosen, lessons, training) == (VARIANT, LESSONS, None):
+        return pretrained()
+    return train_open_world(training_set(training), chosen, lessons)
+
+
+def make_robot(settings: SimulatorSettings, types: int) -> SimulationRobot:
+    """This process's robot: made once, since a world's outcome does not depend on the worlds before it."""
+    return _robot(json.dumps(dataclasses.asdict(settings)), types)
+
+
+@functools.cache
+def _robot(described: str, types: int) -> SimulationRobot:
+    settings = SimulatorSettings(**json.loads(described))
+    recogniser = Recogniser(
+        min_pixels=settings.min_pixels,
+        wrong_class=settings.wrong_class,
+        missed=settings.missed,
+        types=MORE_TYPES[:types],
+    )
+    if settings.kind == RobotKind.fake:
+        return FakeRobot(recogniser.labels if settings.wrong_class or settings.missed else None)
+    from dcg_torch.simulator import SimulatedRobot  # here: PyBullet need not be there for the fake robot
+
+    return SimulatedRobot(recogniser=recogniser, rng=np.random.default_rng(0), gui=settings.gui)
+
+
+def make_explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:
+    """Looking before deciding, for the model that can tell what it is unsure of; None: the paper's turning."""
+    chosen = settings.model.open_world
+    if settings.model.learner is LearnerKind.commit_first:
+        return None
+    sure = chosen.ask_below if settings.asking is Asking.when_unsure else None
+    worth = Worth(meanings=chosen.look_above, sure=sure, views=chosen.views)
+    return functools.partial(LookBefore, model.beliefs_of, worth)
+
+
+def make_asking(settings: Settings) -> AskingPolicy | None:
+    """When to ask back; None: never."""
+    if settings.asking is Asking.never:
+        return None
+    return AskingPolicy(below=settings.model.open_world.ask_below)

@@ -1,0 +1,100 @@
+"""What a finished run leaves for people: figures, pictures, curves, a summary."""
+
+from __future__ import annotations
+
+import contextlib
+import functools
+import os
+import tempfile
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from dcg_torch.experiment.journal import read_run
+from dcg_torch.experiment.plan import trial_generators, trial_worlds
+from dcg_torch.experiment.pool import work_off
+from dcg_torch.records import Iteration, Timing
+from dcg_torch.report.measures import Measures, measure
+from dcg_torch.report.paper import follows_paper
+from dcg_torch.report.runs import varied_settings
+from dcg_torch.report.seconds import summarise_seconds
+from dcg_torch.report.summary import ReportError, read_summary, write_summary
+from dcg_torch.settings import Settings
+from dcg_torch.storage.whole import sweep_parts
+from dcg_torch.world.files import World
+
+SUMMARY = "summary.json"
+_EVENTS = "events.out.tfevents.*"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A run's measures, and mean seconds a command by phase, with the "wall" time of all."""
+
+    measures: Measures
+    seconds: Mapping[str, float]
+
+
+def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Outcome:
+    """Draw and write what the settings ask for, from the rows in a run folder, in place of what was there.
+
+    Args:
+        wall: seconds that the run took; None for one that was finished before, whose time stays.
+    """
+    rows, timings = read_run(directory)
+    measures, seconds = measure(rows), summarise_seconds(timings)
+    figures: list[Path] = []
+    if settings.figures:
+        from dcg_torch.report.figures import save_figures
+
+        figures = save_figures(rows, timings, directory / "figures", beside_paper=follows_paper(asdict(settings)))
+    if settings.screenshots:
+        save_screenshots(settings, directory / "screenshots")
+    if settings.tensorboard:
+        _write_curves(directory, rows, timings, figures)
+    summary = directory / SUMMARY
+    if wall is not None:
+        seconds["wall"] = wall
+    else:
+        with contextlib.suppress(ReportError):  # there may be none yet, if it was interrupted after its last trial
+            seconds["wall"] = read_summary(summary).seconds["wall"]
+    write_summary(summary, directory.name, asdict(settings), measures, seconds)
+    return Outcome(measures, seconds)
+
+
+def _write_curves(
+    directory: Path, rows: Sequence[Iteration], timings: Sequence[Timing], figures: Sequence[Path]
+) -> None:
+    """Write the event file beside the old one, then put it in its place."""
+    from dcg_torch.report.board import write_board
+
+    with tempfile.TemporaryDirectory(prefix=".curves.", suffix=".part", dir=directory) as part:
+        write_board(Path(part), rows, timings, varied_settings(directory), figures)
+        new = list(Path(part).glob(_EVENTS))
+        for stale in directory.glob(_EVENTS):
+            stale.unlink()
+        for file in new:
+            os.replace(file, directory / file.name)
+
+
+def save_screenshots(settings: Settings, directory: Path) -> None:
+    """Write `<world>-<object id>.png` for every pair of a world and an object, as people are shown to ask for commands.
+
+    The worlds are those of the experiment; where each trial has its own, those of the first.
+
+    Raises:
+        WorldFileError: a world file is missing or not valid.
+    """
+    worlds = trial_worlds(settings, trial_generators(settings.seed, 0)[0])
+    directory.mkdir(parents=True, exist_ok=True)
+    sweep_parts(directory)
+    for _ in work_off(functools.partial(_save_pairs, directory), worlds, min(settings.workers or 2, 2)):
+        pass
+
+
+def _save_pairs(directory: Path, world: World) -> None:
+    from dcg_torch.simulator.screenshot import save_pair_screenshots
+
+    with tempfile.TemporaryDirectory(prefix=".pictures.", suffix=".part", dir=directory) as part:
+        for picture in save_pair_screenshots([world], Path(part)):
+            os.replace(picture, directory / picture.name)

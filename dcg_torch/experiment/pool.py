@@ -1,0 +1,142 @@
+"""Processes that work off a list of tasks, and leave nothing behind however they end.
+
+Plain pipes, no shared memory: joblib and `concurrent.futures` keep semaphores there, which stay when a whole group of
+processes is killed.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import pickle
+import queue
+import signal
+import threading
+import traceback
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from multiprocessing import resource_tracker
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+from typing import Any, TypeVar
+
+from dcg_torch.errors import UserError
+
+T = TypeVar("T")
+
+TICK = 0.25
+"""Seconds after which `work_off` speaks up even if no task has ended."""
+
+
+class WorkerKilledError(UserError):
+    """A process that worked off tasks was killed from outside; the message is one line."""
+
+
+def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
+    """Do `work` for every task, each in one of several new processes.
+
+    As with all of `multiprocessing`, a script that calls this needs `if __name__ == "__main__"`.
+
+    Args:
+        work: what can be pickled; its result is thrown away.
+        tasks: handed out in this order.
+        workers: how many processes, at the most.
+
+    Yields:
+        The tasks that ended since, about four times a second; mostly none.
+
+    Raises:
+        WorkerKilledError: a process was killed.
+        Exception: what `work` raised.
+    """
+    waiting = deque(tasks)
+    links: dict[Connection, BaseProcess] = {}
+    try:
+        with _interrupts_wait():
+            for _ in range(min(workers, len(tasks))):
+                link, process = _start(work)
+                links[link] = process
+                link.send(waiting.popleft())
+        busy = set(links)
+        while busy:
+            ended: list[T] = []
+            for link in busy.intersection(wait(list(busy), TICK)):
+                ended.append(_receive(link))
+                if waiting:
+                    link.send(waiting.popleft())
+                else:
+                    busy.discard(link)
+            yield ended
+    finally:
+        for link in links:
+            link.close()  # which ends its process
+        for process in links.values():
+            process.join(timeout=2.0)
+            process.kill()
+            process.join()
+
+
+def _start(work: Callable[[T], object]) -> tuple[Connection, BaseProcess]:
+    context = multiprocessing.get_context("spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_serve, args=(theirs, work), daemon=True)
+    process.start()
+    theirs.close()
+    return ours, process
+
+
+def _receive(link: Connection) -> Any:
+    try:
+        task, error, told = link.recv()
+    except (EOFError, OSError):
+        raise WorkerKilledError(
+            "a worker process was killed, perhaps for want of memory (then try workers=1); "
+            "the same command in the same folder goes on from here"
+        ) from None
+    if error is not None:
+        raise error from RuntimeError(f"in a worker process:\n{told}")
+    return task
+
+
+def _serve(link: Connection, work: Callable[[T], object]) -> None:
+    """What a process does: one task after another, until its parent closes the pipe, or is gone."""
+    tasks: queue.SimpleQueue[T] = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(link, tasks), daemon=True).start()
+    while True:
+        task = tasks.get()
+        try:
+            work(task)
+            link.send((task, None, ""))
+        except Exception as error:
+            link.send((task, _portable(error), traceback.format_exc()))
+
+
+def _listen(link: Connection, tasks: queue.SimpleQueue[T]) -> None:
+    with contextlib.suppress(EOFError, OSError):
+        while True:
+            tasks.put(link.recv())
+    os._exit(1)  # even in the middle of a task: whoever asked for it is gone
+
+
+def _portable(error: Exception) -> Exception:
+    """The error, if it comes through a pipe as it is."""
+    try:
+        pickle.loads(pickle.dumps(error))
+    except Exception:
+        return RuntimeError(f"{type(error).__name__}: {error}")
+    return error
+
+
+@contextlib.contextmanager
+def _interrupts_wait() -> Iterator[None]:
+    """Hold back Ctrl-C until the end; the processes that are started meanwhile never hear of it.
+
+    They are in the terminal's group, and one that is still importing would print a traceback. This process ends them.
+    """
+    resource_tracker.ensure_running()  # at its own start it lets interrupts through again
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)

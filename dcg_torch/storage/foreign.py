@@ -1,0 +1,162 @@
+"""Text, YAML and JSON that somebody else wrote: read without surprises, and spoken of in one short line."""
+
+from __future__ import annotations
+
+import difflib
+import functools
+import json
+import unicodedata
+from collections.abc import Hashable, Sequence
+from pathlib import Path
+from typing import Any
+
+import yaml
+from pydantic import BaseModel, ValidationError
+
+_LONGEST = 60  # characters that a message quotes of a foreign file
+_NEAR = 0.75  # how alike a misspelt key is to the right one
+
+
+def shown(value: object, longest: int = _LONGEST) -> str:
+    """A value of a foreign file as a message may quote it: short, text in quotes, no control characters."""
+    if isinstance(value, str):
+        text = f"'{plain(value[: longest + 1], longest)}'"
+    elif isinstance(value, int) and not isinstance(value, bool) and value.bit_length() > 200:
+        text = "a number of very many digits"
+    elif isinstance(value, (dict, list, tuple, set)):
+        text = f"{type(value).__name__} of {len(value)}"
+    else:
+        text = plain(repr(value)[: longest + 1], longest)
+    return text
+
+
+def plain(text: str, longest: int = _LONGEST) -> str:
+    """Text in one line, at most so long, without control characters and other invisible ones."""
+    clean = "".join(" " if unicodedata.category(c)[0] in "CZ" else c for c in text[: longest + 1])
+    return clean if len(text) <= longest else clean[:longest] + "..."
+
+
+@functools.lru_cache(1_024)
+def misspelt(key: str, known: tuple[str, ...]) -> str | None:
+    """The known key that a strange one must be meant for, if it is near one."""
+    near = difflib.get_close_matches(key[:_LONGEST].casefold(), known, n=1, cutoff=_NEAR)
+    return near[0] if near and near[0] != key else None
+
+
+def read_text(path: Path, what: str, error: type[Exception], encoding: str = "utf-8") -> str:
+    """The text of a file.
+
+    Args:
+        what: it is to be, as in "world file".
+        error: what to raise, with a message of one line.
+    """
+    try:
+        if path.is_dir() or path.is_char_device() or path.is_block_device() or path.is_socket():
+            raise error(f"{path}: this is no file; give a {what}")
+        return path.read_text(encoding=encoding)
+    except FileNotFoundError:
+        raise error(f"{path}: no such {what}") from None
+    except UnicodeDecodeError as wrong:
+        raise error(f"{path}: not readable: no UTF-8 text ({wrong.reason}); unpack it, or save it as UTF-8") from None
+    except (OSError, RuntimeError) as wrong:  # RuntimeError: links that lead in a circle, on older Pythons
+        said = getattr(wrong, "strerror", None) or "its links lead in a circle"
+        raise error(f"{path}: cannot be read: {said}") from None
+
+
+class _Loader(yaml.SafeLoader):
+    """PyYAML's safe loader, which also refuses a key that stands twice."""
+
+    def construct_mapping(self, node: yaml.MappingNode, deep: bool = False) -> dict[Hashable, Any]:
+        seen: set[str] = set()
+        for key, _ in node.value:
+            if isinstance(key, yaml.ScalarNode) and key.tag != "tag:yaml.org,2002:merge":
+                if key.value in seen:
+                    raise yaml.constructor.ConstructorError(
+                        None, None, f"the key {shown(key.value)} is there twice", key.start_mark
+                    )
+                seen.add(key.value)
+        return super().construct_mapping(node, deep)
+
+
+# Beside its own errors PyYAML lets through what Python says of a date, a number or a tag that makes no sense.
+_UNREADABLE = (ValueError, ArithmeticError, LookupError, TypeError, AttributeError)
+
+
+def read_yaml(path: Path, what: str, error: type[Exception]) -> Any:
+    """The content of a YAML file, as plain Python values; arguments as in `read_text`."""
+    text = read_text(path, what, error)
+    try:
+        return yaml.load(text, _Loader)
+    except yaml.MarkedYAMLError as wrong:
+        mark = wrong.problem_mark or wrong.context_mark
+        where = f"line {mark.line + 1}: " if mark else ""
+        raise error(
+            f"{path}: not readable as YAML: {where}{plain(wrong.problem or wrong.context or '', 120)}"
+        ) from None
+    except yaml.YAMLError as wrong:
+        raise error(f"{path}: not readable as YAML: {plain(str(wrong), 120)}") from None
+    except RecursionError:
+        raise error(
+            f"{path}: not readable as YAML: brackets or aliases within one another beyond all measure"
+        ) from None
+    except _UNREADABLE:
+        raise error(f"{path}: not readable as YAML: a date, number or tag in it makes no sense") from None
+
+
+def read_json(text: str) -> Any:
+    """A JSON value in which no key stands twice.
+
+    Raises:
+        ValueError: it is no JSON, or a key repeats; the message is short.
+    """
+
+    def once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        made = dict(pairs)
+        if len(made) < len(pairs):
+            keys = [key for key, _ in pairs]
+            raise ValueError(f"the key {shown(next(k for k in keys if keys.count(k) > 1))} is there twice")
+        return made
+
+    try:
+        return json.loads(text, object_pairs_hook=once)
+    except json.JSONDecodeError as wrong:
+        raise ValueError(f"no JSON at character {wrong.pos + 1}: {plain(wrong.msg)}") from None
+    except RecursionError:
+        raise ValueError("brackets within one another beyond all measure") from None
+
+
+def problem_of(error: ValidationError, model: type[BaseModel]) -> str:
+    """The first thing that is wrong, as "objects.0.colour: there is no such key; did you mean color?".
+
+    Args:
+        error: what pydantic found wrong in a foreign value.
+        model: what the value was to be; its keys are what a misspelt one is compared with.
+    """
+    first = min(error.errors(include_url=False, include_context=False), key=_rank)
+    where = _place(first["loc"])
+    if first["type"] == "extra_forbidden":
+        near = misspelt(str(first["loc"][-1]), keys_of(model))
+        return f"{where}: there is no such key, it is not permitted" + (f"; did you mean {near}?" if near else "")
+    if first["type"] == "missing":
+        return f"{where}: it is required"
+    said = plain(first["msg"].removeprefix("Value error, "), 160)
+    given = first["input"]
+    quoted = given is None or isinstance(given, (str, int, float, bool))
+    return f"{where}: {said}" + (f", not {shown(given)}" if quoted and first["type"] != "value_error" else "")
+
+
+def _rank(problem: Any) -> bool:
+    """A misspelt key before the key that is missing because of it."""
+    return bool(problem["type"] != "extra_forbidden")
+
+
+def _place(parts: Sequence[int | str]) -> str:
+    return ".".join(plain(str(part), 40) for part in parts) or "the file"
+
+
+def keys_of(model: type[BaseModel]) -> tuple[str, ...]:
+    """All keys of a model and of those within it."""
+    found: dict[str, None] = {}
+    for definition in (schema := model.model_json_schema()).get("$defs", {}).values():
+        found |= dict.fromkeys(definition.get("properties", {}))
+    return (*schema.get("properties", {}), *found)

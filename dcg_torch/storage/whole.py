@@ -1,0 +1,84 @@
+"""A file that is there with all its content, or not there."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import secrets
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+
+_MARK = ".part"
+
+
+def write_whole(path: Path, content: bytes | str | Callable[[Path], object]) -> Path:
+    """Write `path` so that readers, and those who come after a kill, meet the old content or the new one.
+
+    The content goes into a hidden file in the same folder, to the disk, and then takes the place of `path`.
+
+    Args:
+        path: its folder is made if need be.
+        content: bytes, text (as UTF-8), or a function that writes to the path it is given. That path has the same
+            suffix as `path`, for those who tell a format by it.
+
+    Returns:
+        `path`.
+
+    Raises:
+        OSError: it cannot be written; nothing is left behind.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part = path.with_name(f".{path.stem[:100]}.{secrets.token_hex(4)}{_MARK}{path.suffix}")
+    try:
+        if callable(content):
+            content(part)
+        else:
+            part.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
+        _to_disk(part)
+        os.replace(part, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            part.unlink()
+        raise
+    return path
+
+
+def sweep_parts(directory: Path) -> None:
+    """Remove what killed writers left in a folder and below it; only for the folder's owner."""
+    for part in directory.rglob(f".*{_MARK}*"):
+        if part.is_dir() and not part.is_symlink():
+            shutil.rmtree(part, ignore_errors=True)
+        else:
+            part.unlink(missing_ok=True)
+
+
+def _to_disk(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)
+
+
+def write_whole_folder(path: Path, content: Callable[[Path], object]) -> Path:
+    """The same for a folder of files: `content` fills an empty one, which then takes the place of `path`.
+
+    Raises:
+        OSError: it cannot be written; the old folder stays, if there was one.
+    """
+    path.parent.mkdir(parents=True, exist_ok=True)
+    part, old = (path.with_name(f".{path.name}.{secrets.token_hex(4)}{_MARK}") for _ in range(2))
+    part.mkdir()
+    try:
+        content(part)
+        for file in part.rglob("*"):
+            if file.is_file():
+                _to_disk(file)
+        if path.exists():
+            os.rename(path, old)
+        os.rename(part, path)
+    finally:
+        for rest in (part, old):
+            shutil.rmtree(rest, ignore_errors=True)
+    return path
