@@ -19,6 +19,7 @@ from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.pretrain import LESSONS, VARIANT, pretrained, train_open_world
 from dcg_torch.settings import Asking, LearnerKind, ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator.fake import FakeRobot
+from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.world.names import MORE_TYPES
 
 
