@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from dcg_torch.checkpoint import load, save
     from dcg_torch.explanation import explain
     from dcg_torch.grounding.features import Group
+    from dcg_torch.grounding.fit import FitResult
     from dcg_torch.grounding.graph import FactorGraph, Solution
-    from dcg_torch.grounding.psi import FitResult, LogLinearModel
+    from dcg_torch.grounding.psi import LogLinearFactor
     from dcg_torch.language import Parse, Parser
     from dcg_torch.language import parse_command as parse
     from dcg_torch.lessons import initial_training, read_training
@@ -45,7 +46,8 @@ _WHERE = {
     "grounding.features": "Group",
     "grounding.graph": "FactorGraph Solution",
     "language": "Parse Parser",
-    "grounding.psi": "FitResult LogLinearModel",
+    "grounding.fit": "FitResult",
+    "grounding.psi": "LogLinearFactor",
     "model": "GroundingModel TrainingSet Variant",
     "checkpoint": "load save",
     "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
@@ -60,7 +62,7 @@ __all__ = [
     "FitResult",
     "GroundingModel",
     "Group",
-    "LogLinearModel",
+    "LogLinearFactor",
     "Object",
     "Parse",
     "ParseTree",

@@ -16,9 +16,10 @@ from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
 from safetensors.torch import load_file, save_file
 
-from dcg_torch.grounding.encoding import Statistics
+from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import LogLinearModel, Merged
+from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.open_world import Mind, OpenWorldModel
@@ -56,7 +57,7 @@ _ADAPTER = TypeAdapter(_Description)
 def save(model: GroundingModel, directory: Path) -> None:
     """Write a model into `directory`, which is made if need be; each file appears whole or not at all."""
     directory.mkdir(parents=True, exist_ok=True)
-    tensors = {"weight": model.loglinear.weight.contiguous()}
+    tensors = {"weight": model.loglinear.weight.detach().contiguous()}
     words, workspace, statistics = None, None, None
     if isinstance(model, LexicalModel):
         words, workspace, statistics = model.words, model.workspace, model.statistics
@@ -112,8 +113,8 @@ def load(directory: Path) -> GroundingModel:
         pairs = features.pairs
     except KeyError as error:
         raise StoreError(f"{directory}: {DESCRIPTION} names features that do not exist: {error}") from None
-    loglinear = LogLinearModel(pairs, described.correspondences)
-    loglinear.weight = weight
+    loglinear = LogLinearFactor(pairs, described.correspondences)
+    loglinear.set_weight(weight)
     if described.mind is not None:
         return OpenWorldModel(
             described.variant, described.symbols, described.examples, features, loglinear, mind=described.mind
@@ -145,7 +146,7 @@ def _statistics(described: _Description, tensors: dict[str, torch.Tensor], direc
     assert described.apart is not None
     numbers = sorted(int(name.split()[1]) for name in tensors if name.startswith("count "))
     try:
-        parts = tuple(Merged(*(tensors[f"{name} {k}"].numpy() for name in _PARTS)) for k in numbers)
+        parts = tuple(DesignMatrix(*(tensors[f"{name} {k}"].numpy() for name in _PARTS)) for k in numbers)
     except KeyError as error:
         raise StoreError(f"{directory}: {WEIGHTS} lacks {error} of the corpus") from None
     return Statistics(_features(described.variant, *described.apart), parts, frozenset(described.places))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from dcg_torch.grounding.encoding import example_bag
+from dcg_torch.grounding.encode import example_bag
 from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Solution
 from dcg_torch.learning.commit_first import labelled
 from dcg_torch.model import GroundingModel

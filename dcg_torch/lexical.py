@@ -10,7 +10,7 @@ log-likelihoods of what it may name (`meaning.beliefs`), moved by every command 
 so that no lesson rests on itself, a wrong one is outweighed by later ones, and what the rest of the command does not
 tell teaches little. A word becomes a `Symbol`, with columns of its own, once one meaning is probable enough: a type or
 colour that had no name yet, or a further name of one that has. Its weights come from soft examples of that posterior
-(`meaning.soft`), in one fit with the corpus, whose sufficient statistics outlive the growth (`encoding.Statistics`).
+(`meaning.soft`), in one fit with the corpus, whose sufficient statistics outlive the growth (`grounding.statistics`).
 """
 
 from __future__ import annotations
@@ -19,14 +19,13 @@ import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
-from dcg_torch.grounding.binary import Factors, fit
-from dcg_torch.grounding.encoding import Reader, Statistics, encode
+from dcg_torch.grounding.design import DesignMatrix, concatenate
+from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph, Solution
-from dcg_torch.grounding.psi import FitResult, LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.statistics import CorpusEncoder, Statistics
 from dcg_torch.learning.beliefs import UNMET, Evidence
 from dcg_torch.learning.commit_first import replace_unknown
 from dcg_torch.learning.soft_labels import Pair, pair_examples
@@ -52,15 +51,11 @@ _ENOUGH = 0.8  # where the variant does not say how probable a meaning must be
 
 @dataclass(frozen=True)
 class _Taught:
-    """The labelled factors of the corpus and the hand-made examples, and what they hold under.
-
-    `fire` is (L, G): the features that fire in some of them.
-    """
+    """The labelled factors of the corpus and the hand-made examples, and what they hold under."""
 
     features: FeatureSet
     known_types: tuple[str, ...]
-    factors: Factors
-    fire: NDArray[np.bool_]
+    designs: list[DesignMatrix]
 
 
 class LexicalModel(GroundingModel):
@@ -76,14 +71,14 @@ class LexicalModel(GroundingModel):
         symbols: Iterable[Symbol],
         examples: Iterable[Example],
         features: FeatureSet,
-        loglinear: LogLinearModel,
+        loglinear: LogLinearFactor,
         corpus: Iterable[Example] = (),
         words: Words | None = None,
         statistics: Statistics | None = None,
     ) -> None:
         super().__init__(variant, symbols, examples, features, loglinear, corpus)
         self.words = words or Words()
-        self._reader = Reader()
+        self._reader = CorpusEncoder()
         self._restored = statistics
         self._statistics: Statistics | None = None
         self._taught_under: _Taught | None = None
@@ -133,7 +128,7 @@ class LexicalModel(GroundingModel):
         phrase = solution.noun
         if phrase is None or not self.variant.learns:
             return None
-        self._reader = Reader()  # the corpus is complete: what it was encoded from is not needed any more
+        self._reader = CorpusEncoder()  # the corpus is complete: what it was encoded from is not needed any more
         self._settle()
         before = self.symbols.get(phrase.noun or "")
         for part in (solution, *solution.further):
@@ -178,25 +173,21 @@ class LexicalModel(GroundingModel):
         """Fit the corpus, the hand-made examples and the posterior of the words, from the present weights."""
         pairs = self._pairs()
         taught, soft = self._taught(), self._soft(pairs)
-        free = taught.fire | soft.fire() | (self.loglinear.weight != 0.0).numpy().any(axis=0)
-        factors = (taught.factors, soft)
-        self.fitted = fit(self.loglinear, factors, l2=self.variant.l2, max_steps=max_steps, free=free)
+        self.fitted = fit(self.loglinear, [*taught, *soft], l2=self.variant.l2, max_steps=max_steps)
         self._fitted_to = pairs
         return self.fitted
 
-    def _taught(self) -> _Taught:
+    def _taught(self) -> list[DesignMatrix]:
         """What does not change with the posterior, under the present columns."""
         known = self.known_types
         old = self._taught_under
         if old is None or old.features is not self.features or old.known_types != known:
             tables = [*self.statistics.under(self.features, known), *self._tables(self.examples)]
-            factors = Factors.of(tables, self.features.shape[1])
-            self._taught_under = old = _Taught(self.features, known, factors, factors.fire())
-        return old
+            self._taught_under = old = _Taught(self.features, known, [concatenate(tables)])
+        return old.designs
 
-    def _soft(self, pairs: Iterable[Pair]) -> Factors:
-        tables = encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear)
-        return Factors.of(tables, self.features.shape[1])
+    def _soft(self, pairs: Iterable[Pair]) -> list[DesignMatrix]:
+        return encode(list(pair_examples(pairs, _STRENGTH)), self.features, self.loglinear.correspondences)
 
     def _settle(self) -> None:
         """Take as settled what the training taught: all symbols and colours that were not learned since."""

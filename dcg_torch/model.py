@@ -8,10 +8,12 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from dcg_torch.grounding.encoding import encode, example_bag
+from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.encode import encode, example_bag
 from dcg_torch.grounding.features import LOOKED_ROUND, PAPER, FeatureSet, Group
+from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph, Solution
-from dcg_torch.grounding.psi import BINARY, TERNARY, FitResult, LogLinearModel, Table, fit
+from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.learning.commit_first import contrast, new_symbol, replace_unknown, unsupervised_training
 from dcg_torch.relational import (
     Workspace,
@@ -81,8 +83,8 @@ class _Encoded:
     """Tables that hold for as long as the columns do: the corpus's, and those of whole batches of T."""
 
     features: FeatureSet
-    corpus: list[Table]
-    batches: list[list[Table]]
+    corpus: list[DesignMatrix]
+    batches: list[list[DesignMatrix]]
 
 
 @dataclass(frozen=True)
@@ -122,7 +124,7 @@ class GroundingModel:
         symbols: Iterable[Symbol],
         examples: Iterable[Example],
         features: FeatureSet,
-        loglinear: LogLinearModel,
+        loglinear: LogLinearFactor,
         corpus: Iterable[Example] = (),
     ) -> None:
         self.variant = variant
@@ -147,7 +149,7 @@ class GroundingModel:
         features = FeatureSet.initial(variant.groups, words, training.colors, [*examples, *corpus])
         if Group.RELATION in variant.groups:
             features = features.include(nouns=group_nouns())
-        loglinear = LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY)
+        loglinear = LogLinearFactor(features.pairs, TERNARY if variant.ternary else BINARY)
         model = cls(variant, training.symbols, examples, features, loglinear, corpus)
         model.train()
         return model
@@ -243,7 +245,9 @@ class GroundingModel:
     def train(self, *, max_steps: int = 500) -> FitResult:
         """M.train (lines 6 and 25): encode T under the present features and fit from the present weights."""
         if self._encoded is None or self._encoded.features is not self.features:
-            self._encoded = _Encoded(self.features, encode(self.corpus, self.features, self.loglinear), [])
+            self._encoded = _Encoded(
+                self.features, encode(self.corpus, self.features, self.loglinear.correspondences), []
+            )
         batches = self._encoded.batches
         while (len(batches) + 1) * _BATCH <= len(self.examples):
             batches.append(self._tables(self.examples[len(batches) * _BATCH : (len(batches) + 1) * _BATCH]))
@@ -252,8 +256,8 @@ class GroundingModel:
         self.fitted = fit(self.loglinear, tables, l2=self.variant.l2, max_steps=max_steps)
         return self.fitted
 
-    def _tables(self, examples: Sequence[Example]) -> list[Table]:
-        return encode([contrast(e, self.symbols) for e in examples], self.features, self.loglinear)
+    def _tables(self, examples: Sequence[Example]) -> list[DesignMatrix]:
+        return encode([contrast(e, self.symbols) for e in examples], self.features, self.loglinear.correspondences)
 
 
 def _restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:

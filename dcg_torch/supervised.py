@@ -13,7 +13,7 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.grounding.graph import FactorGraph, Hypothesis, Placed
-from dcg_torch.grounding.psi import FitResult
+from dcg_torch.grounding.fit import FitResult
 from dcg_torch.model import GroundingModel
 from dcg_torch.relational import coordinated, grouped, is_group
 from dcg_torch.types import NOT, Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Symbol, WorldModel

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 
 from dcg_torch import scene
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.types import (
     NOT,
     Child,
@@ -187,7 +187,7 @@ class FactorGraph:
                     graph.add_edge(("factor", node, obj.id), ("phi", below, other.id))
         return graph
 
-    def solve(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Solution:
+    def solve(self, features: FeatureSet, model: LogLinearFactor, *, beam: int = 8) -> Solution:
         """Leaf-to-root inference (Alg. 1, line 11), one tensor evaluation per level of the tree.
 
         Args:
@@ -209,17 +209,17 @@ class FactorGraph:
             {} if noun is None else {o.id: float(p) for o, p in zip(meanable, np.exp(noun.log_fit), strict=True)},
         )
 
-    def runner_up(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Hypothesis | None:
+    def runner_up(self, features: FeatureSet, model: LogLinearFactor, *, beam: int = 8) -> Hypothesis | None:
         """The best configuration whose noun phrase means another object than the best one's; None if there is none."""
         root = self._pass(features, model, beam)[0] if self.world.objects else None
         ranked = [] if root is None else self._best(root, root.scores.size)
         return next((h for h in ranked if _meant(h) != _meant(ranked[0])), None)
 
-    def modifiers(self, features: FeatureSet, model: LogLinearModel, *, beam: int = 8) -> Sequence[Placed]:
+    def modifiers(self, features: FeatureSet, model: LogLinearFactor, *, beam: int = 8) -> Sequence[Placed]:
         """The factors of the modifiers of the root, which must be a noun phrase."""
         return self._pass(features, model, beam)[0].modifiers
 
-    def _pass(self, features: FeatureSet, model: LogLinearModel, beam: int) -> dict[int, _Scored]:
+    def _pass(self, features: FeatureSet, model: LogLinearFactor, beam: int) -> dict[int, _Scored]:
         """From the leaves to the root, number 0: the scores of every phrase but the modifiers."""
         beams: dict[int, list[Hypothesis]] = {}
         placed: dict[int, Placed] = {}
@@ -244,7 +244,7 @@ class FactorGraph:
         beams: Mapping[int, Sequence[Hypothesis]],
         placed: Mapping[int, Placed],
         features: FeatureSet,
-        model: LogLinearModel,
+        model: LogLinearFactor,
         beam: int,
     ) -> dict[int, _Scored | Placed]:
         """Scores of every configuration of the phrases of one level, from one evaluation of all their factors."""

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet, Group
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.relational import PLACE_TYPES, PLACE_WORDS, group_nouns
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})
@@ -57,17 +57,17 @@ class Blocks:
         """(L, G) the features that lessons may teach."""
         return _taught(list(self.whole.language), list(self.whole.grounding))
 
-    def part(self, model: LogLinearModel) -> LogLinearModel:
+    def part(self, model: LogLinearFactor) -> LogLinearFactor:
         """The block that follows from the posterior, as a model of its own."""
-        part = LogLinearModel(self.believed.pairs, model.correspondences)
-        part.weight = model.weight[:, self.rows][:, :, self.columns].contiguous()
+        part = LogLinearFactor(self.believed.pairs, model.correspondences)
+        part.set_weight(model.weight[:, self.rows][:, :, self.columns].contiguous())
         return part
 
-    def put(self, part: LogLinearModel, model: LogLinearModel) -> None:
+    def put(self, part: LogLinearFactor, model: LogLinearFactor) -> None:
         """Take over what `part` has learned."""
         weight = model.weight.clone()
         weight[:, self.rows[:, None], self.columns[None]] = part.weight
-        model.weight = weight
+        model.set_weight(weight)
 
 
 def _is_taught_language(name: str) -> bool:

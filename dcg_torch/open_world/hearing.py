@@ -15,7 +15,7 @@ import numpy as np
 
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.graph import FactorGraph, Solution
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.types import ParseTree, PhraseKind
 
 _NEGLIGIBLE = 0.02
@@ -28,7 +28,7 @@ def target(tree: ParseTree) -> ParseTree | None:
 
 
 def described_fit(
-    solution: Solution, features: FeatureSet, model: LogLinearModel, beam: int
+    solution: Solution, features: FeatureSet, model: LogLinearFactor, beam: int
 ) -> dict[str, float] | None:
     """object id -> how well the describing words and the modifiers of the object meant fit it.
 
@@ -46,7 +46,7 @@ def described_fit(
 
 
 def landmark_fits(
-    solution: Solution, features: FeatureSet, model: LogLinearModel, beam: int
+    solution: Solution, features: FeatureSet, model: LogLinearFactor, beam: int
 ) -> list[tuple[str, Mapping[str, float]]]:
     """Of every landmark of the object meant: its noun, and thing id -> probability that it is the landmark.
 

@@ -19,8 +19,9 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 
 from dcg_torch.grounding.features import LOOKED_ROUND, PAPER, FeatureSet, Group
+from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import Solution
-from dcg_torch.grounding.psi import TERNARY, FitResult, LogLinearModel, fit
+from dcg_torch.grounding.psi import TERNARY, LogLinearFactor
 from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence
 from dcg_torch.learning.lexicon import Entry, lexicon
 from dcg_torch.learning.soft_labels import soft_examples
@@ -54,7 +55,7 @@ class OpenWorldModel(GroundingModel):
         symbols: Iterable[Symbol],
         examples: Iterable[Example],
         features: FeatureSet,
-        loglinear: LogLinearModel,
+        loglinear: LogLinearFactor,
         *,
         mind: Mind,
         corpus: Iterable[Example] = (),
@@ -89,7 +90,7 @@ class OpenWorldModel(GroundingModel):
             training.symbols,
             kept,
             features,
-            LogLinearModel(features.pairs, TERNARY),
+            LogLinearFactor(features.pairs, TERNARY),
             mind=Mind(
                 Beliefs.start({s.word: s.type for s in training.symbols}, assumed.nouns),
                 Beliefs.start({c: c for c in training.colors}, assumed.colors),
@@ -171,14 +172,12 @@ class OpenWorldModel(GroundingModel):
             unnamed=Group.RELATION in self.variant.groups,
         )
         part = blocks.part(self.loglinear)
-        tables = encode([*self.examples, *soft], blocks.believed, part)
-        # a gradient of a hundredth of a pair's curvature is a hundredth of a nat in its log-odds
-        tolerance = 0.01 * self.mind.assumed.strength / sum(float(table.count.sum()) for table in tables)
-        self.fitted = fit(part, tables, l2=self.variant.l2, tolerance=tolerance, max_steps=max_steps)
+        tables = encode([*self.examples, *soft], blocks.believed, part.correspondences)
+        self.fitted = fit(part, tables, l2=self.variant.l2, max_steps=max_steps)
         blocks.put(part, self.loglinear)
         if self.corpus and self.corpus is not self._fitted_corpus:
-            tables = encode(self.corpus, self.features, self.loglinear)
-            fit(self.loglinear, tables, l2=_TAUGHT_L2, free=blocks.taught, tolerance=1e-5, max_steps=max_steps)
+            tables = encode(self.corpus, self.features, self.loglinear.correspondences)
+            fit(self.loglinear, tables, l2=_TAUGHT_L2, free=blocks.taught, max_steps=max_steps)
             self._fitted_corpus = self.corpus
         return self.fitted
 
