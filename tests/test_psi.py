@@ -149,7 +149,7 @@ class TestGrowth:
     )
     def test_a_mask_that_does_not_extend_is_refused(self, pairs: NDArray[np.bool_]) -> None:
         model = LogLinearFactor(np.ones((2, 2), dtype=np.bool_))
-        model.weight += 1.0
+        model.weight.add_(1.0)
         with pytest.raises(ValueError, match="does not extend"):
             model.grow(pairs)
         assert model.weight.shape == (3, 2, 2)

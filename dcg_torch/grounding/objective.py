@@ -72,7 +72,7 @@ class DenseRows:
         found = []
         for one in np.unique(label):
             rows, columns = np.flatnonzero(of_row == one), np.flatnonzero(label == one)
-            found.append((rows, columns, np.ascontiguousarray(self.matrix[rows][:, columns])))
+            found.append((rows, columns, np.asfortranarray(self.matrix[rows][:, columns])))
         return found
 
 
@@ -218,19 +218,27 @@ class Objective:
         q = len(self.count) - 1
         unit = np.eye(q)
         gradient, step = point.gradient.reshape(q, -1), np.empty((q, len(self.strength)))
-        for rows, columns, matrix in self.rows.blocks:
+        for (rows, columns, matrix), penalty in zip(self.rows.blocks, self._penalties, strict=True):
             own, k = point.chances[:, rows], len(columns)
             curvature = self.total[rows] * own[:, None] * (unit[:, :, None] - own)  # (Q, Q, rows)
             hessian = np.empty((q, k, q, k))
             for a in range(q):
                 for b in range(a + 1):
-                    block = (matrix * curvature[a, b][:, None]).T @ matrix
-                    block.reshape(-1)[:: k + 1] += self.strength[columns] * (unit[a, b] - 1.0 / (q + 1))
-                    hessian[a, :, b] = block
-                    hessian[b, :, a] = block
-            towards = np.linalg.solve(hessian.reshape(q * k, q * k), -gradient[:, columns].reshape(-1))
-            step[:, columns] = towards.reshape(q, k)
+                    hessian[a, :, b] = (matrix.T * curvature[a, b]) @ matrix
+                    if a != b:
+                        hessian[b, :, a] = hessian[a, :, b]
+            whole = hessian.reshape(q * k, q * k)
+            whole += penalty
+            step[:, columns] = np.linalg.solve(whole, -gradient[:, columns].reshape(-1)).reshape(q, k)
         return step.reshape(-1)
+
+    @cached_property
+    def _penalties(self) -> list[Floats]:
+        """(Q K, Q K) the Hessian of the penalty on each block's variables."""
+        assert isinstance(self.rows, DenseRows)
+        q = len(self.count) - 1
+        basis = np.eye(q) - 1.0 / (q + 1)
+        return [np.kron(basis, np.diag(self.strength[columns])) for _, columns, _ in self.rows.blocks]
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""

@@ -21,6 +21,8 @@ _SUFFICIENT, _CURVATURE = 1e-4, 0.9
 """Constants of the strong Wolfe conditions."""
 _ROUNDING = 1e-12
 """Relative change of the value that may be rounding alone."""
+_DOWNHILL = 0.15
+"""Share of the slope at the start that is still steep, for Newton's method."""
 _TRIALS = 25
 """Steps tried along one direction before the search gives up."""
 
@@ -79,18 +81,39 @@ def newton(
         if step == max_steps:
             break
         towards = direction(point)
-        slope = float(point.gradient @ towards)
-        length = 1.0
-        for _ in range(_TRIALS):
-            other = function(point.at + length * towards)
-            evaluations += 1
-            if _low_enough(point, other, length, slope, float(other.gradient @ towards)):
-                break
-            length *= 0.5
-        else:
+        other, tried = _along(function, point, towards)
+        evaluations += tried
+        if other is None:
             return Minimum(point, step, evaluations, "stalled")
         point = other
     return Minimum(point, max_steps, evaluations, "step limit")
+
+
+def _along(function: Function, start: Point, towards: Floats) -> tuple[Point | None, int]:
+    """A good point along a Newton direction, and how many were tried.
+
+    A step is halved until the value falls enough. Where labels are nearly certain the likelihood flattens like an
+    exponential, of which Newton's method takes one unit a step: there a step that still leads downhill is doubled.
+    """
+    slope = float(start.gradient @ towards)
+    length, tried = 1.0, 0
+    best: Point | None = None
+    while tried < _TRIALS:
+        point = function(start.at + length * towards)
+        tried += 1
+        own = float(point.gradient @ towards)
+        if best is not None and point.value >= best.value:
+            break
+        if _low_enough(start, point, length, slope, own):
+            best = point
+            if length < 1.0 or own > _DOWNHILL * slope:
+                break
+            length *= 2.0
+        elif best is not None:
+            break
+        else:
+            length *= 0.5
+    return best, tried
 
 
 def lbfgs(function: Function, start: Floats, *, tolerance: float, max_steps: int, history: int = 20) -> Minimum:

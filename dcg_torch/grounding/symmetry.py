@@ -102,13 +102,14 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes, limit
         columns = scrambled(columns) + below
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside
-        row_first, row_class, row_size = _numbered(rows)
-        column_first, column_class, column_size = _numbered(columns)
-        if len(column_first) > limit:
+        before, found = found, (len(np.unique(rows)), len(np.unique(columns)))
+        if found[1] > limit:
             return None  # classes only ever split
-        if found == (len(row_first), len(column_first)):
-            return Classes(row_class, column_class, row_first, column_first, row_size, column_size)
-        found = len(row_first), len(column_first)
+        if found == before:
+            break
+    row_first, row_class, row_size = _numbered(rows)
+    column_first, column_class, column_size = _numbered(columns)
+    return Classes(row_class, column_class, row_first, column_first, row_size, column_size)
 
 
 def _numbered(keys: Hashes) -> tuple[Ints, Ints, Ints]:
