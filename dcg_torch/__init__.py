@@ -30,8 +30,9 @@ if TYPE_CHECKING:
     from dcg_torch.checkpoint import load, save
     from dcg_torch.grounding.explanation import explain, rivalry
     from dcg_torch.grounding.features import Group
+    from dcg_torch.grounding.fit import FitResult
     from dcg_torch.grounding.graph import FactorGraph
-    from dcg_torch.grounding.psi import FitResult, LogLinearModel
+    from dcg_torch.grounding.psi import LogLinearFactor
     from dcg_torch.grounding.solution import Solution
     from dcg_torch.language import Parse, Parser
     from dcg_torch.language import parse_command as parse
@@ -47,7 +48,8 @@ _WHERE = {
     "grounding.explanation": "explain rivalry",
     "grounding.features": "Group",
     "grounding.graph": "FactorGraph",
-    "grounding.psi": "FitResult LogLinearModel",
+    "grounding.fit": "FitResult",
+    "grounding.psi": "LogLinearFactor",
     "grounding.solution": "Solution",
     "language": "Parse Parser",
     "lessons": "initial_training read_training",
@@ -66,7 +68,7 @@ __all__ = [
     "GroundingModel",
     "Group",
     "Learned",
-    "LogLinearModel",
+    "LogLinearFactor",
     "Object",
     "Parse",
     "ParseTree",

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-import torch
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
@@ -24,7 +23,7 @@ from safetensors.numpy import save_file
 
 from dcg_torch.errors import UserError
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearModel
+from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, Variant
@@ -69,7 +68,7 @@ def save(model: GroundingModel, directory: Path | str) -> None:
         learner if isinstance(learner, CommitFirst) else None,
         learner if isinstance(learner, WordPosterior) else None,
     )
-    tensors = _sparse("weight", model.factor.weight.numpy()) | _sparse("prior", model.prior.numpy())
+    tensors = _sparse("weight", model.factor.weight.numpy()) | _sparse("prior", model.prior)
     tensors |= {"held": np.flatnonzero(model.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
     text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
@@ -94,7 +93,7 @@ def load(directory: Path | str) -> GroundingModel:
     if features.shape != shape[1:]:
         raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature twice")
     try:
-        factor = LogLinearModel(features.pairs, described.correspondences)
+        factor = LogLinearFactor(features.pairs, described.correspondences)
     except KeyError as error:
         raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {error}") from None
     learner = described.commit_first or described.word_posterior
@@ -102,8 +101,8 @@ def load(directory: Path | str) -> GroundingModel:
         raise CheckpointError(f"{directory}: {DESCRIPTION} holds no learner, or two")
     _check(described, learner, directory)
     model = GroundingModel(described.variant, features, factor, learner)
-    model.factor.weight = torch.from_numpy(_dense("weight", tensors, shape, directory))
-    model.prior = torch.from_numpy(_dense("prior", tensors, shape, directory))
+    model.factor.set_weight(_dense("weight", tensors, shape, directory))
+    model.prior = _dense("prior", tensors, shape, directory)
     if (tensors["held"] < 0).any() or (tensors["held"] >= math.prod(shape[1:])).any():
         raise CheckpointError(f"{directory}: {WEIGHTS} holds weights of columns that {DESCRIPTION} lacks")
     model.held.reshape(-1)[tensors["held"]] = True

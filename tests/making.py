@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 from oracle import Oracle
 
 from dcg_torch.grounding.features import FeatureSet, Group
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.model import GroundingModel, example_bag
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import (
@@ -138,7 +138,7 @@ def chosen(model: GroundingModel, tree: ParseTree, world: WorldModel) -> Object:
 
 
 def log_psi(
-    features: FeatureSet, model: LogLinearModel, phrase: Phrase, world: WorldModel, children: tuple[Child, ...] = ()
+    features: FeatureSet, model: LogLinearFactor, phrase: Phrase, world: WorldModel, children: tuple[Child, ...] = ()
 ) -> torch.Tensor:
     """(len(world.objects), P): the factors of one phrase under one tuple of child groundings."""
     rows = example_bag(Example(phrase, world, (), children), features)
@@ -150,7 +150,7 @@ class Pair:
     """One model, twice: as the project computes it and as the oracle does."""
 
     features: FeatureSet
-    model: LogLinearModel
+    model: LogLinearFactor
     oracle: Oracle
 
 
@@ -169,7 +169,7 @@ def random_pair(
     features = FeatureSet.initial(
         groups, [Symbol(w, t) for w, t in nouns.items()], colors, [Example(p, nothing, ()) for p in phrases]
     )
-    model = LogLinearModel(features.pairs, correspondences)
+    model = LogLinearFactor(features.pairs, correspondences)
     draw, pairs = random.Random(seed), features.pairs
     weight = {}
     for p, phi in enumerate(correspondences):

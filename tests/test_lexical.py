@@ -9,15 +9,15 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import torch
 
 from dcg_torch.checkpoint import load, save
 from dcg_torch.explanation import rivalry
-from dcg_torch.grounding import binary
-from dcg_torch.grounding.encoding import Reader, encode
+from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.fit import objective_at
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.psi import BINARY, LogLinearModel, fit, objective
+from dcg_torch.grounding.psi import BINARY, LogLinearFactor
+from dcg_torch.grounding.statistics import CorpusEncoder
 from dcg_torch.learning.commit_first import replace_unknown
 from dcg_torch.lexical import LexicalModel
 from dcg_torch.model import TrainingSet, Variant
@@ -210,7 +210,7 @@ def test_growth_leaves_every_probability_as_it_was(schooled: LexicalModel) -> No
 def test_statistics_say_what_the_examples_say_whatever_is_known(schooled: LexicalModel) -> None:
     """Against encoding all examples anew: value and gradient, with nothing, a type, a noun and a colour learned."""
     features, known = schooled.features, list(schooled.known_types)
-    statistics = Reader().statistics(schooled.corpus, features, BINARY)
+    statistics = CorpusEncoder().statistics(schooled.corpus, features, BINARY)
     steps = [
         (features, known),
         (features.grow(Symbol("pyramid", "prism")), [*known, "prism"]),
@@ -219,14 +219,14 @@ def test_statistics_say_what_the_examples_say_whatever_is_known(schooled: Lexica
     rng = np.random.default_rng(2)
     values = []
     for grown, types in steps:
-        pairs = torch.from_numpy(grown.pairs)
-        weight = torch.from_numpy(rng.normal(size=(2, *grown.shape))) * pairs
-        anew = encode(replace_unknown(schooled.corpus, types), grown, LogLinearModel(grown.pairs, BINARY))
-        expected, slope = objective(weight, anew, pairs, 0.2)
-        value, gradient = objective(weight, statistics.under(grown, types), pairs, 0.2)
-        assert float(value) == pytest.approx(float(expected), rel=1e-12)
-        assert torch.allclose(gradient, slope, atol=1e-8)
-        values.append(float(value))
+        factor = LogLinearFactor(grown.pairs, BINARY)
+        factor.set_weight(rng.normal(size=(2, *grown.shape)) * grown.pairs)
+        anew = encode(replace_unknown(schooled.corpus, types), grown, BINARY)
+        expected, slope = objective_at(factor, anew, 0.2)
+        value, gradient = objective_at(factor, statistics.under(grown, types), 0.2)
+        assert value == pytest.approx(expected, rel=1e-12)
+        assert gradient == pytest.approx(slope, abs=1e-8)
+        values.append(value)
     assert len(set(values)) == 3
 
 
@@ -238,51 +238,23 @@ def test_a_feature_that_two_unknown_colours_share_fires_once(schooled: LexicalMo
     assert world.groups
     phrase = tree.children[0].phrase
     example = Example(phrase, world, tuple(Correspondence.ACTIVE for _ in world.meanable))
-    features, weight = schooled.features, torch.from_numpy(schooled.features.pairs).double().repeat(2, 1, 1)
-    weight[0] *= -0.3
-    pairs = torch.from_numpy(features.pairs)
-    anew = objective(weight, encode([example], features, schooled.loglinear), pairs, 0.2)[0]
-    tables = Reader().statistics([example], features, BINARY).under(features, schooled.known_types)
-    assert float(objective(weight, tables, pairs, 0.2)[0]) == pytest.approx(float(anew), rel=1e-12)
+    features = schooled.features
+    factor = LogLinearFactor(features.pairs, BINARY)
+    factor.set_weight(np.stack([-0.3 * features.pairs, 1.0 * features.pairs]))
+    anew, _ = objective_at(factor, encode([example], features, BINARY), 0.2)
+    designs = CorpusEncoder().statistics([example], features, BINARY).under(features, schooled.known_types)
+    assert objective_at(factor, designs, 0.2)[0] == pytest.approx(anew, rel=1e-12)
 
 
 def test_statistics_are_the_same_however_often_they_are_made(schooled: LexicalModel) -> None:
-    reader = Reader()
+    reader = CorpusEncoder()
     first = reader.statistics(schooled.corpus[:40], schooled.features, BINARY)
     reader.statistics(schooled.corpus, schooled.features, BINARY)
     again = reader.statistics(schooled.corpus[:40], schooled.features, BINARY)
-    weight = torch.from_numpy(np.random.default_rng(1).normal(size=(2, *schooled.features.shape)))
-    pairs = torch.from_numpy(schooled.features.pairs)
-    values = [
-        float(objective(weight, s.under(schooled.features, schooled.known_types), pairs, 0.2)[0])
-        for s in (first, again)
-    ]
+    factor = LogLinearFactor(schooled.features.pairs, BINARY)
+    factor.set_weight(np.random.default_rng(1).normal(size=factor.weight.shape) * schooled.features.pairs)
+    values = [objective_at(factor, s.under(schooled.features, schooled.known_types), 0.2)[0] for s in (first, again)]
     assert values[0] == pytest.approx(values[1], rel=1e-12)
-
-
-def test_the_binary_fit_finds_the_weights_of_the_general_one(schooled: LexicalModel) -> None:
-    tables = encode(schooled.corpus[:120], schooled.features, schooled.loglinear)
-    pairs = schooled.features.pairs
-    general, special = (LogLinearModel(pairs, BINARY) for _ in range(2))
-    slow = fit(general, tables, l2=0.2, tolerance=1e-9, max_steps=2000)
-    factors = binary.Factors.of(tables, schooled.features.shape[1])
-    fast = binary.fit(special, [factors], l2=0.2, free=factors.fire(), tolerance=1e-9, max_steps=2000)
-    assert fast.value == pytest.approx(slow.value, rel=1e-9)
-    assert torch.allclose(special.weight, general.weight, atol=1e-4)
-
-
-def test_the_binary_gradient_is_that_of_its_value(schooled: LexicalModel) -> None:
-    tables = encode(schooled.corpus[:30], schooled.features, schooled.loglinear)
-    factors = binary.Factors.of(tables, schooled.features.shape[1])
-    rng = np.random.default_rng(4)
-    d = rng.normal(size=schooled.features.shape)
-    direction = rng.normal(size=d.shape)
-    _, gradient = factors.objective(d)
-    step = 1e-6
-    slope = (factors.objective(d + step * direction)[0] - factors.objective(d - step * direction)[0]) / (2 * step)
-    assert float((gradient * direction).sum()) == pytest.approx(slope, rel=1e-6)
-    moved = (factors.language.T @ np.ones((len(factors.language), d.shape[1])) > 0) & factors.fire()
-    assert np.array_equal(gradient != 0.0, gradient * moved != 0.0)  # nothing moves what does not fire
 
 
 def test_learning_follows_the_optimum(pupil_of: Callable[[], LexicalModel]) -> None:
@@ -300,7 +272,7 @@ def test_learning_follows_the_optimum(pupil_of: Callable[[], LexicalModel]) -> N
     trees = [take(n, c) for n in ("pyramid", "cube", "brick", None) for c in (None, "red", "crimson", "beige")]
     world = seen(model, ("cube", "red"), ("prism", "c7"), ("prism", "c8"), ("cube", "c7"), ("prism", "red"))
     followed = [model.ground(tree, world).probabilities for tree in trees]
-    model.loglinear = LogLinearModel(model.features.pairs, BINARY)
+    model.loglinear = LogLinearFactor(model.features.pairs, BINARY)
     assert model.train(max_steps=3000).status == "converged"
     for tree, was in zip(trees, followed, strict=True):
         assert model.ground(tree, world).probabilities == pytest.approx(was, abs=0.005)

@@ -11,7 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from making import COLORS, KNOWN, VARIANTS, command_tree, noun_phrase, percept, preposition_phrase, saw, verb_phrase
 
-from dcg_torch.grounding.psi import BINARY, TERNARY, fit
+from dcg_torch.grounding.fit import fit
+from dcg_torch.grounding.psi import BINARY, TERNARY
 from dcg_torch.model import GroundingModel, TrainingSet, Variant, encode
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
 from dcg_torch.types import Correspondence, ParseTree, PhraseKind, Pose
@@ -110,12 +111,12 @@ class TestTraining:
         model = pupil()
         model.learn(model.ground(command_tree("drill"), saw(model, *SEEN)))
         warm = model.loglinear.weight.clone()
-        model.loglinear.weight = torch.zeros_like(warm)
+        model.loglinear.set_weight(torch.zeros_like(warm))
         model.train()
         assert model.loglinear.weight.numpy() == pytest.approx(warm.numpy(), abs=0.02)
 
     def test_table_rows_are_the_labelled_factors(self, trained: GroundingModel) -> None:
-        tables = encode(trained.examples, trained.features, trained.loglinear)
+        tables = encode(trained.examples, trained.features, TERNARY)
         labelled = sum(e.weight for e in trained.examples for c in e.correspondences if c is not None)
         assert sum(float(t.count.sum()) for t in tables) == labelled
 
@@ -127,12 +128,12 @@ class TestTraining:
             model = GroundingModel(
                 trained.variant, (), (), trained.features, type(trained.loglinear)(trained.features.pairs)
             )
-            fit(model.loglinear, encode(examples, model.features, model.loglinear), l2=0.1)
+            fit(model.loglinear, encode(examples, model.features, TERNARY), l2=0.1)
             ends.append(model.loglinear.weight)
         assert torch.equal(*ends)
 
     def test_nothing_to_train_on(self, trained: GroundingModel) -> None:
-        assert encode([], trained.features, trained.loglinear) == []
+        assert encode([], trained.features, TERNARY) == []
 
 
 class TestGround:

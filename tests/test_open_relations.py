@@ -16,7 +16,6 @@ from dcg_torch.agent.explore import LookBefore, compares
 from dcg_torch.checkpoint import load, save
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import Solution
-from dcg_torch.grounding.psi import BINARY, LogLinearModel, Table, fit, objective, tabulate
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.model import Scene, Variant
@@ -187,40 +186,6 @@ def test_blocks_are_apart(taught: OpenWorldModel) -> None:
     assert not (believed & blocks.taught).any()
     assert taught.features.language["noun: cube"] in blocks.rows
     assert taught.features.language["noun: you"] not in blocks.rows
-
-
-def table(rng: np.random.Generator) -> Table:
-    return tabulate(
-        rng.integers(0, 4, (6, 2)),
-        rng.integers(0, 5, (60, 2)),
-        rng.integers(0, 6, 60),
-        rng.integers(0, 2, 60),
-        np.ones(60),
-        (2, 4, 5),
-    )
-
-
-def test_a_fit_moves_the_free_weights_alone_and_to_their_optimum() -> None:
-    rng = np.random.default_rng(0)
-    tables, free = [table(rng)], rng.random((4, 5)) < 0.5
-    model = LogLinearModel(np.ones((4, 5), dtype=np.bool_), BINARY)
-    model.weight = torch.from_numpy(rng.normal(size=(2, 4, 5)))
-    before, moving = model.weight.clone(), torch.from_numpy(free)
-    found = fit(model, tables, l2=0.1, free=free, tolerance=1e-8)
-    assert found.status == "converged"
-    assert torch.equal(model.weight[:, ~moving], before[:, ~moving])
-    _, gradient = objective(model.weight, tables, model.pairs, 0.1)
-    assert float(gradient[:, moving].abs().max()) < 1e-6
-    assert float(gradient[:, ~moving].abs().max()) > 1e-2
-
-
-def test_all_weights_free_is_the_plain_fit() -> None:
-    rng = np.random.default_rng(1)
-    tables = [table(rng)]
-    one, other = (LogLinearModel(np.ones((4, 5), dtype=np.bool_), BINARY) for _ in range(2))
-    fit(one, tables, l2=0.1, tolerance=1e-10)
-    fit(other, tables, l2=0.1, tolerance=1e-10, free=np.ones((4, 5), dtype=np.bool_))
-    assert one.weight.numpy() == pytest.approx(other.weight.numpy(), abs=1e-6)
 
 
 def look(model: OpenWorldModel, thing: ParseTree) -> bool:

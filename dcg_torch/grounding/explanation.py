@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from dcg_torch.grounding.encoding import example_bag
+from dcg_torch.grounding.encode import example_bag
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Hypothesis, Solution
 from dcg_torch.types import Correspondence, Example, Object, WorldModel
 
@@ -25,7 +25,7 @@ class Weighted(Protocol):
         ...
 
     @property
-    def factor(self) -> LogLinearModel:
+    def factor(self) -> LogLinearFactor:
         """The weights."""
         ...
 

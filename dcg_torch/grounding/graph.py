@@ -24,10 +24,10 @@ import networkx as nx
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
-from dcg_torch.grounding.psi import LogLinearModel
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution
-from dcg_torch.scene import Layout, layout
 from dcg_torch.types import (
     NOT,
     Child,
@@ -69,11 +69,13 @@ class FactorGraph:
     Args:
         tree: the command's parse tree; its root is grounded last.
         world: Upsilon.
+        encoder: of the world; to be given where it has been used before.
     """
 
-    def __init__(self, tree: ParseTree, world: WorldModel) -> None:
+    def __init__(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> None:
         self.tree = tree
         self.world = world
+        self._encoder = encoder
 
     @cached_property
     def phrases(self) -> nx.DiGraph:
@@ -90,12 +92,7 @@ class FactorGraph:
         add(self.tree)
         return graph
 
-    @cached_property
-    def layout(self) -> Layout:
-        """Where the things of the world are."""
-        return layout(self.world)
-
-    def solve(self, features: FeatureSet, factor: LogLinearModel, *, beam: int = 8) -> Solution:
+    def solve(self, features: FeatureSet, factor: LogLinearFactor, *, beam: int = 8) -> Solution:
         """Leaf-to-root inference (Alg. 1, line 11), one evaluation of the factor per level of the tree.
 
         Args:
@@ -137,7 +134,7 @@ class FactorGraph:
             return None
         return self._best(replace(root, scores=scores), 1)[0]
 
-    def _pass(self, features: FeatureSet, factor: LogLinearModel, beam: int) -> dict[int, _Scored]:
+    def _pass(self, features: FeatureSet, factor: LogLinearFactor, beam: int) -> dict[int, _Scored]:
         """From the leaves to the root, number 0: the scores of every phrase but the modifiers."""
         beams: dict[int, list[Hypothesis]] = {}
         modifiers: dict[int, ModifierFactor] = {}
@@ -161,11 +158,12 @@ class FactorGraph:
         level: Sequence[int],
         combos: Sequence[Sequence[tuple[Hypothesis, ...]]],
         features: FeatureSet,
-        factor: LogLinearModel,
+        factor: LogLinearFactor,
     ) -> list[Floats]:
         """For each phrase of a level (combos, groundings, correspondences) log Psi, from one evaluation of all."""
         trees: list[ParseTree] = [self.phrases.nodes[node]["tree"] for node in level]
-        bags = [self._encode(tree, of_node, features) for tree, of_node in zip(trees, combos, strict=True)]
+        encoder = self._encoder or WorldEncoder(features, self.world)
+        bags = [self._encode(tree, of_node, encoder) for tree, of_node in zip(trees, combos, strict=True)]
         width = max(bag.shape[2] for bag in bags)
         rows = [np.pad(b, ((0, 0), (0, 0), (0, width - b.shape[2])), constant_values=-1) for b in bags]
         phrase = np.repeat(np.arange(len(level)), [r.shape[0] * r.shape[1] for r in rows])
@@ -190,17 +188,17 @@ class FactorGraph:
         return replace(found, scores=scores, log_odds=odds, log_fit=fit)
 
     def _encode(
-        self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]], features: FeatureSet
+        self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder
     ) -> NDArray[np.int64]:
         """(len(combos), groundings, k) bag of a phrase's factors."""
         kind = GROUNDING_OF[tree.phrase.kind]
         if kind is GroundingKind.OBJECT:
-            return features.encode_things(self.world, self.layout, ranking(tree.phrase))[None]
+            return encoder.things(ranking(tree.phrase))[None]
         if kind is GroundingKind.PLACED:
-            index = {thing.id: j for j, thing in enumerate(self.world.things)}
-            landmarks = [[index[h.child.grounding.object.id] for h in combo] for combo in combos]
-            return features.encode_placed(self.layout, landmarks, ranking(tree.phrase))
-        return features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
+            number = encoder.number
+            landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
+            return encoder.placed(landmarks, ranking(tree.phrase))
+        return encoder.features.encode_groundings(kind, self.world, [[h.child for h in combo] for combo in combos])
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""

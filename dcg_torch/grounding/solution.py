@@ -72,6 +72,10 @@ class ModifierFactor:
         """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
         return np.exp(self.mixture - self.log_psi)
 
+    def landmarks(self, combo: int, number: Mapping[str, int]) -> tuple[int, ...]:
+        """The numbers of the landmarks of a combo."""
+        return tuple(number[h.child.grounding.object.id] for h in self.combos[combo])
+
     def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
         """That the thing j stands so, to its best landmarks or to those of a given combo."""
         best = int(self.mixture[:, j].argmax()) if combo is None else combo

@@ -9,13 +9,16 @@ first turn knows no relations and spreads over all landmarks that the words allo
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import Rows, WorldEncoder
 from dcg_torch.grounding.factor_tree import coordinated, is_group, speaks_of_groups, to_factor_tree
-from dcg_torch.grounding.features import GROUNDING_OF
+from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
-from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
 from dcg_torch.scene.workspace import with_groups
@@ -32,6 +35,10 @@ from dcg_torch.types import (
     PhraseKind,
     WorldModel,
 )
+
+Bools = NDArray[np.bool_]
+GroundEncoded = Callable[[ParseTree, WorldModel, WorldEncoder], Solution]
+"""Grounds a tree of factors in a world whose encoder is given."""
 
 _NEGLIGIBLE = 0.02
 """Landmarks less probable than this teach nothing."""
@@ -62,8 +69,9 @@ class Part:
 
 def fit_landmarks_em(
     parts: Sequence[Part],
-    ground: Ground,
-    fit: Callable[[list[Example], bool], None],
+    features: FeatureSet,
+    ground: GroundEncoded,
+    fit: Callable[[list[Rows], bool], None],
     *,
     rounds: int,
     progress: Callable[[int], None] | None = None,
@@ -71,13 +79,16 @@ def fit_landmarks_em(
     """Expect the landmarks and maximise the likelihood, in turn.
 
     Args:
+        features: the columns; only weights change meanwhile, so what a world looks like is encoded once.
         ground: grounds with the present weights.
-        fit: fits them to examples; told whether it is the last round, before which they are only on their way.
+        fit: fits them to labelled factors; told whether it is the last round, before which they are only on their way.
         rounds: of expectation and maximisation.
         progress: called with the number of each round that is done.
     """
+    encoders: dict[WorldModel, WorldEncoder] = {}
+    encoded = [(part, encoders.setdefault(part.world, WorldEncoder(features, part.world))) for part in parts]
     for number in range(rounds):
-        fit([e for part in parts for e in _expected(part, ground)], number == rounds - 1)
+        fit([rows for part, encoder in encoded for rows in _expected(part, encoder, ground)], number == rounds - 1)
         if progress is not None:
             progress(number)
 
@@ -139,26 +150,23 @@ def path_examples(lessons: Iterable[Lesson]) -> list[Example]:
     return found
 
 
-def _expected(part: Part, ground: Ground) -> list[Example]:
-    """The examples of a noun phrase, weighted by what the present model takes its landmarks to be."""
+def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Iterator[Rows]:
+    """The labelled factors of a noun phrase, weighted by what the present model takes its landmarks to be."""
     world, noun = part.world, part.noun
-    solution = ground(noun, world)
-    examples: list[Example] = []
+    solution = ground(noun, world, encoder)
+    targets = np.array([o.id in part.targets for o in world.meanable])
     for chance, meant in _choices(part, solution):
         share = chance * part.weight
-        labels: list[Correspondence | None] = [Correspondence.INACTIVE] * len(world.meanable)
-        for j, o in enumerate(world.meanable):
-            told_apart = bool(noun.children) and any(_alike(noun.phrase, o, world.things[k]) for k in meant)
-            if told_apart or (o.id in part.targets and not part.alone):
-                labels[j] = None  # here it is the modifiers, or the other noun phrases, that tell them apart
-        for j in meant:
-            labels[j] = Correspondence.ACTIVE
-        examples.append(Example(noun.phrase, world, tuple(labels), weight=share))
-        if noun.children:
-            open_ = {j for j, o in enumerate(world.things) if o.id in part.targets}
-            for modifier in solution.modifiers:
-                examples += _placed(modifier, noun.phrase, world, share, meant, open_)
-    return examples
+        alike = _alike(noun.phrase, world.meanable, [world.things[k] for k in meant])
+        label = np.zeros(len(targets), dtype=np.int64)
+        label[meant] = Correspondence.ACTIVE
+        # What the modifiers, or the other noun phrases, tell apart is no example.
+        kept = ~((alike & bool(noun.children)) | (targets & (not part.alone)))
+        kept[meant] = True
+        bag = encoder.things(ranking(noun.phrase))[: len(targets)][kept]
+        yield Rows(noun.phrase, bag, label[kept], np.full(len(bag), share))
+        for modifier in solution.modifiers:
+            yield from _placed(modifier, noun.phrase, encoder, share, meant, targets)
 
 
 def _choices(part: Part, solution: Solution) -> list[tuple[float, list[int]]]:
@@ -180,68 +188,68 @@ def _choices(part: Part, solution: Solution) -> list[tuple[float, list[int]]]:
 
 
 def _placed(
-    modifier: ModifierFactor,
-    head: Phrase,
-    world: WorldModel,
-    share: float,
-    meant: Sequence[int],
-    spared: Collection[int],
-) -> list[Example]:
+    modifier: ModifierFactor, head: Phrase, encoder: WorldEncoder, share: float, meant: Sequence[int], spared: Bools
+) -> Iterator[Rows]:
     """What a modifier and its landmarks teach: the things meant stand so, others that the head allows do not.
 
     Of both, the landmarks are those that the present model takes them to rest on. So what speaks most for a wrong
     thing is what is learned to speak against it.
     """
-    things = world.things
-    alike = [any(_alike(head, o, things[k]) for k in meant) for o in world.meanable]
-    posterior = modifier.posterior
+    world, phrase = encoder.world, modifier.tree.phrase
+    n = len(spared)
+    posterior = modifier.posterior[:, :n]
     told_apart = not head.words  # "the second cube in the row": the others are in it too
+    near = _alike(head, world.meanable, [world.things[k] for k in meant]) & told_apart
+    weight = posterior * np.where(near, 1.0, _FAR_NEGATIVE) * ~spared
+    weight[:, meant] = posterior[:, meant] / len(meant)
     stands, differs = Correspondence.ACTIVE, Correspondence.INACTIVE
-    if NOT in modifier.tree.phrase.words:
+    if NOT in phrase.words:
         stands, differs = differs, stands
-    examples = []
-    for c, combo in enumerate(modifier.combos):
-        labels: list[Correspondence | None] = [None] * len(things)
-        weights = [0.0] * len(things)
-        for j in range(len(world.meanable)):
-            if j in meant:
-                labels[j], weights[j] = stands, posterior[c, j] / len(meant)
-            elif j not in spared:
-                near = posterior[c, j] * (1.0 if told_apart and alike[j] else _FAR_NEGATIVE)
-                labels[j], weights[j] = differs, near
-        taught = [w > _NEGLIGIBLE * _FAR_NEGATIVE for w in weights]
-        children = tuple(h.child for h in combo)
-        kept = tuple(label if t else None for label, t in zip(labels, taught, strict=True))
-        if any(taught):
-            examples.append(Example(modifier.tree.phrase, world, kept, children, share, tuple(weights)))
-        weight = share * float(posterior[c, list(meant)].mean())
-        if weight > share * _NEGLIGIBLE:
-            for landmark in combo:
-                examples += _landmark(landmark, world, weight)
-    return examples
+    label = np.full(n, int(differs))
+    label[meant] = int(stands)
+    kept = weight > _NEGLIGIBLE * _FAR_NEGATIVE
+    rests = posterior[:, meant].mean(axis=1)
+    combos = np.flatnonzero(kept.any(axis=1))
+    if len(combos):
+        landmarks = [modifier.landmarks(c, encoder.number) for c in combos.tolist()]
+        bag = encoder.placed(landmarks, ranking(phrase))[:, :n]
+        kept = kept[combos]
+        which = np.broadcast_to(label, kept.shape)[kept]
+        yield Rows(phrase, bag[kept], which, share * weight[combos][kept])
+    for c in np.flatnonzero(rests > _NEGLIGIBLE).tolist():
+        for landmark in modifier.combos[c]:
+            yield from _landmark(landmark, encoder, share * float(rests[c]))
 
 
-def _landmark(landmark: Hypothesis, world: WorldModel, weight: float) -> list[Example]:
+def _landmark(landmark: Hypothesis, encoder: WorldEncoder, weight: float) -> Iterator[Rows]:
     """What a phrase for a landmark teaches, and what is said of the landmark in turn."""
-    chosen = landmark.child.grounding.object
-    active, inactive = Correspondence.ACTIVE, Correspondence.INACTIVE
-    labels = tuple(active if thing.id == chosen.id else inactive for thing in world.things)
-    examples = [Example(landmark.tree.phrase, world, labels, (), weight)]
-    at = next(j for j, thing in enumerate(world.things) if thing.id == chosen.id)
+    world, chosen = encoder.world, landmark.child.grounding.object
+    at = encoder.number[chosen.id]
+    label = np.zeros(len(world.things), dtype=np.int64)
+    label[at] = Correspondence.ACTIVE
+    yield Rows(landmark.tree.phrase, encoder.things(ranking(landmark.tree.phrase)), label, np.full(len(label), weight))
+    kept = np.zeros(len(label), dtype=np.bool_)
+    kept[: len(world.meanable)] = _alike(landmark.tree.phrase, world.meanable, [chosen])
+    kept[at] = True
     for below in landmark.children:
-        stands, differs = (inactive, active) if NOT in below.tree.phrase.words else (active, inactive)
-        near: list[Correspondence | None] = [None] * len(world.things)
-        for j, thing in enumerate(world.meanable):
-            if _alike(landmark.tree.phrase, thing, chosen):
-                near[j] = differs
-        near[at] = stands
-        children = tuple(h.child for h in below.children)
-        examples.append(Example(below.tree.phrase, world, tuple(near), children, weight))
+        phrase = below.tree.phrase
+        stands, differs = Correspondence.ACTIVE, Correspondence.INACTIVE
+        if NOT in phrase.words:
+            stands, differs = differs, stands
+        of_thing = np.full(len(label), int(differs))
+        of_thing[at] = int(stands)
+        numbers = tuple(encoder.number[h.child.grounding.object.id] for h in below.children)
+        bag = encoder.placed([numbers], ranking(phrase))[0][kept]
+        yield Rows(phrase, bag, of_thing[kept], np.full(len(bag), weight))
         for further in below.children:
-            examples += _landmark(further, world, weight)
-    return examples
+            yield from _landmark(further, encoder, weight)
 
 
-def _alike(head: Phrase, one: Object, other: Object) -> bool:
-    """Does the head of a noun phrase say the same of both, as far as their types and colours go?"""
-    return (head.noun is None or one.type == other.type) and (head.color is None or one.color == other.color)
+def _alike(head: Phrase, things: Sequence[Object], others: Sequence[Object]) -> Bools:
+    """Does the head of a noun phrase say the same of each thing as of one of some others, by type and colour?"""
+    kinds = {(o.type if head.noun is not None else None, o.color if head.color is not None else None) for o in others}
+    found = [
+        (o.type if head.noun is not None else None, o.color if head.color is not None else None) in kinds
+        for o in things
+    ]
+    return np.array(found, dtype=np.bool_)

@@ -9,18 +9,19 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encoding import encode, firing
+from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.encode import Rows, WorldEncoder, design_matrices, encode, firing, rows_of
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet, Group
+from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.psi import BINARY, TERNARY, FitResult, LogLinearModel, fit
+from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
-from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
+from dcg_torch.learning.learner import Experience, Learned, Learner, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
 from dcg_torch.learning.trainable import rows_mask, taught_mask
@@ -56,13 +57,13 @@ class GroundingModel:
         fitted: how the last training went; None for a model that was restored.
     """
 
-    def __init__(self, variant: Variant, features: FeatureSet, factor: LogLinearModel, learner: Learner) -> None:
+    def __init__(self, variant: Variant, features: FeatureSet, factor: LogLinearFactor, learner: Learner) -> None:
         self.variant = variant
         self.features = features
         self.factor = factor
         self.learner = learner
         self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
-        self.prior = torch.zeros_like(factor.weight)
+        self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
         self.fitted: FitResult | None = None
 
     @classmethod
@@ -86,10 +87,10 @@ class GroundingModel:
         if relations:
             features = features.include(nouns=group_nouns())
         features = learner.columns(features)
-        model = cls(variant, features, LogLinearModel(features.pairs, TERNARY if variant.ternary else BINARY), learner)
+        model = cls(variant, features, LogLinearFactor(features.pairs, TERNARY if variant.ternary else BINARY), learner)
         model.train()
         if relations:
-            model._fit(place_examples(), free=taught_mask(features), l2=_RELATION_L2)
+            model._fit(model._encoded(place_examples()), free=taught_mask(features), l2=_RELATION_L2)
         return model
 
     @property
@@ -153,9 +154,9 @@ class GroundingModel:
         )
         return replace(first, further=tuple(others))
 
-    def _solve(self, tree: ParseTree, world: WorldModel) -> Solution:
+    def _solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
-        return FactorGraph(tree, world).solve(self.features, self.factor, beam=self.variant.beam)
+        return FactorGraph(tree, world, encoder).solve(self.features, self.factor, beam=self.variant.beam)
 
     def learn(self, solution: Solution, experience: Experience | None = None) -> Learned:
         """Learn from the outcome of a command that was carried out, and retrain (lines 16 to 25).
@@ -220,8 +221,10 @@ class GroundingModel:
         free = self.learner.trainable(self.features)
         if free is not None and self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
-        self.fitted = self._fit(self.learner.training_examples(self.features), free=free, l2=self.variant.l2)
-        return self.fitted
+        return self._fit(self._encoded(self.learner.training_examples(self.features)), free=free, l2=self.variant.l2)
+
+    def _encoded(self, examples: Sequence[Example]) -> list[DesignMatrix]:
+        return encode(examples, self.features, self.factor.correspondences)
 
     def teach(
         self,
@@ -243,30 +246,35 @@ class GroundingModel:
             progress: called with the number of each round that is done.
         """
         parts = [part for lesson in lessons for part in parts_of(lesson)]
-        said = said_of_words(parts, known_types, known_colors)
-        always = place_examples() if relations_only else path_examples(lessons)
+        self._make_room(parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
+        if relations_only:
+            always, free, l2 = place_examples(), taught_mask(self.features), _RELATION_L2
+        else:
+            # What was known before gives way to as much evidence as any.
+            self.prior = self.factor.weight.numpy().copy()
+            always, free, l2 = path_examples(lessons), None, self.variant.l2
+        kept = rows_of(always, self.features)
+
+        def fit_once(rows: list[Rows], last: bool) -> None:
+            designs = design_matrices([*kept, *rows], self.features, self.factor.correspondences)
+            self._fit(designs, free=free, l2=l2, max_steps=_STEPS if last else _STEPS // 4)
+            if last and not relations_only:
+                self.held |= firing(designs, self.features.shape)
+
+        fit_landmarks_em(parts, self.features, self._solve, fit_once, rounds=rounds, progress=progress)
+        if not relations_only:
+            self.prior = self.factor.weight.numpy().copy()
+            self._hear_lessons(parts)
+
+    def _make_room(self, parts: Sequence[Part], said: Taught, *, relations_only: bool) -> None:
+        """Columns for the words of lessons, and what they settle."""
         phrases = [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
         if relations_only:
-            features = self.features.extended((), said.colors, phrases)
-        else:
-            self.learner = self.learner.taught(said)
-            nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
-            features = self.learner.columns(self.features).extended(nouns, said.colors, phrases)
-        self._grow(features)
-        if not relations_only:
-            self.prior = self.factor.weight.clone()  # what was known before gives way to as much evidence as any
-
-        def fit_once(examples: list[Example], last: bool) -> None:
-            rows = [*always, *examples]
-            free, l2 = (taught_mask(self.features), _RELATION_L2) if relations_only else (None, self.variant.l2)
-            self.fitted = self._fit(rows, free=free, l2=l2, max_steps=_STEPS if last else _STEPS // 4)
-            if last and not relations_only:
-                self.held |= firing(rows, self.features)
-
-        fit_landmarks_em(parts, self._solve, fit_once, rounds=rounds, progress=progress)
-        if not relations_only:
-            self.prior = self.factor.weight.clone()
-            self._hear_lessons(parts)
+            self._grow(self.features.extended((), said.colors, phrases))
+            return
+        self.learner = self.learner.taught(said)
+        nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
+        self._grow(self.learner.columns(self.features).extended(nouns, said.colors, phrases))
 
     def lexicon(self) -> list[Entry]:
         """Every noun with what it may mean, and from which commands."""
@@ -301,16 +309,11 @@ class GroundingModel:
         self.features = features
         self.factor.grow(features.pairs)
         self.held = np.pad(self.held, [(0, more[0]), (0, more[1])])
-        self.prior = torch.nn.functional.pad(self.prior, (0, more[1], 0, more[0]))
+        self.prior = np.pad(self.prior, [(0, 0), (0, more[0]), (0, more[1])])
 
     def _fit(
-        self,
-        examples: Sequence[Example],
-        *,
-        free: NDArray[np.bool_] | None,
-        l2: float,
-        max_steps: int = 500,
+        self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float, max_steps: int = 500
     ) -> FitResult:
-        """Fit the free weights to examples, in place."""
-        tables = encode(examples, self.features, self.factor)
-        return fit(self.factor, tables, l2=l2, free=free, prior=self.prior, max_steps=max_steps)
+        """Fit the free weights to labelled factors, in place."""
+        self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior, max_steps=max_steps)
+        return self.fitted

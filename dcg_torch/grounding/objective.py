@@ -1,0 +1,299 @@
+"""The penalised likelihood of `fit` in the variables that solvers move, and three ways to compute its scores.
+
+Weights are a basis times the variables: with Q = P - 1 and d[q] = weight[q + 1] - weight[0],
+
+    weight = prior + B d,   B = [0; I] - 1/P,   so that the weights of the P correspondences sum to those of the prior
+
+where the optimum is: a constant added to all P changes no probability and only costs penalty. For two correspondences
+B = [-1/2, 1/2]. As the scores matter only by their differences u[q] = score[q + 1] - score[0] too,
+
+    objective(d) = sum_n ( total[n] log(1 + sum_q exp u[q, n]) - sum_q count[q + 1, n] u[q, n] )
+                   + 1/2 sum_k l2[k] d[:, k]' (I - 1/P) d[:, k]
+
+and its gradient with respect to d[q] is the gradient with respect to weight[q + 1].
+
+Conventions: K variables of each of the Q differences, N rows, arrays (Q, K) and (Q, N).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Protocol
+
+import numpy as np
+
+from dcg_torch.grounding.design import Ints
+from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.solvers import Point
+
+_CG_STEPS = 50
+"""Conjugate gradient steps at the most for one Newton step."""
+
+
+class Rows(Protocol):
+    """What fires in N rows."""
+
+    def scores(self, d: Floats) -> Floats:
+        """(Q, N) from (Q, K)."""
+        ...
+
+    def gradient(self, residual: Floats) -> Floats:
+        """(Q, K) from (Q, N): the transpose of `scores`."""
+        ...
+
+
+@dataclass(frozen=True)
+class DenseRows:
+    """A few rows and columns as one matrix (N, K)."""
+
+    matrix: Floats
+
+    def scores(self, d: Floats) -> Floats:
+        """(Q, N)."""
+        return d @ self.matrix.T
+
+    def gradient(self, residual: Floats) -> Floats:
+        """(Q, K)."""
+        return residual @ self.matrix
+
+    @cached_property
+    def blocks(self) -> list[tuple[Ints, Ints, Floats]]:
+        """Rows, columns and matrix of every part that shares no column with the others: verbs, prepositions, nouns."""
+        label = np.arange(self.matrix.shape[1])
+        fires = self.matrix != 0.0
+        while True:  # the least label spreads through all that is connected
+            of_row = np.where(fires, label, len(label)).min(axis=1, initial=len(label))
+            spreading = np.minimum(label, np.where(fires, of_row[:, None], len(label)).min(axis=0, initial=len(label)))
+            if (spreading == label).all():
+                break
+            label = spreading
+        found = []
+        for one in np.unique(label):
+            rows, columns = np.flatnonzero(of_row == one), np.flatnonzero(label == one)
+            found.append((rows, columns, np.asfortranarray(self.matrix[rows][:, columns])))
+        return found
+
+
+@dataclass(frozen=True)
+class GridRows:
+    """Every phrase with every grounding: scores are A d B', whose cells are the rows.
+
+    Attributes:
+        language: (A, L).
+        grounding: (M, G).
+        active: (K,) which cells of (L, G) the variables are; None: all.
+    """
+
+    language: Floats
+    grounding: Floats
+    active: Ints | None
+
+    def scores(self, d: Floats) -> Floats:
+        """(Q, A * M)."""
+        left = self.language @ spread(d, self.active, (self.language.shape[1], self.grounding.shape[1]))
+        return (left @ self.grounding.T).reshape(len(d), -1)
+
+    def gradient(self, residual: Floats) -> Floats:
+        """(Q, K)."""
+        cells = residual.reshape(len(residual), len(self.language), len(self.grounding))
+        return gathered(self.language.T @ (cells @ self.grounding), self.active)
+
+    def preconditioner(self, chances: Floats, total: Floats, l2: float) -> Callable[[Floats], Floats]:
+        """About the inverse Hessian, as a function of (Q, K): exact where curvature is a product of three sides.
+
+        The curvature of a row is taken to be that of its phrase times that of its grounding times a (Q, Q) matrix. So
+        the Hessian is a Kronecker product of three small matrices plus the penalty, and their eigenvectors invert it.
+        """
+        q = len(chances)
+        shape = len(self.language), len(self.grounding)
+        mean = np.einsum("an,bn,n->ab", chances, -chances, total)
+        mean[np.diag_indices(q)] += chances @ total
+        curvature = ((chances * (1.0 - chances)).sum(axis=0) * total).reshape(shape)
+        whole = max(float(curvature.sum()), np.finfo(float).tiny)
+        half = np.linalg.cholesky(np.linalg.inv(np.eye(q) - 1.0 / (q + 1)))
+        values, vectors = np.linalg.eigh(half.T @ mean @ half / max(float(np.trace(mean)), np.finfo(float).tiny))
+        vectors = half @ vectors
+        left, across = np.linalg.eigh((self.language.T * (curvature.sum(axis=1) / whole)) @ self.language)
+        right, down = np.linalg.eigh((self.grounding.T * curvature.sum(axis=0)) @ self.grounding)
+        divisor = values[:, None, None] * left[:, None] * right + l2
+
+        def solve(gradient: Floats) -> Floats:
+            cells = spread(gradient, self.active, (len(left), len(right)))
+            turned = np.einsum("ab,alg->blg", vectors, across.T @ cells @ down) / divisor
+            return gathered(across @ np.einsum("ab,blg->alg", vectors, turned) @ down.T, self.active)
+
+        return solve
+
+
+@dataclass(frozen=True)
+class BagRows:
+    """Rows that are some cells of all phrases with all grounding columns: `cells[starts[n]:starts[n + 1]]` of A d.
+
+    Attributes:
+        language: (A, L).
+        cells: (E,) cells of (A, G), row after row; every row has one at least.
+        starts: (N,) where each row's cells begin.
+        groundings: G.
+        active: (K,) which cells of (L, G) the variables are; None: all.
+    """
+
+    language: Floats
+    cells: Ints
+    starts: Ints
+    groundings: int
+    active: Ints | None
+
+    def scores(self, d: Floats) -> Floats:
+        """(Q, N)."""
+        by_phrase = self.language @ spread(d, self.active, (self.language.shape[1], self.groundings))
+        return np.stack([np.add.reduceat(own.reshape(-1)[self.cells], self.starts) for own in by_phrase])
+
+    def gradient(self, residual: Floats) -> Floats:
+        """(Q, K)."""
+        lengths = np.diff(self.starts, append=len(self.cells))
+        size = len(self.language) * self.groundings
+        cells = [np.bincount(self.cells, np.repeat(own, lengths), minlength=size) for own in residual]
+        by_phrase = np.stack(cells).reshape(len(residual), len(self.language), self.groundings)
+        return gathered(self.language.T @ by_phrase, self.active)
+
+
+def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
+    """(Q, L, G) of variables (Q, K): zero where none is."""
+    if active is None:
+        return d.reshape(len(d), *shape)
+    whole = np.zeros((len(d), shape[0] * shape[1]))
+    whole[:, active] = d
+    return whole.reshape(len(d), *shape)
+
+
+def gathered(whole: Floats, active: Ints | None) -> Floats:
+    """(Q, K) of (Q, L, G): the transpose of `spread`."""
+    flat = whole.reshape(len(whole), -1)
+    return flat if active is None else flat[:, active]
+
+
+@dataclass(frozen=True)
+class Objective:
+    """The objective as a function of the flat variables.
+
+    Attributes:
+        rows: what fires.
+        count: (P, N) summed weights of the examples with each label.
+        offset: (Q, N) what is added to the scores, by weights that do not move; None: nothing.
+        strength: (K,) l2 of each variable.
+        scale: (K,) the gradient with respect to one weight over that with respect to its variable.
+    """
+
+    rows: Rows
+    count: Floats
+    offset: Floats | None
+    strength: Floats
+    scale: Floats | float = 1.0
+
+    @cached_property
+    def total(self) -> Floats:
+        """(N,) examples of each row, whatever their label."""
+        total: Floats = self.count.sum(axis=0)
+        return total
+
+    def __call__(self, flat: Floats) -> Point:
+        """Value, gradient, and the gradient's max-norm over the P weights of each feature."""
+        correspondences = len(self.count)
+        d = flat.reshape(correspondences - 1, -1)
+        u = self.rows.scores(d)
+        if self.offset is not None:
+            u = u + self.offset
+        value, residual, chances = likelihood(u, self.count, self.total)
+        pull = self.strength * (d - d.sum(axis=0) / correspondences)
+        gradient = self.rows.gradient(residual) + pull
+        value += 0.5 * float((pull * d).sum())
+        norm = max_norm(gradient * self.scale)
+        return Point(flat, value, gradient.reshape(-1), norm, chances)
+
+    def newton_step(self, point: Point) -> Floats:
+        """Minus the inverse Hessian times the gradient; for dense rows."""
+        assert isinstance(self.rows, DenseRows)
+        q = len(self.count) - 1
+        unit = np.eye(q)
+        gradient, step = point.gradient.reshape(q, -1), np.empty((q, len(self.strength)))
+        for (rows, columns, matrix), penalty in zip(self.rows.blocks, self._penalties, strict=True):
+            own, k = point.chances[:, rows], len(columns)
+            curvature = self.total[rows] * own[:, None] * (unit[:, :, None] - own)  # (Q, Q, rows)
+            hessian = np.empty((q, k, q, k))
+            for a in range(q):
+                for b in range(a + 1):
+                    hessian[a, :, b] = (matrix.T * curvature[a, b]) @ matrix
+                    if a != b:
+                        hessian[b, :, a] = hessian[a, :, b]
+            whole = hessian.reshape(q * k, q * k)
+            whole += penalty
+            step[:, columns] = np.linalg.solve(whole, -gradient[:, columns].reshape(-1)).reshape(q, k)
+        return step.reshape(-1)
+
+    @cached_property
+    def _penalties(self) -> list[Floats]:
+        """(Q K, Q K) the Hessian of the penalty on each block's variables."""
+        assert isinstance(self.rows, DenseRows)
+        q = len(self.count) - 1
+        basis = np.eye(q) - 1.0 / (q + 1)
+        return [np.kron(basis, np.diag(self.strength[columns])) for _, columns, _ in self.rows.blocks]
+
+    def product(self, point: Point, d: Floats) -> Floats:
+        """(Q, K) the Hessian at a point times d (Q, K)."""
+        u = self.rows.scores(d)
+        u -= (point.chances * u).sum(axis=0)
+        u *= point.chances
+        u *= self.total
+        bent: Floats = self.rows.gradient(u) + self.strength * (d - d.sum(axis=0) / len(self.count))
+        return bent
+
+    def newton_cg_step(self, point: Point) -> Floats:
+        """An approximate Newton step by preconditioned conjugate gradients.
+
+        The system is solved as well as the gradient is small: so the last steps converge superlinearly.
+        """
+        solve = self._preconditioner(point)
+        residual = -point.gradient.reshape(len(point.chances), -1)
+        step = np.zeros_like(residual)
+        eased = solve(residual)
+        towards, size = eased, float(np.vdot(residual, eased))
+        enough = size * min(0.1, point.norm) ** 2
+        for _ in range(_CG_STEPS):
+            bent = self.product(point, towards)
+            length = size / float(np.vdot(towards, bent))
+            step += length * towards
+            residual = residual - length * bent
+            eased = solve(residual)
+            before, size = size, float(np.vdot(residual, eased))
+            if size <= enough:
+                break
+            towards = eased + size / before * towards
+        return step.reshape(-1)
+
+    def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
+        """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
+        if isinstance(self.rows, GridRows):
+            return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
+        curvature = point.chances * (1.0 - point.chances) * self.total
+        inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
+        return lambda gradient: inverse * gradient
+
+
+def likelihood(u: Floats, count: Floats, total: Floats) -> tuple[float, Floats, Floats]:
+    """The negative log-likelihood of score differences (Q, N), its gradient by them, and the Q probabilities."""
+    top = np.maximum(u.max(axis=0), 0.0) if u.size and u.max() > 300.0 else None  # else exp cannot overflow
+    chances = np.exp(u if top is None else u - top)
+    partition = chances.sum(axis=0) + (1.0 if top is None else np.exp(-top))
+    log_partition = np.log(partition) + (0.0 if top is None else top)
+    chances /= partition
+    value = float(total @ log_partition) - float(np.vdot(count[1:], u))
+    return value, chances * total - count[1:], chances
+
+
+def max_norm(gradient: Floats) -> float:
+    """Of the gradient with respect to all P weights, which sum to zero, from that of the last Q."""
+    if not gradient.size:
+        return 0.0
+    return float(max(np.abs(gradient).max(), np.abs(gradient.sum(axis=0)).max()))

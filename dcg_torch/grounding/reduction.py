@@ -1,0 +1,279 @@
+"""From design matrices to the smallest problem that has the same optimum.
+
+Few rows: each row is written out as the pairs that fire, rows and weights that are alike by symmetry become one, and
+Newton's method has one dense matrix.
+
+Many rows: pairs are never written out. Scores are sums over cells of the phrases' side times the weights, or, where
+most phrases occur with most groundings, the whole product of the phrases' side, the weights and the groundings' side.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, distinct_rows, stack
+from dcg_torch.grounding.objective import BagRows, DenseRows, GridRows, Objective, likelihood
+from dcg_torch.grounding.psi import Floats, binary, scores
+from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes, row_keys
+
+Mask = NDArray[np.bool_]
+
+_FEW_ENTRIES = 200_000
+"""Pairs that fire, over all rows, up to which rows are written out."""
+_NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
+"""Weights, and multiplications a step, up to which Newton's method with a dense matrix is the fastest way."""
+_GRID = 0.25
+"""Share of phrases and groundings that occur together from which on the whole product is the faster way."""
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """The problem for a solver, and the way back.
+
+    Attributes:
+        objective: of the flat variables.
+        start: the variables at the present weights.
+        constant: of the likelihood, from rows in which no weight moves.
+        fixed: (P, L, G) the weights without what the solver moves.
+        columns: (K',) the cells of (L, G) that move.
+        tied: the class of each of the K' among the solver's K variables, and its share of it; None: they are the same.
+    """
+
+    objective: Objective
+    start: Floats
+    constant: float
+    fixed: Floats
+    columns: Ints
+    tied: tuple[Ints, Floats] | None
+
+    def weight(self, at: Floats) -> Floats:
+        """(P, L, G) at the solver's variables."""
+        q = len(self.fixed) - 1
+        d = at.reshape(q, -1)
+        if self.tied is not None:
+            d = d[:, self.tied[0]] * self.tied[1]
+        mean = d.sum(axis=0) / (q + 1)
+        weight = self.fixed.copy()
+        flat = weight.reshape(q + 1, -1)
+        flat[0, self.columns] -= mean
+        flat[1:, self.columns] += d - mean
+        return weight
+
+
+def reduce(
+    designs: Sequence[DesignMatrix],
+    weight: Floats,
+    fixed: Floats,
+    active: Mask,
+    strength: Floats,
+    *,
+    prefer: str = "auto",
+) -> Reduced:
+    """The problem of moving the `active` weights.
+
+    Args:
+        designs: labelled factors; the objective is the sum over all.
+        weight: (P, L, G) the start.
+        fixed: (P, L, G) the weights that do not move, and the prior of those that do.
+        active: (L, G) which may move.
+        strength: (L, G) l2.
+        prefer: the solver that was asked for.
+    """
+    if not designs:
+        empty = np.zeros((0, 0), dtype=np.int64)
+        designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
+    entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
+    if prefer == "newton" or (prefer == "auto" and entries <= _FEW_ENTRIES):
+        found = _dense(designs, weight, fixed, active, strength, always=prefer == "newton")
+        if found is not None:
+            return found
+    return _factored(designs, weight, fixed, active, strength)
+
+
+def _offset(designs: Sequence[DesignMatrix], fixed: Floats) -> Floats | None:
+    """(Q, N) score differences by weights that do not move."""
+    if not fixed.any():
+        return None
+    total = np.concatenate([scores(fixed, d.language, d.grounding, d.phrase) for d in designs], axis=1)
+    offset: Floats = total[1:] - total[0]
+    return offset
+
+
+def _constant(count: Floats, offset: Floats | None, rows: Mask) -> float:
+    """The negative log-likelihood of some rows, whose scores are `offset`."""
+    own = count[:, rows]
+    u = np.zeros((len(count) - 1, own.shape[1])) if offset is None else offset[:, rows]
+    return likelihood(u, own, own.sum(axis=0))[0]
+
+
+def _differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
+    """(Q, K) how the weights of P - 1 correspondences differ from the first's, beside the prior's."""
+    moved = (weight - fixed).reshape(len(weight), -1)[:, columns]
+    differences: Floats = moved[1:] - moved[0]
+    return differences
+
+
+def _dense(
+    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats, *, always: bool
+) -> Reduced | None:
+    """Rows written out and made few by symmetry; None if they stay too many for Newton's method."""
+    incidence, rows, columns = _written_out(designs, active)
+    offset, count = _offset(designs, fixed), np.concatenate([design.count for design in designs], axis=1)
+    unmoved = np.ones(count.shape[1], dtype=np.bool_)
+    unmoved[rows] = False
+    constant = _constant(count, offset, unmoved)
+    if not len(rows):
+        nothing = Objective(DenseRows(np.zeros((0, 0))), count[:, :0], None, np.zeros(0))
+        return Reduced(nothing, np.zeros(0), constant, fixed, columns, None)
+    count, offset = count[:, rows], None if offset is None else offset[:, rows]
+    incidence, count, offset = _merged(incidence, count, offset)
+    start, own = _differences(weight, fixed, columns), strength.reshape(-1)[columns]
+    found = _alike(incidence, count, offset, own, incidence.columns if always else _NEWTON_COLUMNS)
+    if found is None or not (always or _pays(len(found.row_size), len(found.column_size) * len(start))):
+        return None
+    root = np.sqrt(found.column_size)
+    objective = Objective(
+        DenseRows(found.matrix(incidence) / root),
+        count[:, found.row_first] * found.row_size,
+        None if offset is None else offset[:, found.row_first],
+        own[found.column_first],
+        1.0 / root,
+    )
+    start = _summed(start, found.column, len(root)) / root
+    tied = found.column, (1.0 / root)[found.column]
+    return Reduced(objective, start.reshape(-1), constant, fixed, columns, tied)
+
+
+def _pays(rows: int, variables: int) -> bool:
+    """Is a step of Newton's method cheap enough?"""
+    return (rows + variables) * variables * variables <= _NEWTON_WORK
+
+
+def _written_out(designs: Sequence[DesignMatrix], active: Mask) -> tuple[Incidence, Ints, Ints]:
+    """Which pairs fire: of the rows in which some does, the rows' numbers, and the cells of (L, G) that do."""
+    languages, groundings = active.shape
+    mask = np.zeros((languages + 1, groundings + 1), dtype=np.bool_)
+    mask[:-1, :-1] = active
+    flat, parts, lengths = mask.reshape(-1), [], []
+    for design in designs:
+        left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
+        codes = left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
+        fires = flat[codes]
+        parts.append(codes[fires])
+        lengths.append(np.count_nonzero(fires, axis=(1, 2)))
+    pairs, length = np.concatenate(parts), np.concatenate(lengths)
+    seen = np.zeros(mask.size, dtype=np.bool_)
+    seen[pairs] = True
+    cells = np.flatnonzero(seen)
+    number = np.empty(mask.size, dtype=np.int64)
+    number[cells] = np.arange(len(cells))
+    rows = np.flatnonzero(length)
+    incidence = Incidence(np.repeat(np.arange(len(rows)), length[rows]), number[pairs], len(rows), len(cells))
+    return incidence, rows, cells // (groundings + 1) * groundings + cells % (groundings + 1)
+
+
+def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple[Incidence, Floats, Floats | None]:
+    """Rows in which the same pairs fire become one."""
+    keys = row_keys(incidence)
+    if offset is not None:
+        keys = keys + bits_of(offset, incidence.rows)
+    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # rows stay in their order
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    first = first[order]
+    return (
+        incidence.keep(first),
+        _summed(count, rank[which], len(first)),
+        None if offset is None else offset[:, first],
+    )
+
+
+def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats, limit: int) -> Classes | None:
+    rows = bits_of(count if offset is None else np.concatenate([count, offset]), incidence.rows)
+    return classes(incidence, rows, bits_of(strength[None], incidence.columns), limit)
+
+
+def _summed(values: Floats, which: Ints, size: int) -> Floats:
+    """(n, size): sums of the columns of `values` with the same number."""
+    return np.stack([np.bincount(which, row, minlength=size) for row in values])
+
+
+def _factored(
+    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
+) -> Reduced:
+    """Rows as cells of the phrases' side times the weights."""
+    design = stack(designs)
+    fires = (binary(design.language, active.shape[0]).T @ _together(design, active.shape[1]) > 0.0) & active
+    left, right = (np.flatnonzero(fires.any(axis=axis)) for axis in (1, 0))
+    narrow = (len(left), len(right)) != active.shape
+    kept = _kept(left, active.shape[0]), _kept(right, active.shape[1])
+    if fixed.any():  # rows that fire the same columns of those that move may have different scores
+        design = concatenate([design])
+        offset, design = _offset([design], fixed), design.renamed(*kept) if narrow else design
+    else:
+        offset, design = None, concatenate([design.renamed(*kept) if narrow else design])
+    own, whole = fires[np.ix_(left, right)], bool(active[np.ix_(left, right)].all())
+    rows, cells = _rows(design, own, whole=whole, unique=offset is None or not narrow)
+    count, constant = design.count, 0.0
+    if isinstance(rows, GridRows):
+        size = len(rows.language) * len(rows.grounding)
+        count, offset = _placed(count, cells, size), None if offset is None else _placed(offset, cells, size)
+    else:
+        unmoved = np.ones(count.shape[1], dtype=np.bool_)
+        unmoved[cells] = False
+        constant = _constant(count, offset, unmoved)
+        count, offset = count[:, cells], None if offset is None else offset[:, cells]
+    columns = (left[:, None] * active.shape[1] + right).reshape(-1)
+    if rows.active is not None:
+        columns = columns[rows.active]
+    start = _differences(weight, fixed, columns).reshape(-1)
+    return Reduced(Objective(rows, count, offset, strength.reshape(-1)[columns]), start, constant, fixed, columns, None)
+
+
+def _rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -> tuple[GridRows | BagRows, Ints]:
+    """What fires, and where the design's rows are in the grid, or which of them are left.
+
+    Args:
+        fires: (L, G) the pairs that move.
+        whole: all pairs may move, whether they fire or not; to a grid they are all the same.
+        unique: no two rows fire the same.
+    """
+    language, active = binary(design.language, len(fires)), np.flatnonzero(fires)
+    things, thing = distinct_rows(design.grounding)
+    if unique and len(thing) >= _GRID * len(language) * len(things):
+        grid = GridRows(language, binary(things, fires.shape[1]), None if whole else active)
+        return grid, design.phrase * len(things) + thing
+    moving = np.zeros((len(language), fires.shape[1] + 1), dtype=np.bool_)
+    moving[:, :-1] = language @ fires > 0.0
+    used = moving[design.phrase[:, None], design.grounding]
+    rows = np.flatnonzero(used.any(axis=1))
+    used = used[rows]
+    cells = (design.grounding[rows] + design.phrase[rows, None] * fires.shape[1])[used]
+    starts = np.cumsum(used.sum(axis=1)) - used.sum(axis=1)
+    return BagRows(language, cells, starts, fires.shape[1], None if fires.all() else active), rows
+
+
+def _together(design: DesignMatrix, groundings: int) -> Floats:
+    """(A, G) does a grounding column fire in some row of a phrase?"""
+    found = np.zeros((len(design.language), groundings + 1))
+    for column in design.grounding.T:
+        found[design.phrase, column] = 1.0
+    return found[:, :-1]
+
+
+def _kept(columns: Ints, size: int) -> Ints:
+    """(size + 1, 1) the new number of each column that is kept, -1 of the others: see `DesignMatrix.renamed`."""
+    table = np.full((size + 1, 1), -1, dtype=np.int64)
+    table[columns, 0] = np.arange(len(columns))
+    return table
+
+
+def _placed(values: Floats, cells: Ints, size: int) -> Floats:
+    whole = np.zeros((len(values), size))
+    whole[:, cells] = values
+    return whole

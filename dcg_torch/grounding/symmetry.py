@@ -1,0 +1,118 @@
+"""Which weights are equal at the optimum of a fit, by symmetry: so that each class of them is fitted as one.
+
+The rows and columns of a design matrix are coloured: two rows alike if equally many columns of every colour fire in
+them, two columns alike if they fire in equally many rows of every colour (colour refinement, also called the
+1-dimensional Weisfeiler-Leman algorithm). Averaging the weights within a class averages the scores within classes of
+rows, and the objective is strictly convex. So its one optimum has equal weights within a class (Mladenov, Ahmadi and
+Kersting, "Lifted linear programming", AISTATS 2012, show it for linear programs; convexity is all that it needs).
+Words with the same history are such a class; so are columns that always fire together.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.design import Hashes, Ints, scrambled
+from dcg_torch.grounding.psi import Floats
+
+
+@dataclass(frozen=True)
+class Incidence:
+    """A sparse binary matrix: entry e says that column `column[e]` fires in row `row[e]`; sorted by row.
+
+    Every row and every column has an entry.
+    """
+
+    row: Ints
+    column: Ints
+    rows: int
+    columns: int
+
+    @property
+    def starts(self) -> Ints:
+        """(rows,) the first entry of each row."""
+        return np.flatnonzero(np.diff(self.row, prepend=-1))
+
+    def keep(self, rows: Ints) -> Incidence:
+        """Of these rows alone, in ascending order; columns keep their numbers."""
+        number = np.full(self.rows, -1, dtype=np.int64)
+        number[rows] = np.arange(len(rows))
+        own = number[self.row]
+        kept = own >= 0
+        return Incidence(own[kept], self.column[kept], len(rows), self.columns)
+
+
+@dataclass(frozen=True)
+class Classes:
+    """Rows and columns that are alike.
+
+    Attributes:
+        row, column: the class of each.
+        row_first, column_first: the first of each class.
+        row_size, column_size: how many each class has.
+    """
+
+    row: Ints
+    column: Ints
+    row_first: Ints
+    column_first: Ints
+    row_size: Ints
+    column_size: Ints
+
+    def matrix(self, incidence: Incidence) -> Floats:
+        """(row classes, column classes) how many columns of a class fire in a row of another."""
+        shape = len(self.row_size), len(self.column_size)
+        one = incidence.keep(np.sort(self.row_first))
+        of_row = self.row[np.sort(self.row_first)]
+        cells = of_row[one.row] * shape[1] + self.column[one.column]
+        return np.bincount(cells, minlength=shape[0] * shape[1]).astype(np.float64).reshape(shape)
+
+
+def row_keys(incidence: Incidence) -> Hashes:
+    """(rows,) equal for rows in which the same columns fire."""
+    bits = scrambled(np.arange(incidence.columns, dtype=np.uint64))
+    return np.add.reduceat(bits[incidence.column], incidence.starts)
+
+
+def bits_of(values: Sequence[NDArray[np.float64]] | Floats, size: int) -> Hashes:
+    """(size,) a hash of each column of `values` (n, size), bit by bit."""
+    total = np.zeros(size, dtype=np.uint64)
+    for row in values:
+        total = scrambled(total ^ np.ascontiguousarray(row, dtype=np.float64).view(np.uint64))
+    return total
+
+
+def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes, limit: int) -> Classes | None:
+    """The coarsest classes of rows and columns that are alike; None if there are more than `limit` of the columns.
+
+    Args:
+        row_start: (rows,) rows that differ here are never alike.
+        column_start: (columns,) the same of columns.
+    """
+    by_column = np.argsort(incidence.column, kind="stable")
+    row_starts = incidence.starts
+    column_starts = np.flatnonzero(np.diff(incidence.column[by_column], prepend=-1))
+    rows, columns, found = row_start, column_start, (0, 0)
+    while True:
+        below = np.add.reduceat(scrambled(rows)[incidence.row[by_column]], column_starts)
+        columns = scrambled(columns) + below
+        beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
+        rows = scrambled(rows) + beside
+        before, found = found, (len(np.unique(rows)), len(np.unique(columns)))
+        if found[1] > limit:
+            return None  # classes only ever split
+        if found == before:
+            break
+    row_first, row_class, row_size = _numbered(rows)
+    column_first, column_class, column_size = _numbered(columns)
+    return Classes(row_class, column_class, row_first, column_first, row_size, column_size)
+
+
+def _numbered(keys: Hashes) -> tuple[Ints, Ints, Ints]:
+    """Where each distinct key stands first, the number of every key, and how many have each."""
+    _, first, which, size = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
+    return first, which, size
