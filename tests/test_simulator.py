@@ -12,6 +12,7 @@ import pytest
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.simulator import Camera, Client, Recogniser, SimulatedRobot, SimulatorError
+from dcg_torch.simulator.base import ROBOT_RADIUS
 from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.world.files import RobotStart, World, WorldObject
@@ -269,6 +270,23 @@ def test_no_way_is_said_at_once(shared: SimulatedRobot) -> None:
     assert shared.drive_to("goal", everything(there)) is DriveResult.NO_WAY
     assert shared.path_length == 0.0
     assert shared.collisions == 0
+
+
+def test_through_a_narrow_door_it_keeps_the_margin_that_was_planned(shared: SimulatedRobot) -> None:
+    # a fence of spheres round the robot, with one gap that leaves it 5 cm on either side
+    radius, reach = footprint("sphere"), 1.3
+    half = math.asin((radius + ROBOT_RADIUS + 0.05) / reach)
+    angles = [half + k * (math.tau - 2 * half) / 9 for k in range(10)]
+    fence = [(f"f{k}", "sphere", reach * math.cos(a), reach * math.sin(a)) for k, a in enumerate(angles)]
+    there = world(("goal", "cube", 0.6, 2.4), *fence, start=(-0.3, 0.3, 2.0))
+    nearest: list[float] = []
+    shared.load(there)
+    shared.on_tick = lambda pose: nearest.append(min(math.dist((pose.x, pose.y), (x, y)) for _, _, x, y in fence))
+    try:
+        assert shared.drive_to("goal", everything(there))
+    finally:
+        shared.on_tick = None
+    assert 0.025 < min(nearest) - radius - ROBOT_RADIUS < 0.05
 
 
 @pytest.mark.parametrize("start", [(1.2, 0.0), (3.0, 1.0)])
