@@ -340,7 +340,7 @@ def test_it_does_not_set_out_for_what_is_too_far(shared: SimulatedRobot, x: floa
     assert shared.go_to(x, 0.0, everything(there)) is DriveResult.TOO_FAR
     assert shared.seconds == 0.0
     # and it is no obstacle to others
-    assert shared.drive_to("a", everything(there)) is DriveResult.ARRIVED
+    assert shared.drive_to("a", [far, *everything(there)]) is DriveResult.ARRIVED
 
 
 def test_an_object_too_far_away_is_refused(shared: SimulatedRobot) -> None:
