@@ -5,9 +5,9 @@ The names of `Iteration`'s fields are relied on by tools outside this project; f
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
+from pydantic import AllowInfNan, BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
 
 Kind = Literal["known", "unknown", "learned"]
 
@@ -79,9 +79,7 @@ class Iteration(_Record):
 
 
 class Timing(_Record):
-    """Wall-clock seconds of one command, and the size of what was trained. Losses may be infinite."""
-
-    model_config = ConfigDict(allow_inf_nan=True)
+    """Wall-clock seconds of one command, and the size of what was trained."""
 
     trial: int
     iteration: int
@@ -94,7 +92,7 @@ class Timing(_Record):
     drive: float
     train: float
     train_steps: int
-    train_loss: float
+    train_loss: Annotated[float, AllowInfNan(True)]
     train_rows: int
     language_columns: int
     grounding_columns: int

@@ -12,8 +12,9 @@ import pytest
 from dcg_torch.language import Parser
 from dcg_torch.lessons.relations import KNOWN, relational_lessons
 from dcg_torch.speaker import RelationalSpeaker
+from dcg_torch.speaker.fit import Surroundings
 from dcg_torch.speaker.phrases import command, wording
-from dcg_torch.speaker.where import RELATIONS, SETS, SPOKEN, Told, View, tell
+from dcg_torch.speaker.referring import RELATIONS, SETS, SPOKEN, Description, generate
 from dcg_torch.types import ParseTree
 from dcg_torch.world.files import World, WorldObject
 from dcg_torch.world.generator import TYPES, generate_world
@@ -21,14 +22,14 @@ from dcg_torch.world.generator import TYPES, generate_world
 SIZES = (0.2, 0.3, 0.45, 0.7)
 
 
-def told(relation: str, seed: int, count: int = 3) -> list[tuple[View, Told]]:
+def told(relation: str, seed: int, count: int = 3) -> list[tuple[Surroundings, Description]]:
     """Some descriptions by a relation, with their worlds."""
     rng = np.random.default_rng(seed)
-    found: list[tuple[View, Told]] = []
+    found: list[tuple[Surroundings, Description]] = []
     for k in itertools.count():
         world = generate_world(rng, "w", types=KNOWN if k % 2 else TYPES, probability=0.6 if k % 2 else 0.3)
-        view = View.of(world, rng.choice(SIZES, size=len(world.objects)))
-        said = tell(view, relation, rng, KNOWN)
+        view = Surroundings.of(world, rng.choice(SIZES, size=len(world.objects)))
+        said = generate(view, relation, rng, KNOWN)
         if said is not None:
             found.append((view, said))
         if len(found) == count:
@@ -52,7 +53,7 @@ def test_a_lesson_is_read_as_its_words_are(relation: str, parser: Parser) -> Non
         assert shape(reading.tree) == shape(tree), wording(tree)
 
 
-def alike(view: View, tree: ParseTree) -> list[int]:
+def alike(view: Surroundings, tree: ParseTree) -> list[int]:
     """The objects that noun and colour fit."""
     p = tree.phrase
     return [
@@ -62,12 +63,12 @@ def alike(view: View, tree: ParseTree) -> list[int]:
     ]
 
 
-def landmark(view: View, tree: ParseTree) -> int:
+def landmark(view: Surroundings, tree: ParseTree) -> int:
     (only,) = alike(view, tree.children[0].children[0])
     return only
 
 
-def bearing(view: View, j: int) -> float:
+def bearing(view: Surroundings, j: int) -> float:
     return math.degrees(math.atan2(view.position[j][1], view.position[j][0]))
 
 
@@ -169,8 +170,8 @@ def test_a_world_that_is_turned_and_moved_is_told_alike() -> None:
         }
     )
     for k, relation in enumerate(RELATIONS):
-        views = View.of(world), View.of(other)
-        one, two = (tell(view, relation, np.random.default_rng(k), TYPES) for view in views)
+        views = Surroundings.of(world), Surroundings.of(other)
+        one, two = (generate(view, relation, np.random.default_rng(k), TYPES) for view in views)
         assert one == two
 
 
@@ -195,10 +196,10 @@ def test_lessons_are_reproducible_and_cover_every_relation() -> None:
 
 
 def test_what_can_t_be_told_is_refused() -> None:
-    view = View(("cube",), ("red",), np.array([[1.0, 0.0]]))
-    assert tell(view, "leftmost", np.random.default_rng(0), KNOWN) is None
+    view = Surroundings(("cube",), ("red",), np.array([[1.0, 0.0]]))
+    assert generate(view, "leftmost", np.random.default_rng(0), KNOWN) is None
     with pytest.raises(ValueError, match="'beneath' is no relation; choose from behind"):
-        tell(view, "beneath", np.random.default_rng(0), KNOWN)
+        generate(view, "beneath", np.random.default_rng(0), KNOWN)
     with pytest.raises(ValueError, match="count=-1"):
         relational_lessons(-1)
 

@@ -97,7 +97,7 @@ DAMAGED = [
     ("iterations.jsonl", b"{}\n", "iterations.jsonl:1: trial: Field required; mend or remove the line"),
     ("iterations.jsonl", LINE.encode() + b"\n\x00\xff\x1b[31m\n", "iterations.jsonl:2: the line: "),
     ("iterations.jsonl", LINE.encode() + b"\n" + LINE[:80].encode() + b"\n", "iterations.jsonl:2: the line: "),
-    ("iterations.jsonl", f"{LINE}\n{LINE}\n".encode(), "iterations.jsonl: trial 0, iteration 0 comes twice"),
+    ("iterations.jsonl", f"{LINE}\n{LINE}\n".encode(), "run: trial 0, iteration 0 comes twice"),
     ("iterations.jsonl", LINE.replace('"target":"c"', '"target":"z"').encode() + b"\n", "'z' is not among"),
     ("iterations.jsonl", LINE.replace("0.9", "NaN").encode() + b"\n", "iterations.jsonl:1: probability: "),
     ("iterations.jsonl", LINE.replace("0.9", "7.5").encode() + b"\n", "a probability is not between 0 and 1"),

@@ -12,6 +12,7 @@ import pytest
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.simulator import Camera, Client, Recogniser, SimulatedRobot, SimulatorError
+from dcg_torch.simulator.base import ROBOT_RADIUS
 from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.world.files import RobotStart, World, WorldObject
@@ -271,6 +272,23 @@ def test_no_way_is_said_at_once(shared: SimulatedRobot) -> None:
     assert shared.collisions == 0
 
 
+def test_through_a_narrow_door_it_keeps_the_margin_that_was_planned(shared: SimulatedRobot) -> None:
+    # a fence of spheres round the robot, with one gap that leaves it 5 cm on either side
+    radius, reach = footprint("sphere"), 1.3
+    half = math.asin((radius + ROBOT_RADIUS + 0.05) / reach)
+    angles = [half + k * (math.tau - 2 * half) / 9 for k in range(10)]
+    fence = [(f"f{k}", "sphere", reach * math.cos(a), reach * math.sin(a)) for k, a in enumerate(angles)]
+    there = world(("goal", "cube", 0.6, 2.4), *fence, start=(-0.3, 0.3, 2.0))
+    nearest: list[float] = []
+    shared.load(there)
+    shared.on_tick = lambda pose: nearest.append(min(math.dist((pose.x, pose.y), (x, y)) for _, _, x, y in fence))
+    try:
+        assert shared.drive_to("goal", everything(there))
+    finally:
+        shared.on_tick = None
+    assert 0.025 < min(nearest) - radius - ROBOT_RADIUS < 0.05
+
+
 @pytest.mark.parametrize("start", [(1.2, 0.0), (3.0, 1.0)])
 def test_leaving_ends_farther_away(shared: SimulatedRobot, start: tuple[float, float]) -> None:
     there = world(("a", "cube", 0.0, 0.0), start=(*start, math.pi))
@@ -322,7 +340,7 @@ def test_it_does_not_set_out_for_what_is_too_far(shared: SimulatedRobot, x: floa
     assert shared.go_to(x, 0.0, everything(there)) is DriveResult.TOO_FAR
     assert shared.seconds == 0.0
     # and it is no obstacle to others
-    assert shared.drive_to("a", everything(there)) is DriveResult.ARRIVED
+    assert shared.drive_to("a", [far, *everything(there)]) is DriveResult.ARRIVED
 
 
 def test_an_object_too_far_away_is_refused(shared: SimulatedRobot) -> None:

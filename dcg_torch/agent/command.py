@@ -169,10 +169,7 @@ def carry_out(
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
     explorer = explorer or TurnInPlace(spin_step)
     command = _Command(reading.tree, model, robot, start, percepts, clock)
-    solution = command.look(explorer, watch)
-    asked: tuple[tuple[Question, Reply], ...] = ()
-    if asking is not None and listener is not None:
-        solution, asked = command.ask(solution, asking, listener)
+    solution, asked = command.ask(command.look(explorer, watch), asking, listener)
     drive = command.act(solution)
     return Outcome(reading, solution, in_view, tuple(percepts.values()), drive, looked=explorer.looked, asked=asked)
 
@@ -205,10 +202,12 @@ class _Command:
                     self.percepts.setdefault(percept.id, percept)
 
     def ask(
-        self, solution: Solution, policy: AskingPolicy, listener: Listener
+        self, solution: Solution, policy: AskingPolicy | None, listener: Listener | None
     ) -> tuple[Solution, tuple[tuple[Question, Reply], ...]]:
         """Ask until the robot is sure enough; the grounding then, and what was asked."""
         asked: list[tuple[Question, Reply]] = []
+        if policy is None or listener is None:
+            return solution, ()
         while len(asked) < policy.questions and (ids := candidates(solution, policy)):
             asking = question(ids, tuple(self.percepts.values()), self.start, self.model.sure_names())
             asked.append((asking, listener(asking)))

@@ -1,7 +1,7 @@
 """Generated lessons on relations, for a robot that starts without a corpus of its own.
 
-The commands and what they mean are those of `speaker.where`: definitions by this project, in random worlds. No human
-wrote them, and they teach no more than the definitions say. The words get their weights from these lessons by the
+The commands and what they mean are those of `speaker.referring`: definitions by this project, in random worlds. No
+human wrote them, and they teach no more than the definitions say. The words get their weights from these lessons by the
 same fit as all others.
 """
 
@@ -14,8 +14,9 @@ import numpy as np
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import with_places
+from dcg_torch.speaker.fit import Surroundings
 from dcg_torch.speaker.phrases import command
-from dcg_torch.speaker.where import DIRECTED, RELATIONS, View, tell
+from dcg_torch.speaker.referring import DIRECTED, RELATIONS, generate
 from dcg_torch.types import Percept
 from dcg_torch.world.generator import TYPES, generate_world
 
@@ -55,14 +56,17 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
         types, probability = _WORLDS[int(rng.integers(len(_WORLDS)))]
         world = generate_world(rng, "lesson", types=types, probability=probability)
         extents = rng.uniform(0.15, 0.6, size=len(world.objects))
-        view = View.of(world, extents)
-        told = next((told for _ in range(_TRIES) if (told := tell(view, relation, rng, KNOWN)) is not None), None)
-        if told is None:
+        around = Surroundings.of(world, extents)
+        drawn = (generate(around, relation, rng, KNOWN) for _ in range(_TRIES))
+        described = next((description for description in drawn if description is not None), None)
+        if described is None:
             continue
         percepts = [
             Percept(o.id, o.type, o.color, (*o.position, 0.0), (float(e), float(e), float(e)))
             for o, e in zip(world.objects, extents, strict=True)
         ]
         upsilon = world_model(percepts, KNOWN, hypothetical=False, robot=world.start)
-        return Lesson(command(told.tree), with_places(upsilon), frozenset(world.objects[j].id for j in told.meant))
+        return Lesson(
+            command(described.tree), with_places(upsilon), frozenset(world.objects[j].id for j in described.meant)
+        )
     return None

@@ -69,15 +69,16 @@ def load_run(directory: Path) -> Run:
     rows = read_rows(directory / ROWS)
     if not rows:
         raise ReportError(f"{directory / ROWS}: no finished command in it; run the experiment on")
-    try:
-        measures = measure(rows)
-    except ValueError as error:
-        raise ReportError(f"{directory / ROWS}: {error}; run the experiment again") from None
     if summary is not None:
-        name, config, seconds = summary.run, summary.config, summary.seconds
+        name, config = summary.run, summary.config
     else:
         name, config = f"{directory.resolve().name} (unfinished)", _settings(directory)
-        seconds = summarise_seconds(read_timings(directory))
+    timings = [] if summary is not None else read_timings(directory)
+    try:
+        measures = measure(rows)
+        seconds = summarise_seconds(timings) if summary is None else summary.seconds
+    except (ValueError, ArithmeticError) as error:
+        raise ReportError(f"{directory}: {error}; run the experiment again") from None
     return Run(directory, printable(name), config, given_overrides(directory), tuple(rows), seconds, measures)
 
 

@@ -26,7 +26,7 @@ class Summary(BaseModel):
     `seconds` are mean seconds per command by phase, and those of the whole run ("wall").
     """
 
-    model_config = ConfigDict(frozen=True, extra="ignore")
+    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
 
     run: str
     config: dict[str, Any]

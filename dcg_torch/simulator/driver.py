@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 
 from dcg_torch.geometry import wrap_angle
 from dcg_torch.simulator import navigation
@@ -15,13 +16,26 @@ from dcg_torch.types import DriveResult, Percept
 Planner = Callable[[dict[str, Circle]], Points | None]
 """A path from where the robot is among obstacles, given by the id of the object; None: there is no way."""
 
-_MARGINS = (0.08, 0.03)  # metres between robot and objects; the second where the first leaves no way
 _LOOK_SECONDS, _LOOK_ANGLE = 0.4, 0.35  # while driving, look this often (simulated seconds; radians turned)
-_LOOKAHEAD = 0.25  # metres along the path, where the robot steers to
 _SPIN_GAIN = 7.0  # 1/s, see `turn_towards`
 _FACING = 0.5  # radians off course, beyond which it turns without driving on
 _UNKNOWN_RADIUS = 0.22  # metres, for a percept that says no size
 _PATIENCE, _SLOWNESS = 15.0, 4.0  # seconds, and times the least time, after which a drive is given up
+
+
+@dataclass(frozen=True, slots=True)
+class _Gait:
+    """How a path is driven: metres between robot and objects, metres along the path that it steers to, m/s at most.
+
+    Steering to a point ahead cuts corners, by less than the margin.
+    """
+
+    margin: float
+    lookahead: float
+    speed: float
+
+
+_GAITS = (_Gait(0.08, 0.25, MAX_SPEED), _Gait(0.03, 0.10, 0.2))  # the second where the first has no way
 
 
 class Driver:
@@ -66,15 +80,15 @@ class Driver:
         self._looked_at, self._looked_towards = -math.inf, math.inf
         known, result = dict(noticed), None
         while result is None:
-            track = self._planned(plan, known)
-            result = DriveResult.NO_WAY if track is None else self._along(track, known)
+            planned = self._planned(plan, known)
+            result = DriveResult.NO_WAY if planned is None else self._along(*planned, known)
         self._base.halt()
         return result
 
-    def _along(self, track: Track, known: dict[str, Percept]) -> DriveResult | None:
+    def _along(self, track: Track, gait: _Gait, known: dict[str, Percept]) -> DriveResult | None:
         """Drive along a path until it ends; None as soon as something new is in the way. New objects enter `known`."""
         base = self._base
-        deadline = base.seconds + _PATIENCE + _SLOWNESS * track.length / MAX_SPEED
+        deadline = base.seconds + _PATIENCE + _SLOWNESS * track.length / gait.speed
         while not self._stopped():
             progress = track.progress(base.pose.x, base.pose.y)
             left = track.length - progress
@@ -82,16 +96,17 @@ class Driver:
                 return DriveResult.ARRIVED
             if base.seconds > deadline:
                 return DriveResult.BLOCKED
-            ahead = track.point(progress + _LOOKAHEAD)
+            ahead = track.point(progress + gait.lookahead)
             error = wrap_angle(math.atan2(ahead[1] - base.pose.y, ahead[0] - base.pose.x) - base.heading)
             if abs(error) < _FACING and self._wants_to_look(known):
                 new = self._news(known)
                 known |= new
                 if not navigation.is_clear(
-                    track.rest(progress), [*self._obstacles(new.values(), _MARGINS[0]).values()]
+                    track.rest(progress), [*self._obstacles(new.values(), _GAITS[0].margin).values()]
                 ):
                     return None
-            base.tick(speed_towards(left) * max(0.0, 1.0 - abs(error) / _FACING), turn_towards(error))
+            speed = min(gait.speed, speed_towards(left))
+            base.tick(speed * max(0.0, 1.0 - abs(error) / _FACING), turn_towards(error))
         return DriveResult.STOPPED
 
     def _wants_to_look(self, known: Mapping[str, Percept]) -> bool:
@@ -106,12 +121,12 @@ class Driver:
         self._looked_at, self._looked_towards = self._base.seconds, self._base.heading
         return {id_: percept for id_, percept in self._look().items() if id_ not in known}
 
-    def _planned(self, plan: Planner, known: Mapping[str, Percept]) -> Track | None:
-        """The first path found, from a generous margin to a tight one."""
-        for margin in _MARGINS:
-            path = plan(self._obstacles(known.values(), margin))
+    def _planned(self, plan: Planner, known: Mapping[str, Percept]) -> tuple[Track, _Gait] | None:
+        """The first path found, from a generous margin to a tight one, and how to drive it."""
+        for gait in _GAITS:
+            path = plan(self._obstacles(known.values(), gait.margin))
             if path is not None:
-                return Track(path)
+                return Track(path), gait
         return None
 
     def _obstacles(self, percepts: Iterable[Percept], margin: float) -> dict[str, Circle]:

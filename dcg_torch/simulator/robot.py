@@ -260,7 +260,9 @@ class SimulatedRobot:
         """Drive by a plan; whether it arrived is said by the distance from `place` in the end."""
         if not self._distance(place) <= MAX_DISTANCE:
             return DriveResult.TOO_FAR
-        self._noticed |= {percept.id: percept for percept in percepts}
+        # what is farther than any drive, or nowhere, is in no way
+        near = (p for p in percepts if self._distance(p.position[:2]) <= 2 * MAX_DISTANCE)
+        self._noticed |= {percept.id: percept for percept in near}
         result = self._visit.driver.follow(plan, self._noticed)
         if result is DriveResult.STOPPED:
             return result

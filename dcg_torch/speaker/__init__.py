@@ -16,7 +16,9 @@ import numpy as np
 import yaml
 
 from dcg_torch.errors import UserError
-from dcg_torch.speaker import phrases, where
+from dcg_torch.speaker.fit import Surroundings
+from dcg_torch.speaker.phrases import wording
+from dcg_torch.speaker.referring import SPOKEN, generate
 from dcg_torch.world.files import World, WorldObject
 
 
@@ -113,16 +115,16 @@ class RelationalSpeaker:
         """The relational commands of the world file, in its order; otherwise one an object at the most."""
         if world.relational:
             return [Command(world, c.text, c.noun, c.color, c.target) for c in world.relational]
-        view = where.View.of(world)
+        around = Surroundings.of(world)
         found: dict[str, Command] = {}
         for _ in range(self.tries * len(world.objects)):
-            told = where.tell(view, str(rng.choice(where.SPOKEN)), rng, view.types)
-            if told is None:
+            description = generate(around, str(rng.choice(SPOKEN)), rng, around.types)
+            if description is None:
                 continue
-            (target,) = (world.objects[j].id for j in told.meant)
+            (target,) = (world.objects[j].id for j in description.meant)
             form = CANONICAL_FORMS[rng.integers(len(CANONICAL_FORMS))]
-            text = form.replace("the {thing}", phrases.wording(told.tree))
-            phrase = told.tree.phrase
+            text = form.replace("the {thing}", wording(description.tree))
+            phrase = description.tree.phrase
             found.setdefault(target, Command(world, text, phrase.noun or "thing", phrase.color, target))
         return [found[o.id] for o in world.objects if o.id in found]
 
