@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.objective import DenseRows, GridRows, likelihood, max_norm
+from dcg_torch.grounding.objective import DenseRows, likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
 
@@ -101,9 +101,9 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
-    if isinstance(objective.rows, GridRows) and solver != "lbfgs":
+    if not isinstance(objective.rows, DenseRows) and solver != "lbfgs":
         return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
-    if isinstance(objective.rows, DenseRows) and solver != "lbfgs":
+    if solver != "lbfgs":
         return solvers.newton(objective, objective.newton_step, start, tolerance=tolerance, max_steps=max_steps)
     return solvers.lbfgs(objective, start, tolerance=tolerance, max_steps=max_steps)
 
