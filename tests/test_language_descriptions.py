@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from language_descriptions import DEVELOPMENT, FRESH, HELD_OUT, Description
 
-from dcg_torch.bench import hostile
+from dcg_torch.bench.__main__ import hostile
 from dcg_torch.language import Parser, default_parser, target_phrase
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 

@@ -25,7 +25,7 @@ from typing import Protocol
 import numpy as np
 
 from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.psi import Bag, Floats
 from dcg_torch.grounding.solvers import Point
 
 _CG_STEPS = 50
@@ -129,34 +129,58 @@ class GridRows:
 
 @dataclass(frozen=True)
 class BagRows:
-    """Rows that are some cells of all phrases with all grounding columns: `cells[starts[n]:starts[n + 1]]` of A d.
+    """Rows that are some cells of A d, which is the sum of the rows of d that each phrase names.
+
+    Sums go a column of a bag at a time: so every numpy operation is about all rows or all phrases.
 
     Attributes:
-        language: (A, L).
-        cells: (E,) cells of (A, G), row after row; every row has one at least.
-        starts: (N,) where each row's cells begin.
-        groundings: G.
+        language: (A, k) bag of the phrases.
+        cells: (k', N) cells of (A, G), column after column; A * G where a row has fewer.
+        shape: (L, G).
         active: (K,) which cells of (L, G) the variables are; None: all.
     """
 
-    language: Floats
+    language: Bag
     cells: Ints
-    starts: Ints
-    groundings: int
+    shape: tuple[int, int]
     active: Ints | None
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        by_phrase = self.language @ spread(d, self.active, (self.language.shape[1], self.groundings))
-        return np.stack([np.add.reduceat(own.reshape(-1)[self.cells], self.starts) for own in by_phrase])
+        return np.stack([self._scores(own) for own in spread(d, self.active, self.shape)])
+
+    def _scores(self, d: Floats) -> Floats:
+        by_phrase = np.zeros((len(self.language) + 1, self.shape[1]))
+        padded = np.concatenate([d, np.zeros((1, self.shape[1]))])
+        for column in self.language.T:
+            by_phrase[:-1] += padded.take(column, axis=0, mode="wrap")
+        flat = by_phrase.reshape(-1)
+        total = flat.take(self.cells[0])
+        for column in self.cells[1:]:
+            total += flat.take(column)
+        return total
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        lengths = np.diff(self.starts, append=len(self.cells))
-        size = len(self.language) * self.groundings
-        cells = [np.bincount(self.cells, np.repeat(own, lengths), minlength=size) for own in residual]
-        by_phrase = np.stack(cells).reshape(len(residual), len(self.language), self.groundings)
-        return gathered(self.language.T @ by_phrase, self.active)
+        return gathered(np.stack([self._gradient(own) for own in residual]), self.active)
+
+    def _gradient(self, residual: Floats) -> Floats:
+        phrases, columns, starts = self._by_column
+        size = len(self.language) * self.shape[1] + 1
+        weights = np.broadcast_to(residual, self.cells.shape).reshape(-1)
+        cells = np.bincount(self.cells.reshape(-1), weights, minlength=size)[:-1].reshape(-1, self.shape[1])
+        whole = np.zeros(self.shape)
+        if len(columns):
+            whole[columns] = np.add.reduceat(cells.take(phrases, axis=0), starts, axis=0)
+        return whole
+
+    @cached_property
+    def _by_column(self) -> tuple[Ints, Ints, Ints]:
+        """The phrases that each language column fires in, column after column; the columns; where each begins."""
+        fires = self.language.reshape(-1)
+        order = np.argsort(fires, kind="stable")[np.count_nonzero(fires < 0) :]
+        columns, starts = np.unique(fires[order], return_index=True)
+        return order // max(1, self.language.shape[1]), columns, starts
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
@@ -271,6 +295,15 @@ class Objective:
                 break
             towards = eased + size / before * towards
         return step.reshape(-1)
+
+    def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
+        """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
+        if isinstance(self.rows, GridRows):
+            return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
+        curvature = point.chances * (1.0 - point.chances) * self.total
+        inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
+        return lambda gradient: inverse * gradient
+
 
     def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""

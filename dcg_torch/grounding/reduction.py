@@ -248,14 +248,15 @@ def _rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -> tu
     if unique and len(thing) >= _GRID * len(language) * len(things):
         grid = GridRows(language, binary(things, fires.shape[1]), None if whole else active)
         return grid, design.phrase * len(things) + thing
-    moving = np.zeros((len(language), fires.shape[1] + 1), dtype=np.bool_)
+    phrases, groundings = len(language), fires.shape[1]
+    moving = np.zeros((phrases, groundings + 1), dtype=np.bool_)
     moving[:, :-1] = language @ fires > 0.0
     used = moving[design.phrase[:, None], design.grounding]
     rows = np.flatnonzero(used.any(axis=1))
-    used = used[rows]
-    cells = (design.grounding[rows] + design.phrase[rows, None] * fires.shape[1])[used]
-    starts = np.cumsum(used.sum(axis=1)) - used.sum(axis=1)
-    return BagRows(language, cells, starts, fires.shape[1], None if fires.all() else active), rows
+    cells = np.where(used[rows], design.grounding[rows] + design.phrase[rows, None] * groundings, phrases * groundings)
+    cells.sort(axis=1)  # the padding comes last, and columns of padding alone go
+    cells = np.ascontiguousarray(cells[:, : int(used.sum(axis=1).max(initial=1))].T)
+    return BagRows(design.language, cells, fires.shape, None if fires.all() else active), rows
 
 
 def _together(design: DesignMatrix, groundings: int) -> Floats:

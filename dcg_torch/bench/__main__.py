@@ -11,12 +11,10 @@ import json
 import math
 import os
 import platform
-import statistics
 import subprocess
 import sys
-import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -24,13 +22,12 @@ import torch
 from rich import box
 from rich.table import Table as Grid
 
+from dcg_torch.bench.fits import bench_fits
+from dcg_torch.bench.result import Result, milliseconds, repeated, result
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.trial import run_trial
-from dcg_torch.grounding.design import merge
 from dcg_torch.grounding.features import PAPER, Group
-from dcg_torch.grounding.fit import fit, objective_at
-from dcg_torch.grounding.psi import TERNARY, LogLinearFactor
 from dcg_torch.language import default_parser
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
@@ -42,46 +39,17 @@ from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import COLORS, TYPES
 
-_L2 = 1.0
-_TOLERANCE = 1e-6  # of the gradient's max-norm
 _COLD = (
-    "from dcg_torch.lessons import initial_training; from dcg_torch.language import default_parser; from dcg_torch.model import GroundingModel; "
+    "from dcg_torch.language import default_parser; from dcg_torch.lessons import initial_training; "
+    "from dcg_torch.model import GroundingModel; "
     "default_parser().parse('go to the cube', ()); GroundingModel.trained(initial_training())"
 )
-
-
-@dataclass(frozen=True)
-class Result:
-    """One measurement: what, its unit, the median of `repeats`, the extremes, and the goal if there is one."""
-
-    name: str
-    unit: str
-    median: float
-    low: float
-    high: float
-    repeats: int
-    goal: float | None = None
-
-
-def _result(name: str, values: Sequence[float], unit: str = "ms", goal: float | None = None) -> Result:
-    return Result(name, unit, statistics.median(values), min(values), max(values), len(values), goal)
-
-
-def _milliseconds(work: Callable[..., object], *arguments: object) -> float:
-    began = time.perf_counter()
-    work(*arguments)
-    return 1000 * (time.perf_counter() - began)
-
-
-def _repeated(name: str, work: Callable[[], object], repeats: int, goal: float | None = None) -> Result:
-    work()  # warm up
-    return _result(name, [_milliseconds(work) for _ in range(repeats)], goal=goal)
 
 
 def bench_model() -> Iterator[Result]:
     """Training, retraining as a trial goes on, grounding, parsing."""
     training = initial_training()
-    yield _repeated("initial training", lambda: GroundingModel.trained(training), 15, goal=50)
+    yield repeated("initial training", lambda: GroundingModel.trained(training), 15, goal=50)
 
     commands = trial_commands(Settings(iterations=10), 0)
     parse = default_parser().parse
@@ -92,7 +60,7 @@ def bench_model() -> Iterator[Result]:
             0, commands, GroundingModel.trained(training), parse, FakeRobot(), np.random.default_rng(0)
         )
     ]
-    yield _result("one retraining in the loop", retraining, goal=50)
+    yield result("one retraining in the loop", retraining, goal=50)
 
     model = GroundingModel.trained(training)
     percepts = [
@@ -102,7 +70,7 @@ def bench_model() -> Iterator[Result]:
     ]
     tree = parse("move towards the red cube", model.symbols).tree
     assert tree is not None
-    yield _repeated(
+    yield repeated(
         f"grounding, {len(percepts)} objects and all hypotheticals",
         lambda: model.ground(tree, model.world_model(percepts, Pose(0.0, 0.0))),
         50,
@@ -110,7 +78,7 @@ def bench_model() -> Iterator[Result]:
     )
     texts = [command.text for command in commands] * 5
     parse(texts[0], model.symbols)
-    yield _result("parsing a command", [_milliseconds(parse, text, model.symbols) for text in texts])
+    yield result("parsing a command", [milliseconds(parse, text, model.symbols) for text in texts])
 
 
 _RELATED = (
@@ -143,9 +111,9 @@ def bench_relations() -> Iterator[Result]:
                 for k, kind in enumerate(kinds)
             ]
             spent.append(
-                _milliseconds(lambda p, t: model.ground(t, model.world_model(p, Pose(0.0, 0.0))), percepts, tree)
+                milliseconds(lambda p, t: model.ground(t, model.world_model(p, Pose(0.0, 0.0))), percepts, tree)
             )
-        yield _result(f"grounding among {len(kinds)}, {text.removeprefix('go to ')!r}", spent[5:], goal=5)
+        yield result(f"grounding among {len(kinds)}, {text.removeprefix('go to ')!r}", spent[5:], goal=5)
 
 
 _SCRAPS = """
@@ -184,7 +152,7 @@ def bench_hostile(count: int = 2_000) -> Result:
     rng = np.random.default_rng(0)
     parse = default_parser().parse
     parse("go to the cube", TYPES)
-    return _result("a hostile string", [_milliseconds(parse, hostile(rng), TYPES) for _ in range(count)], goal=50)
+    return result("a hostile string", [milliseconds(parse, hostile(rng), TYPES) for _ in range(count)], goal=50)
 
 
 def bench_robot() -> Iterator[Result]:
@@ -192,85 +160,24 @@ def bench_robot() -> Iterator[Result]:
     times: dict[str, list[float]] = {"loading a world": [], "perceiving": [], "turning 20 degrees": [], "a drive": []}
     with SimulatedRobot() as robot:
         for world in load_worlds(resource("worlds")):
-            times["loading a world"].append(_milliseconds(robot.load, world))
+            times["loading a world"].append(milliseconds(robot.load, world))
             seen: dict[str, Percept] = {}
             for _ in range(18):
-                times["perceiving"].append(_milliseconds(robot.perceive))
-                times["turning 20 degrees"].append(_milliseconds(robot.spin, math.radians(20)))
+                times["perceiving"].append(milliseconds(robot.perceive))
+                times["turning 20 degrees"].append(milliseconds(robot.spin, math.radians(20)))
                 seen |= {percept.id: percept for percept in robot.perceive()}
             for target in seen:
                 robot.load(world)
-                times["a drive"].append(_milliseconds(robot.drive_to, target, list(seen.values())))
+                times["a drive"].append(milliseconds(robot.drive_to, target, list(seen.values())))
     for name, values in times.items():
-        yield _result(name, values)
-
-
-@dataclass(frozen=True)
-class _Rows:
-    """Labelled factors drawn from a model of their own, about a sixth of them distinct."""
-
-    language: np.ndarray[tuple[int, int], np.dtype[np.int64]]
-    grounding: np.ndarray[tuple[int, int], np.dtype[np.int64]]
-    phrase: np.ndarray[tuple[int], np.dtype[np.int64]]
-    label: np.ndarray[tuple[int], np.dtype[np.int64]]
-    shape: tuple[int, int, int]
-
-
-def _draw_rows(count: int, rng: np.random.Generator) -> _Rows:
-    languages, groundings, ones = 40, 30, 3
-    side = math.ceil(math.sqrt(count / 6))
-    phrases = np.stack([rng.choice(languages, ones, replace=False) for _ in range(side)])
-    objects = np.stack([rng.choice(groundings, ones, replace=False) for _ in range(side)])
-    phrase = rng.integers(side, size=count)
-    grounding = objects[rng.integers(side, size=count)]
-    model = LogLinearFactor(np.ones((languages, groundings), dtype=np.bool_))
-    model.set_weight(rng.normal(size=tuple(model.weight.shape)))
-    chances = model.log_psi(phrases, grounding, phrase).exp().numpy()
-    label = (rng.random((count, 1)) > chances.cumsum(axis=1)).sum(axis=1).clip(0, len(TERNARY) - 1)
-    return _Rows(phrases, grounding, phrase, label, (len(TERNARY), languages, groundings))
-
-
-def bench_fit(count: int, repeats: int) -> Iterator[Result]:
-    """The fit of `count` rows, merging them included, beside scikit-learn's on the same rows.
-
-    Both minimise the same objective: scikit-learn's C is 1 / l2, and its columns are the pairs of ours.
-    """
-    rows = _draw_rows(count, np.random.default_rng(count))
-    model = LogLinearFactor(np.ones(rows.shape[1:], dtype=np.bool_))
-
-    def ours() -> None:
-        model.set_weight(torch.zeros_like(model.weight))
-        design = merge(rows.language, rows.grounding, rows.phrase, rows.label, np.ones(count), rows.shape[0])
-        fit(model, [design], l2=_L2, tolerance=_TOLERANCE)
-
-    mine = _repeated(f"fit, {count:,} rows", ours, repeats)
-    yield mine
-    try:
-        from scipy.sparse import csr_array
-        from sklearn.linear_model import LogisticRegression
-        from threadpoolctl import threadpool_limits
-    except ImportError:
-        return
-    columns = (rows.language[rows.phrase][:, :, None] * rows.shape[2] + rows.grounding[:, None, :]).reshape(count, -1)
-    starts = np.arange(0, columns.size + 1, columns.shape[1])
-    design = csr_array((np.ones(columns.size), columns.reshape(-1), starts), (count, rows.shape[1] * rows.shape[2]))
-    other = LogisticRegression(C=1 / _L2, fit_intercept=False, solver="lbfgs", tol=_TOLERANCE / count, max_iter=2000)
-    with threadpool_limits(1):
-        theirs = _repeated(f"scikit-learn's fit, {count:,} rows", lambda: other.fit(design, rows.label), repeats)
-    yield theirs
-    design = merge(rows.language, rows.grounding, rows.phrase, rows.label, np.ones(count), rows.shape[0])
-    values = [objective_at(model, [design], _L2)[0]]
-    model.set_weight(other.coef_.reshape(rows.shape))
-    values.append(objective_at(model, [design], _L2)[0])
-    yield _result(f"time over scikit-learn's, {count:,} rows", [mine.median / theirs.median], "ratio")
-    yield _result(f"objective over scikit-learn's less 1, {count:,} rows", [values[0] / values[1] - 1], "relative")
+        yield result(name, values)
 
 
 def bench_start(repeats: int = 2) -> Result:
     """A process that begins to run trials: imports, the parser, a first command read, a first training."""
     command = [sys.executable, "-c", _COLD]
-    return _result(
-        "cold start of a worker", [_milliseconds(lambda: subprocess.run(command, check=True)) for _ in range(repeats)]
+    return result(
+        "cold start of a worker", [milliseconds(lambda: subprocess.run(command, check=True)) for _ in range(repeats)]
     )
 
 
@@ -279,7 +186,7 @@ def peak_memory() -> Result:
     from resource import RUSAGE_SELF, getrusage  # not on Windows
 
     peak = getrusage(RUSAGE_SELF).ru_maxrss
-    return _result("peak memory", [peak / (1024 if sys.platform != "darwin" else 1024**2)], "MB", goal=1024)
+    return result("peak memory", [peak / (1024 if sys.platform != "darwin" else 1024**2)], "MB", goal=1024)
 
 
 def run_benchmarks() -> Iterator[Result]:
@@ -291,8 +198,7 @@ def run_benchmarks() -> Iterator[Result]:
     yield bench_hostile()
     yield from bench_robot()
     yield peak_memory()
-    yield from bench_fit(1_000, 7)
-    yield from bench_fit(100_000, 3)
+    yield from bench_fits()
 
 
 def _grid(results: Iterable[Result]) -> Grid:
