@@ -23,6 +23,11 @@ COSINE_FACTS: Final = tuple(f"cosine: over {level}" for level in _LEVELS)
 """Cumulative: a cosine of .65 is over .3, .4, .5 and .6, so that each weight is what one more step tells."""
 
 
+_REMEMBERED = 50_000
+_known: dict[str, NDArray[np.float32]] = {}
+"""The vectors of texts seen before: embedding takes milliseconds. Forgetting them changes no result."""
+
+
 class EmbeddingMissing(ImportError):
     """The extra is not installed; the message is one line that says how to install it."""
 
@@ -55,18 +60,21 @@ def embed(texts: Sequence[str]) -> NDArray[np.float32]:
     return np.asarray(found, dtype=np.float32)[[places[text] for text in texts]]
 
 
-@functools.lru_cache(maxsize=8192)
-def _vector(text: str) -> NDArray[np.float32]:
-    vector: NDArray[np.float32] = embed([text])[0]
-    return vector
+def cosines(text: str, others: Sequence[str]) -> NDArray[np.float64]:
+    """Of a text with each of several others, -1 to 1: (n,).
 
-
-def cosine(one: str, other: str) -> float:
-    """Of the vectors of two texts, -1 to 1."""
-    return float(_vector(one) @ _vector(other))
+    Raises:
+        EmbeddingMissing: the extra is not installed.
+    """
+    strange = [other for other in dict.fromkeys((text, *others)) if other not in _known]
+    if len(_known) + len(strange) > _REMEMBERED:
+        _known.clear()
+        strange = list(dict.fromkeys((text, *others)))
+    _known.update(zip(strange, embed(strange), strict=True))
+    return np.array([float(_known[text] @ _known[other]) for other in others])
 
 
 def cosine_evidence(noun: str, class_name: str) -> tuple[str, ...]:
     """Which of `COSINE_FACTS` hold between a noun and the name of a class, both in normal form."""
-    value = cosine(normalise(noun), normalise(class_name))
+    value = cosines(normalise(noun), [normalise(class_name)])[0]
     return tuple(fact for fact, level in zip(COSINE_FACTS, _LEVELS, strict=True) if value > level)
