@@ -7,6 +7,7 @@ The model (Reimers and Gurevych 2019, "Sentence-BERT"; Wang et al. 2020, "MiniLM
 from __future__ import annotations
 
 import functools
+import importlib
 import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
@@ -44,6 +45,7 @@ def _model() -> Any:
         raise EmbeddingMissing("minilm: the sentence embedding is not installed; install dcg-torch[embeddings]")
     from sentence_transformers import SentenceTransformer
 
+    importlib.import_module("transformers.utils.logging").disable_progress_bar()
     return SentenceTransformer(str(Path(spec.origin).parent / "model"), device="cpu", local_files_only=True)
 
 
