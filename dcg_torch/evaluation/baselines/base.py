@@ -33,6 +33,9 @@ class Baseline(Protocol):
     def fit(self, train: Sequence[Episode]) -> None:
         """Learn from episodes and their targets; there may be none."""
 
+    def look_ahead(self, test: Sequence[Episode]) -> None:
+        """Make ready for episodes to come, which is faster together than one by one; it changes no prediction."""
+
     def predict(self, episode: Episode) -> Guess:
         """Choose among the objects of an episode."""
 

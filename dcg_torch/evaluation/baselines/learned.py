@@ -49,6 +49,9 @@ class BagOfWords:
             raise SettingsError("baseline=bow learns from episodes; give train=FILE, or leave bow out")
         self._model.fit(self._hasher.transform(row for e in train for row in _rows(e)), labels)
 
+    def look_ahead(self, test: Sequence[Episode]) -> None:
+        """Nothing to make ready."""
+
     def predict(self, episode: Episode) -> Guess:
         """The likeliest object, its probability its share among the candidates."""
         rows = self._hasher.transform(_rows(episode))
@@ -92,8 +95,15 @@ class MiniLM:
 
     def fit(self, train: Sequence[Episode]) -> None:
         """Learn the temperature."""
+        self.look_ahead(train)
         scored = [(self._scores(e), places_meant(e)) for e in train]
         self._temperature = fit_temperature(scored, _TEMPERATURE)
+
+    def look_ahead(self, test: Sequence[Episode]) -> None:
+        """Embed all texts."""
+        embedding.remember(
+            [text for e in test for text in (e.text, self._noun_phrase(e.text), *_names(e), *_placed(e))]
+        )
 
     def predict(self, episode: Episode) -> Guess:
         """The object of the highest sum of cosines."""
@@ -103,12 +113,18 @@ class MiniLM:
         """Nothing."""
 
     def _scores(self, episode: Episode) -> Array:
-        names = [f"{o.color} {o.type}" if o.color else o.type for o in episode.objects]
-        placed = [f"{name} {side}".strip() for name, side in zip(names, sides(episode), strict=True)]
-        whole = embedding.cosines(episode.text, placed)
+        whole = embedding.cosines(episode.text, _placed(episode))
         phrase = self._noun_phrase(episode.text)
-        result: Array = whole + embedding.cosines(phrase, names) if phrase else whole
+        result: Array = whole + embedding.cosines(phrase, _names(episode)) if phrase else whole
         return result
+
+
+def _names(episode: Episode) -> list[str]:
+    return [f"{o.color} {o.type}" if o.color else o.type for o in episode.objects]
+
+
+def _placed(episode: Episode) -> list[str]:
+    return [f"{name} {side}".strip() for name, side in zip(_names(episode), sides(episode), strict=True)]
 
 
 def sides(episode: Episode) -> list[str]:

@@ -74,6 +74,9 @@ class Scored:
         scored = [(self._scores(e), places_meant(e)) for e in train]
         self._temperature = fit_temperature(scored, self._temperature)
 
+    def look_ahead(self, test: Sequence[Episode]) -> None:
+        """Nothing to make ready."""
+
     def predict(self, episode: Episode) -> Guess:
         """Choose the object of the highest score."""
         scores = self._scores(episode)
@@ -100,6 +103,9 @@ class Outcomes:
         for episode in train:
             self._count(episode, episode.target)
         self._temperature = fit_temperature([(self._scores(e), places_meant(e)) for e in train], self._temperature)
+
+    def look_ahead(self, test: Sequence[Episode]) -> None:
+        """Nothing to make ready."""
 
     def predict(self, episode: Episode) -> Guess:
         """Choose the object of the highest score."""
