@@ -40,6 +40,7 @@ _RELATIONAL: Final = re.compile(
     r"with|by|beside|top|bottom|middle|cent\w+|corner|first|second|third|fourth|last|not|except|but|than|\w+est|\w+er)\b"
 )
 _NAMED = 4.0  # log-odds from which words name a class
+_CLOSE = 1.0  # what they may lose against the last word alone: "red cube" names a cube less well than "cube"
 _LONGEST = 3  # words of a name
 _WORD: Final = re.compile(r"[A-Za-z']+")
 
@@ -213,7 +214,7 @@ def _said(episode: Episode) -> _Said | None:
             for length in range(1, min(_LONGEST, len(words) - k) + 1)
             if (text := _compound(words[k : k + length], target.color)) is not None
             for name in types
-            if (score := log_odds(text, name)) > _NAMED
+            if (score := log_odds(text, name)) > max(_NAMED, log_odds(words[k + length - 1][0], name) - _CLOSE)
         ]
         if not named:
             continue
