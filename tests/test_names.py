@@ -33,6 +33,7 @@ NAMES = [name for pair in MEANT + NOT_MEANT for name in pair]
         (("knives",), "knife"),
         (("bus", "buses"), "bus"),
         (("cube3", "Cube 3", "cube_3"), "cube 3"),
+        (("cubes 3",), "cube 3"),
         (("scissors",), "scissors"),
         (("tyre",), "tire"),
     ],
@@ -65,6 +66,12 @@ def test_a_singular_stays(noun: str) -> None:
         ("headphone", "head_phones", "name: equal", "kind: everyday"),
         ("scissor", "scissors", "name: equal", "kind: everyday"),
         ("glass", "glasses", "name: none", None),
+        ("head of lettuce", "lettuce", "name: class is head", None),
+        ("bar of soap", "SoapBar", "name: word", "kind: everyday"),
+        ("bottle of wine", "wine bottle", "name: equal", "kind: everyday"),
+        ("cube", "cube3", "name: head", None),
+        ("cube 3", "cube_3", "name: equal", "kind: everyday"),
+        ("cube 2", "cube_3", "name: same head", None),
         ("zorp", "blick", "name: none", "kind: strange"),
         ("wine glass", "glass", "name: class is head", None),
         ("tire pallet", "tire assembly pallet", "name: part", None),
@@ -206,7 +213,8 @@ def test_the_notice_of_wordnet_comes_along() -> None:
 @pytest.mark.slow
 @pytest.mark.skipif(not embedding.is_installed(), reason="the extra `embeddings` is not installed")
 def test_the_embedding_knows_near_words() -> None:
-    assert embedding.cosine("couch", "sofa") > embedding.cosine("couch", "hammer")
+    near, far, own = embedding.cosines("couch", ["sofa", "hammer", "couch"])
+    assert far < near < own == pytest.approx(1.0, abs=1e-5)
     assert embedding.cosine_evidence("couch", "Couch") == embedding.COSINE_FACTS
     assert np.linalg.norm(embedding.embed(["a", "b", "a"]), axis=1) == pytest.approx([1.0, 1.0, 1.0], abs=1e-5)
 

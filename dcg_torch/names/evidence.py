@@ -63,7 +63,11 @@ class _Name:
 class _Everyday:
     groups: dict[str, frozenset[int]]
     generic: frozenset[str]
-    measures: frozenset[str]
+
+
+@functools.cache
+def _measures() -> frozenset[str]:
+    return frozenset(read_data("everyday.yaml")["measures"])
 
 
 @functools.cache
@@ -73,17 +77,23 @@ def _everyday() -> _Everyday:
         for name in names:
             groups.setdefault(_name(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    return _Everyday(frozen, frozenset(map(str, data["generic"])), frozenset(data["measures"]))
+    return _Everyday(frozen, frozenset(map(str, data["generic"])))
 
 
 @functools.lru_cache(maxsize=8192)
 def _name(name: str) -> _Name:
-    """The parts of a name. What follows "of" comes first: "bottle of wine" is "wine bottle"."""
+    """The parts of a name. What follows "of" comes first, "bottle of wine" is "wine bottle", but not where the word
+    before it only measures: "head of lettuce" is lettuce. A number comes first too: "cube 3" is a cube."""
     words = tuple(part for word in normalise(name).split(" ") for part in _split(word))
     head = head_index(words)
     if head < len(words) - 1:
         before, after = words[: head + 1], words[head + 2 :]
-        words = (*after, *before) if words[head + 1] == "of" else (*before[:-1], before[-1])
+        if words[head + 1].isdigit():
+            words = (*words[head + 1 :], *before)
+        elif words[head + 1] == "of":
+            words = (*before, *after) if before[-1] in _measures() else (*after, *before)
+        else:
+            words = before
     words = tuple(w if w == "glasses" else singular(w) for w in words)
     return _Name(words, " ".join(words), "".join(w.removesuffix("s") if w != "glasses" else w for w in words))
 

@@ -76,9 +76,9 @@ def _variant(word: str) -> str:
 
 
 def head_index(words: list[str] | tuple[str, ...]) -> int:
-    """Where the head of a name stands: before the first "of", "for", "with", "in" or "on", else at the end."""
+    """Where the head of a name stands: before the first "of", "for", "with", "in", "on" or number, else at the end."""
     for k, word in enumerate(words):
-        if k and word in ("of", "for", "with", "in", "on", "and"):
+        if k and (word in ("of", "for", "with", "in", "on", "and") or word.isdigit()):
             return k - 1
     return len(words) - 1
 
