@@ -157,11 +157,9 @@ def test_a_disk_that_is_full_at_any_moment(
         return call
 
     with monkeypatch.context() as patch:
-        for name in ("_to_disk", "os.replace", "os.rename"):
-            target = f"dcg_torch.storage.whole.{name}"
-            patch.setattr(
-                target, failing({"_to_disk": os.fspath, "os.replace": os.replace, "os.rename": os.rename}[name])
-            )
+        patch.setattr("dcg_torch.storage.whole._to_disk", failing(Path.exists))
+        patch.setattr("dcg_torch.storage.whole.os.replace", failing(os.replace))
+        patch.setattr("dcg_torch.storage.whole.os.rename", failing(os.rename))
         with pytest.raises(OSError, match="No space left"):
             go_on(tmp_path / "run")
     go_on(tmp_path / "run")

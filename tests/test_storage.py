@@ -28,7 +28,12 @@ class TestWhole:
 
     def test_a_writer_is_given_the_suffix(self, tmp_path: Path) -> None:
         given_paths: list[Path] = []
-        write_whole(tmp_path / "a.gif", lambda path: (given_paths.append(path), path.touch()))
+
+        def write(path: Path) -> None:
+            given_paths.append(path)
+            path.touch()
+
+        write_whole(tmp_path / "a.gif", write)
         assert given_paths[0].suffix == ".gif"
 
     def test_the_old_file_stays_if_the_writer_fails(self, tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from types import FrameType
 from hydra._internal.utils import get_args_parser
 
 import dcg_torch
-from dcg_torch.cli.config import CONFIG_ERRORS, explain, register
+from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
 from dcg_torch.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
@@ -82,9 +82,10 @@ def run_application(application: Callable[[], None]) -> int:
             print(f"dcg_torch {dcg_torch.__version__}")
             return 0
         # Hydra would answer an option that it doesn't have with ten lines of usage.
-        _, strange = get_args_parser().parse_known_args()
+        given, strange = get_args_parser().parse_known_args()
         if strange:
             return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
+        refuse_nothing(given.overrides)
         register()
         application()
         sys.stdout.flush()

@@ -1,6 +1,6 @@
 """`dcg-torch completion bash|zsh`: what a shell completes, as a script for it to read.
 
-    source <(dcg-torch completion bash)
+source <(dcg-torch completion bash)
 """
 
 from __future__ import annotations

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import secrets
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -71,16 +72,32 @@ def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     return settings
 
 
+def refuse_nothing(overrides: Sequence[str]) -> None:
+    """See that no override chooses null where one of a group must be chosen; Hydra would answer with a traceback.
+
+    Raises:
+        SettingsError: one does.
+    """
+    for override in overrides:
+        group, _, values = override.partition("=")
+        if group in _GROUPS and "null" in values.split(","):
+            _refuse_choice(group, "null")
+
+
+_GROUPS = ("model", "simulator")
+
+
 def _refuse_choices() -> None:
-    """See that a kind of model and of simulator was chosen."""
-    if not HydraConfig.initialized():
-        return
-    for group, chosen in HydraConfig.get().runtime.choices.items():
-        if group in ("model", "simulator") and chosen in (None, "null", "schema"):
-            there = (path.stem for path in (resource("conf") / group).glob("*.yaml"))
-            raise SettingsError(
-                f"{group}={chosen or 'null'}: there is no such {group}; choose from {', '.join(sorted(there))}"
-            )
+    """See that a kind of model and of simulator was chosen, not just their schema."""
+    choices = HydraConfig.get().runtime.choices.items() if HydraConfig.initialized() else ()
+    for group, chosen in choices:
+        if group in _GROUPS and chosen in (None, "null", "schema"):
+            _refuse_choice(group, chosen or "null")
+
+
+def _refuse_choice(group: str, chosen: str) -> None:
+    there = sorted(path.stem for path in (resource("conf") / group).glob("*.yaml"))
+    raise SettingsError(f"{group}={chosen}: there is no such {group}; choose from {', '.join(there)}")
 
 
 def _refuse_added(config: DictConfig, schema: type) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
@@ -35,7 +36,9 @@ class Folders(Callback):
     def on_multirun_start(self, config: DictConfig, **_: Any) -> None:
         """Claim the folder of the sweep, and leave the overrides that all runs share out of the names in it."""
         with one_line_errors():
-            _HELD.enter_context(claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir"))
+            folder = claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir")
+            if (killed := _HELD.enter_context(folder)) is not None:
+                _sweep_shared_memory(killed)
         settings = cast(dict[str, Any], OmegaConf.to_container(config.hydra, resolve=False))
         params = settings["sweeper"].get("params") or {}
         given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
@@ -51,6 +54,18 @@ class Folders(Callback):
         with one_line_errors():
             compare_runs(Path(config.hydra.sweep.dir))
         _HELD.close()
+
+
+def _sweep_shared_memory(process: int) -> None:
+    """Remove what the joblib launcher of a sweep that was killed left, if that process is really gone."""
+    if Path(f"/proc/{process}").exists():
+        return
+    for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
+        for left in Path("/dev/shm").glob(pattern):
+            if left.is_dir():
+                shutil.rmtree(left, ignore_errors=True)
+            else:
+                left.unlink(missing_ok=True)
 
 
 def compare_runs(directory: Path) -> None:
