@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hydra import compose, initialize_config_dir
 from hypothesis import given
 from hypothesis import strategies as st
 from making import typed
@@ -14,6 +15,8 @@ from making import typed
 from dcg_torch import evaluate
 from dcg_torch import run as experiment
 from dcg_torch.cli.completion import script
+from dcg_torch.cli.config import register
+from dcg_torch.resources import resource
 from dcg_torch.settings import (
     Bounds,
     EvaluateSettings,
@@ -95,6 +98,7 @@ OF_EXPERIMENTS = [
     ("simulator=null", "simulator=null: there is no such simulator; choose from fake, pybullet"),
     ("trials=1000000000", "trials=1000000000: give a number from 1 to 100000"),
     ("seed=-1", "seed=-1"),
+    ("train=x.jsonl", "train: there is no such setting; did you mean training?"),
     ("simulator.spin_step=0", "spin_step=0"),
     ("animate=[0]", "animate"),
     ("hydra/launcher=joblibs", "hydra/launcher=joblibs: there is no such"),
@@ -134,6 +138,14 @@ def test_help_names_every_setting_with_its_meaning(main: Any, capsys: pytest.Cap
     for name, _, text, _ in described(Settings if main is experiment.main else EvaluateSettings):
         assert f"{name}=" in out
         assert " ".join(text.split()) in words
+
+
+def test_two_processes_of_one_second_get_folders_of_their_own() -> None:
+    register()
+    with initialize_config_dir(str(resource("conf")), version_base="1.3"):
+        for name in ("config", "evaluate"):
+            one, two = (compose(name, return_hydra_config=True).hydra.run.dir for _ in range(2))
+            assert one != two
 
 
 def test_the_version_is_this_projects(capsys: pytest.CaptureFixture[str]) -> None:

@@ -103,7 +103,7 @@ def _refuse_choice(group: str, chosen: str) -> None:
 def _refuse_added(config: DictConfig, schema: type) -> None:
     for key in flatten(cast(dict[str, Any], OmegaConf.to_container(config))):
         if key not in _keys(schema):  # Hydra's "+key=value" adds what the schema doesn't have
-            raise SettingsError(_unknown_key(key))
+            raise SettingsError(_unknown_key(key, schema))
 
 
 def save_composed(config: DictConfig, directory: Path) -> None:
@@ -120,8 +120,12 @@ def save_composed(config: DictConfig, directory: Path) -> None:
         write_whole(directory / ".hydra" / f"{name}.yaml", OmegaConf.to_yaml(part))
 
 
-def explain(error: Exception) -> str:
-    """One line for the user from one of `CONFIG_ERRORS`: what, where, how to mend it."""
+def explain(error: Exception, program: str = "run") -> str:
+    """One line for the user from one of `CONFIG_ERRORS`: what, where, how to mend it.
+
+    Args:
+        program: whose settings a misspelt one is compared with.
+    """
     cause = error.__cause__ or error.__context__
     first = next(iter(_lines(error)), type(error).__name__)
     if isinstance(error, MissingConfigException):
@@ -136,7 +140,7 @@ def explain(error: Exception) -> str:
         return f"{error.override}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
     if first.startswith(("Could not override", "Could not append")):
-        return _unknown_key(str(key or first.split("'")[1]))
+        return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])
     if first.startswith("Error merging override") and cause is not None:
         return f"{first.removeprefix('Error merging override ')}: {_lines(cause)[0]}"
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
@@ -146,9 +150,9 @@ _LAUNCHERS = {"joblib": ("hydra-joblib-launcher==1.2.0", "sweep")}
 """Launchers that may be installed besides: their package, and our extra that draws it in."""
 
 
-def _unknown_key(key: str) -> str:
-    near = difflib.get_close_matches(key[:100], [k for schema in SCHEMAS.values() for k in _keys(schema)], n=1)
-    hint = f"did you mean {near[0]}?" if near else "python -m dcg_torch --help lists all"
+def _unknown_key(key: str, schema: type) -> str:
+    near = difflib.get_close_matches(key[:100], sorted(_keys(schema)), n=1)
+    hint = f"did you mean {near[0]}?" if near else "--help lists all"
     return f"{key}: there is no such setting; {hint}"
 
 
