@@ -14,8 +14,7 @@ import torch
 from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
-from safetensors.torch import load_file
-from safetensors.torch import save as to_bytes
+from safetensors.torch import load_file, save_file
 
 from dcg_torch.errors import UserError
 from dcg_torch.grounding.encoding import Statistics
@@ -79,7 +78,7 @@ def save(model: GroundingModel, directory: Path) -> None:
         tuple(sorted(statistics.places)) if statistics else (),
     )
     weights, text = directory / WEIGHTS, directory / DESCRIPTION
-    Path(f"{weights}.part").write_bytes(to_bytes(tensors))  # so that a full disk is an OSError
+    save_file(tensors, f"{weights}.part")
     # Sets in their order of names, so that the same model gives the same bytes.
     Path(f"{text}.part").write_text(json.dumps(_ADAPTER.dump_python(description), default=sorted), encoding="utf-8")
     os.replace(f"{weights}.part", weights)

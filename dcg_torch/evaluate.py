@@ -192,7 +192,7 @@ def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> Non
 
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
-    with one_line_errors(directory, program="evaluate"):
+    with one_line_errors(directory):
         settings = evaluate_settings_of(config)
         with claim(directory, MARKS):
             figures = evaluate(settings, directory, console)
@@ -203,8 +203,9 @@ def _application(config: DictConfig) -> None:
 
 def main() -> int:
     """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
-    application = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="evaluate")(_application)
-    return run_application(application, "evaluate")
+    return run_application(
+        hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="evaluate")(_application)
+    )
 
 
 if __name__ == "__main__":

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import shutil
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
@@ -17,6 +16,7 @@ from dcg_torch.cli.console import make_console
 from dcg_torch.report.summary import distinguish, find_runs, load_run
 from dcg_torch.report.tables import print_comparison, tabulate_runs
 from dcg_torch.storage.claim import check_place, claim
+from dcg_torch.storage.whole import remove
 
 # Not in the callback, which a launcher may send to other processes.
 _HELD = contextlib.ExitStack()
@@ -62,10 +62,7 @@ def _sweep_shared_memory(process: int) -> None:
         return
     for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
         for left in Path("/dev/shm").glob(pattern):
-            if left.is_dir():
-                shutil.rmtree(left, ignore_errors=True)
-            else:
-                left.unlink(missing_ok=True)
+            remove(left)
 
 
 def compare_runs(directory: Path) -> None:

@@ -194,7 +194,7 @@ def _check_keys(line: Any, where: str) -> None:
     if not isinstance(line, dict):
         return
     things = line.get("objects")
-    records: list[tuple[str, Any, type[_Record]]] = [("", line, Episode)]
+    records: list[tuple[str, Any, type[BaseModel]]] = [("", line, Episode)]
     records += [(f"objects.{k}.", o, EpisodeObject) for k, o in enumerate(things if isinstance(things, list) else [])]
     for prefix, record, model in records:
         if not isinstance(record, dict) or len(record) > _MOST_KEYS:
