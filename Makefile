@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-u
 PYTHON ?= $(shell for p in python3.11 python3; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 
-.PHONY: help reproduce test check lint bench board clean
+.PHONY: help reproduce test torture check lint bench board clean
 .DEFAULT_GOAL := help
 
 help: ## Show this list
@@ -24,6 +24,9 @@ reproduce: $(VENV)/installed ## Run the paper's experiment (written, then canoni
 
 test: $(VENV)/installed-dev ## Run the tests, the fast ones first
 	$(BIN)/python -m pytest
+
+torture: $(VENV)/installed-dev ## Kills, full disks, hostile files, a soak: up to half an hour
+	$(BIN)/python tests/torture
 
 check: lint test ## Lint, types and tests
 

@@ -232,7 +232,7 @@ def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> Non
 
 def _application(config: DictConfig) -> None:
     directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
-    with one_line_errors(directory):
+    with one_line_errors(directory, program="evaluate"):
         settings = evaluate_settings_of(config)
         with claim(directory, MARKS):
             figures = evaluate(settings, directory, console)
@@ -243,9 +243,8 @@ def _application(config: DictConfig) -> None:
 
 def main() -> int:
     """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
-    return run_application(
-        hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="evaluate")(_application)
-    )
+    wrap = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="evaluate")
+    return run_application(wrap(_application), "evaluate")
 
 
 if __name__ == "__main__":

@@ -148,6 +148,22 @@ class TestRow:
         assert (row.chosen, row.grounded, row.arrived, row.correct) == ("red_cube", None, True, True)
         assert row.path_length == pytest.approx(2.0)
 
+    @pytest.mark.parametrize(
+        ("text", "away", "correct"),
+        [
+            ("stay away from the red cube", True, True),
+            ("stay away from the red cube", False, False),
+            ("go to the red cube", True, False),
+            ("go to the red cube", False, True),
+        ],
+    )
+    def test_keeping_away_is_right_where_it_was_ordered(
+        self, pupil: Pupil, parser: Parser, text: str, away: bool, correct: bool
+    ) -> None:
+        command = Command(WORLD, text, "cube", "red", "red_cube", away)
+        ((row, _),) = run_trial(0, [command], pupil(), parser.parse, FakeRobot(), np.random.default_rng(0))
+        assert (row.chosen, row.arrived, row.correct) == ("red_cube", True, correct)
+
     def test_counted_from_zero(self, rows: list[Iteration]) -> None:
         assert [(r.trial, r.iteration) for r in rows] == [(7, k) for k in range(7)]
 

@@ -13,7 +13,7 @@ from types import FrameType
 from hydra._internal.utils import get_args_parser
 
 import dcg_torch
-from dcg_torch.cli.config import CONFIG_ERRORS, explain, register
+from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
 from dcg_torch.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
@@ -39,17 +39,18 @@ def refuse(message: str, directory: Path | None = None) -> int:
 
 
 @contextlib.contextmanager
-def one_line_errors(directory: Path | None = None, goes_on: str = "") -> Iterator[None]:
+def one_line_errors(directory: Path | None = None, goes_on: str = "", program: str = "run") -> Iterator[None]:
     """End the program with one line, where the user or the machine has to mend something.
 
     Args:
         directory: the run folder; it goes away if nothing was written into it.
         goes_on: what to say after "interrupted", of how to go on.
+        program: of `settings_help.SCHEMAS`.
     """
     try:
         yield
     except CONFIG_ERRORS as error:
-        sys.exit(refuse(explain(error), directory))
+        sys.exit(refuse(explain(error, program), directory))
     except UserError as error:
         sys.exit(refuse(str(error), directory))
     except BrokenPipeError:
@@ -71,20 +72,25 @@ def _close_output() -> None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
-def run_application(application: Callable[[], None]) -> int:
-    """Run a Hydra application; the exit status: 0 done, 2 wrong input, 130 interrupted."""
+def run_application(application: Callable[[], None], program: str = "run") -> int:
+    """Run a Hydra application; the exit status: 0 done, 2 wrong input, 130 interrupted.
+
+    Args:
+        program: of `settings_help.SCHEMAS`.
+    """
     os.environ["HYDRA_FULL_ERROR"] = "1"  # errors come here as exceptions, not as Hydra's own printed report
     for number in (signal.SIGTERM, signal.SIGHUP):
         if signal.getsignal(number) is signal.SIG_DFL:  # not under nohup
             signal.signal(number, _stop)
-    with one_line_errors():
+    with one_line_errors(program=program):
         if "--version" in sys.argv[1:]:
             print(f"dcg_torch {dcg_torch.__version__}")
             return 0
         # Hydra would answer an option that it doesn't have with ten lines of usage.
-        _, strange = get_args_parser().parse_known_args()
+        given, strange = get_args_parser().parse_known_args()
         if strange:
             return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
+        refuse_nothing(given.overrides)
         register()
         application()
         sys.stdout.flush()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import secrets
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any, cast
 
@@ -71,22 +72,38 @@ def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     return settings
 
 
+def refuse_nothing(overrides: Sequence[str]) -> None:
+    """See that no override chooses null where one of a group must be chosen; Hydra would answer with a traceback.
+
+    Raises:
+        SettingsError: one does.
+    """
+    for override in overrides:
+        group, _, values = override.partition("=")
+        if group in _GROUPS and "null" in values.split(","):
+            _refuse_choice(group, "null")
+
+
+_GROUPS = ("model", "simulator")
+
+
 def _refuse_choices() -> None:
-    """See that a kind of model and of simulator was chosen."""
-    if not HydraConfig.initialized():
-        return
-    for group, chosen in HydraConfig.get().runtime.choices.items():
-        if group in ("model", "simulator") and chosen in (None, "null", "schema"):
-            there = (path.stem for path in (resource("conf") / group).glob("*.yaml"))
-            raise SettingsError(
-                f"{group}={chosen or 'null'}: there is no such {group}; choose from {', '.join(sorted(there))}"
-            )
+    """See that a kind of model and of simulator was chosen, not just their schema."""
+    choices = HydraConfig.get().runtime.choices.items() if HydraConfig.initialized() else ()
+    for group, chosen in choices:
+        if group in _GROUPS and chosen in (None, "null", "schema"):
+            _refuse_choice(group, chosen or "null")
+
+
+def _refuse_choice(group: str, chosen: str) -> None:
+    there = sorted(path.stem for path in (resource("conf") / group).glob("*.yaml"))
+    raise SettingsError(f"{group}={chosen}: there is no such {group}; choose from {', '.join(there)}")
 
 
 def _refuse_added(config: DictConfig, schema: type) -> None:
     for key in flatten(cast(dict[str, Any], OmegaConf.to_container(config))):
         if key not in _keys(schema):  # Hydra's "+key=value" adds what the schema doesn't have
-            raise SettingsError(_unknown_key(key))
+            raise SettingsError(_unknown_key(key, schema))
 
 
 def save_composed(config: DictConfig, directory: Path) -> None:
@@ -103,8 +120,12 @@ def save_composed(config: DictConfig, directory: Path) -> None:
         write_whole(directory / ".hydra" / f"{name}.yaml", OmegaConf.to_yaml(part))
 
 
-def explain(error: Exception) -> str:
-    """One line for the user from one of `CONFIG_ERRORS`: what, where, how to mend it."""
+def explain(error: Exception, program: str = "run") -> str:
+    """One line for the user from one of `CONFIG_ERRORS`: what, where, how to mend it.
+
+    Args:
+        program: whose settings a misspelt one is compared with.
+    """
     cause = error.__cause__ or error.__context__
     first = next(iter(_lines(error)), type(error).__name__)
     if isinstance(error, MissingConfigException):
@@ -119,7 +140,7 @@ def explain(error: Exception) -> str:
         return f"{error.override}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
     if first.startswith(("Could not override", "Could not append")):
-        return _unknown_key(str(key or first.split("'")[1]))
+        return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])
     if first.startswith("Error merging override") and cause is not None:
         return f"{first.removeprefix('Error merging override ')}: {_lines(cause)[0]}"
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
@@ -129,9 +150,9 @@ _LAUNCHERS = {"joblib": ("hydra-joblib-launcher==1.2.0", "sweep")}
 """Launchers that may be installed besides: their package, and our extra that draws it in."""
 
 
-def _unknown_key(key: str) -> str:
-    near = difflib.get_close_matches(key[:100], [k for schema in SCHEMAS.values() for k in _keys(schema)], n=1)
-    hint = f"did you mean {near[0]}?" if near else "python -m dcg_torch --help lists all"
+def _unknown_key(key: str, schema: type) -> str:
+    near = difflib.get_close_matches(key[:100], sorted(_keys(schema)), n=1)
+    hint = f"did you mean {near[0]}?" if near else "--help lists all"
     return f"{key}: there is no such setting; {hint}"
 
 

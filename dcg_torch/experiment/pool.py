@@ -34,9 +34,7 @@ class WorkerKilledError(UserError):
 
 
 def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
-    """Do `work` for every task, each in one of several new processes.
-
-    As with all of `multiprocessing`, a script that calls this needs `if __name__ == "__main__"`.
+    """Do `work` for every task, each in one of several new processes; a script needs `if __name__ == "__main__"`.
 
     Args:
         work: what can be pickled; its result is thrown away.

@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,9 +14,8 @@ from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, car
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.model import GroundingModel
-from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
+from dcg_torch.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.speaker import Command
-from dcg_torch.types import Pose
 
 
 def run_trial(
@@ -41,14 +39,12 @@ def run_trial(
         explorer: makes the explorer of a command; None: the paper's turning in place.
         asking: when to ask back; the speaker answers truthfully. None: never.
     """
-    known_types = model.known_types
-    first_words = frozenset(model.symbols)
-    met = set(known_types)
-    for iteration, command in enumerate(commands):
+    book = _Book(trial, model, robot)
+    for command in commands:
         clock = Stopwatch()
         with clock("load_world"):
             robot.load(command.world, rng=rng)
-        before = _Before(robot.pose, _kind(command.noun, first_words, model))
+        book.open(command)
         outcome = carry_out(
             command.text,
             model,
@@ -63,40 +59,57 @@ def run_trial(
         )
         with clock("train"):
             if outcome.solution is not None:
-                model.learn(outcome.solution, outcome.experience(f"{iteration}"))
-        met |= {o.type for o in command.world.objects if o.id == command.target}
-        said = _of_command(command, known_types, before)
-        done = _of_outcome(command, outcome, robot)
-        knows = _of_model(model, first_words, len(met))
-        at: dict[str, Any] = {"trial": trial, "iteration": iteration}
-        yield Iteration(**at, **said, **done, **knows), Timing(**at, **_timing(clock, model, robot))
+                model.learn(outcome.solution, outcome.experience(f"{book.iteration}"))
+        yield book.close(command, outcome, clock)
 
 
-@dataclass(frozen=True)
-class _Before:
-    """What was the case when a command was heard: the robot's pose, and what the noun was to it."""
+class _Book:
+    """Makes the records of a trial: told when a command is heard, and when it is over.
 
-    pose: Pose
-    kind: Kind
+    Attributes:
+        iteration: number of the command, from 0.
+    """
+
+    def __init__(self, trial: int, model: GroundingModel, robot: SimulationRobot) -> None:
+        self._trial, self._model, self._robot = trial, model, robot
+        self._known_types = model.known_types
+        self._first_words = frozenset(model.symbols)
+        self._met = set(self._known_types)
+        self._said: dict[str, Any] = {}
+        self.iteration = -1
+
+    def open(self, command: Command) -> None:
+        """The robot stands at its start and hears a command."""
+        self.iteration += 1
+        self._met |= {o.type for o in command.world.objects if o.id == command.target}
+        learned = command.noun in self._model.symbols
+        kind = "known" if command.noun in self._first_words else "learned" if learned else "unknown"
+        start = self._robot.pose
+        self._said = {
+            "robot": PoseRecord(x=start.x, y=start.y, yaw=start.yaw),
+            "known_types": self._known_types,
+            "kind": kind,
+            **_of_command(command),
+        }
+
+    def close(self, command: Command, outcome: Outcome, clock: Stopwatch) -> tuple[Iteration, Timing]:
+        """The command is over, and the model has learned from it."""
+        at: dict[str, Any] = {"trial": self._trial, "iteration": self.iteration}
+        done = _of_outcome(command, outcome, self._robot)
+        knows = _of_model(self._model, self._first_words, len(self._met))
+        return Iteration(**at, **self._said, **done, **knows), Timing(**at, **_timing(clock, self._model, self._robot))
 
 
-def _kind(noun: str, first_words: frozenset[str], model: GroundingModel) -> Kind:
-    return "known" if noun in first_words else "learned" if noun in model.symbols else "unknown"
-
-
-def _of_command(command: Command, known_types: tuple[str, ...], before: _Before) -> dict[str, Any]:
-    """The fields of a record that were settled when the command was given."""
-    start, objects = before.pose, command.world.objects
+def _of_command(command: Command) -> dict[str, Any]:
+    """The fields of a record that say what was commanded, and where."""
+    objects = command.world.objects
     return {
         "world": command.world.name,
         "command": command.text,
         "noun": command.noun,
         "color": command.color,
-        "robot": PoseRecord(x=start.x, y=start.y, yaw=start.yaw),
         "objects": tuple(ObjectRecord(id=o.id, type=o.type, color=o.color, position=o.position) for o in objects),
-        "known_types": known_types,
         "target": command.target,
-        "kind": before.kind,
     }
 
 

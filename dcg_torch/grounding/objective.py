@@ -304,7 +304,6 @@ class Objective:
         inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
         return lambda gradient: inverse * gradient
 
-
     def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
         if isinstance(self.rows, GridRows):

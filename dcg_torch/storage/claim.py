@@ -20,7 +20,7 @@ class ClaimError(UserError):
 
 
 @contextlib.contextmanager
-def claim(directory: Path, marks: Collection[str] = (), *, setting: str = "hydra.run.dir") -> Iterator[None]:
+def claim(directory: Path, marks: Collection[str] = (), *, setting: str = "hydra.run.dir") -> Iterator[int | None]:
     """Own a folder for the length of a `with` block: nobody else who claims it gets past the first line.
 
     The folder is made if need be. The lock is the kernel's and ends with the process that holds it, however that
@@ -32,14 +32,19 @@ def claim(directory: Path, marks: Collection[str] = (), *, setting: str = "hydra
             ours. Empty: any folder will do.
         setting: what the user names the folder with, for the message.
 
+    Yields:
+        The number of the process that was killed while it had the folder, if one was.
+
     Raises:
         ClaimError: another process has it, it holds other things, or it is no place for a folder.
     """
     check_place(directory, marks, setting=setting)
     descriptor = _locked(directory, setting)
     try:
+        killed = os.read(descriptor, 20)
+        os.pwrite(descriptor, f"{os.getpid()}\n".encode(), 0)
         sweep_parts(directory)
-        yield
+        yield int(killed) if killed.strip().isdigit() else None
     finally:
         with contextlib.suppress(OSError):
             (directory / LOCK).unlink()

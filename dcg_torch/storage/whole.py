@@ -47,10 +47,15 @@ def write_whole(path: Path, content: bytes | str | Callable[[Path], object]) -> 
 def sweep_parts(directory: Path) -> None:
     """Remove what killed writers left in a folder and below it; only for the folder's owner."""
     for part in directory.rglob(f".*{_MARK}*"):
-        if part.is_dir() and not part.is_symlink():
-            shutil.rmtree(part, ignore_errors=True)
-        else:
-            part.unlink(missing_ok=True)
+        remove(part)
+
+
+def remove(path: Path) -> None:
+    """Remove a file, a link, or a folder with all that is in it."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path, ignore_errors=True)
+    else:
+        path.unlink(missing_ok=True)
 
 
 def _to_disk(path: Path) -> None:

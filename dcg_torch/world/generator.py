@@ -63,17 +63,8 @@ def generate_world(
         ValueError: an argument is out of range, no draw was other than empty, or the objects do not fit into a
             square of `half_width` (after a bounded number of tries).
     """
-    if not types or not colors:
-        raise ValueError("a world needs at least one type and one colour")
-    for what, names in (("type", types), ("colour", colors)):
-        if repeated := [name for name, times in Counter(names).items() if times > 1]:
-            raise ValueError(f"{what} {repeated[0]!r} is given more than once")
-    if not 0.0 < probability <= 1.0:
-        raise ValueError(f"probability {probability} of an object is not in (0, 1]")
-    if spacing < 0.0 or robot_spacing < 0.0 or (half_width is not None and half_width <= 0.0):
-        raise ValueError(
-            f"distances must not be negative: half_width {half_width}, spacing {spacing}, robot_spacing {robot_spacing}"
-        )
+    _check_request(types, colors, probability)
+    _check_distances(half_width, spacing, robot_spacing)
     chosen = _draw_objects(rng, types, colors, probability)
     width = _sufficient_half_width(len(chosen), spacing, robot_spacing) if half_width is None else half_width
     robot, feet = _place(rng, len(chosen), width, spacing, robot_spacing)
@@ -81,17 +72,46 @@ def generate_world(
     return World(
         name=name,
         robot=RobotStart(x=_rounded(robot[0]), y=_rounded(robot[1]), yaw=_rounded(yaws[0])),
-        objects=tuple(
-            WorldObject(
-                id=f"{color}_{type}".replace(" ", "_"),
-                type=type,
-                color=color,
-                position=(_rounded(foot[0]), _rounded(foot[1])),
-                yaw=_rounded(yaw),
-            )
-            for (type, color), foot, yaw in zip(chosen, feet, yaws[1:], strict=True)
-        ),
+        objects=tuple(map(_object_at, chosen, feet, yaws[1:])),
     )
+
+
+def _object_at(pair: tuple[str, str], foot: np.ndarray, yaw: float) -> WorldObject:
+    type, color = pair
+    return WorldObject(
+        id=f"{color}_{type}".replace(" ", "_"),
+        type=type,
+        color=color,
+        position=(_rounded(foot[0]), _rounded(foot[1])),
+        yaw=_rounded(yaw),
+    )
+
+
+def _check_distances(half_width: float | None, spacing: float, robot_spacing: float) -> None:
+    """See that none is negative.
+
+    Raises:
+        ValueError: one is.
+    """
+    if spacing < 0.0 or robot_spacing < 0.0 or (half_width is not None and half_width <= 0.0):
+        raise ValueError(
+            f"distances must not be negative: half_width {half_width}, spacing {spacing}, robot_spacing {robot_spacing}"
+        )
+
+
+def _check_request(types: Sequence[str], colors: Sequence[str], probability: float) -> None:
+    """See that there is something to draw from.
+
+    Raises:
+        ValueError: there is not.
+    """
+    if not types or not colors:
+        raise ValueError("a world needs at least one type and one colour")
+    for what, names in (("type", types), ("colour", colors)):
+        if repeated := [name for name, times in Counter(names).items() if times > 1]:
+            raise ValueError(f"{what} {repeated[0]!r} is given more than once")
+    if not 0.0 < probability <= 1.0:
+        raise ValueError(f"probability {probability} of an object is not in (0, 1]")
 
 
 def _draw_objects(

@@ -1,0 +1,86 @@
+"""`dcg-torch COMMAND`: each is found, and one whose packages are missing names the extra."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import pytest
+from making import typed
+
+from dcg_torch.cli.commands import COMMANDS, Command, main, usage
+
+
+def test_every_command_has_a_module_and_a_line_of_help() -> None:
+    for name, command in COMMANDS.items():
+        assert find_spec(f"dcg_torch.{command.module}") is not None
+        assert f"  {name} " in usage()
+
+
+def test_without_arguments_the_commands_are_listed(capsys: pytest.CaptureFixture[str]) -> None:
+    for arguments in ([], ["--help"], ["help"]):
+        status, out, _ = typed(capsys, main, "dcg-torch", *arguments)
+        assert status == 0
+        assert all(command.does in out for command in COMMANDS.values())
+
+
+def test_a_command_gets_its_arguments(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = typed(capsys, main, "dcg-torch", "completion", "bash")
+    assert status == 0
+    assert out.startswith("_dcg_torch()")
+    status, out, _ = typed(capsys, main, "dcg-torch", "evaluate", "--help")
+    assert "usage: python -m dcg_torch.evaluate" in out
+
+
+def test_overrides_alone_are_an_experiment(capsys: pytest.CaptureFixture[str]) -> None:
+    status, _, err = typed(capsys, main, "dcg-torch", "trils=3")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "did you mean trials?" in err
+
+
+def test_a_missing_extra_is_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    needy = Command("cli.needy", "needs what is not there", "needy", ("no_such_package",))
+    (tmp_path / "needy.py").write_text("import no_such_package.inside\n")
+    monkeypatch.setattr("dcg_torch.cli.__path__", [str(tmp_path)])
+    status, _, err = typed(capsys, lambda: main({"run": COMMANDS["run"], "needy": needy}), "dcg-torch", "needy")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "needs no_such_package, of the extra needy: pip install 'dcg-torch[needy]'" in err
+
+
+# As where PyBullet has no wheels: an import of it fails, and it cannot be found.
+WITHOUT = """
+import sys
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in ("pybullet", "pybullet_utils", "pybullet_data"):
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+sys.meta_path.insert(0, Absent())
+import importlib.util
+real = importlib.util.find_spec
+importlib.util.find_spec = lambda name, package=None: None if name == "pybullet" else real(name, package)
+import dcg_torch, dcg_torch.evaluate
+from dcg_torch.run import main
+sys.exit(main())
+"""
+
+
+@pytest.mark.slow
+def test_without_pybullet_the_fake_robot_runs_and_the_other_says_how_to_get_it(tmp_path: Path) -> None:
+    plain = ["workers=1", "trials=1", "iterations=1", "speaker=canonical", "figures=false", "tensorboard=false"]
+    for simulator, status, says in (("fake", 0, ""), ("pybullet", 2, "pip install pybullet==3.2.7")):
+        done = subprocess.run(
+            [
+                *(sys.executable, "-c", WITHOUT, *plain, f"simulator={simulator}"),
+                f"hydra.run.dir={tmp_path / simulator}",
+            ],
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        assert done.returncode == status, done.stderr
+        assert says in done.stderr
+        assert done.stderr.count("\n") == (status == 2)

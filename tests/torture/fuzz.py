@@ -1,0 +1,81 @@
+"""Twenty thousand hostile files for each reader."""
+
+from __future__ import annotations
+
+import random
+import resource
+import sys
+import tempfile
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from hostile import EPISODE, TRAINING, WORLD, json_lines, yaml_files
+from hypothesis import HealthCheck, given, seed, settings
+from hypothesis import strategies as st
+
+from dcg_torch.errors import UserError
+from dcg_torch.evaluation.episodes import read_episodes
+from dcg_torch.lessons import read_training
+from dcg_torch.world.files import load_world
+
+INPUTS = 20_000
+_SLOWEST, _MOST = 2.0, 200.0  # seconds of one input; MB beyond what there was
+
+
+def readers(rng: random.Random, directory: Path, until: float) -> tuple[bool, str]:
+    """Feed every reader; it takes a file or refuses it with one printable line, quickly."""
+    said, good = [], True
+    begun = _megabytes()
+    choice: dict[str, tuple[Callable[[Path], Any], st.SearchStrategy[bytes]]] = {
+        "world": (load_world, yaml_files(WORLD)),
+        "training": (read_training, yaml_files(TRAINING)),
+        "episodes": (read_episodes, json_lines(EPISODE)),
+    }
+    for k, (name, (read, files)) in enumerate(choice.items()):
+        share = time.monotonic() + (until - time.monotonic()) / (len(choice) - k)
+        tried, taken, slowest, wrong = _feed(read, files, rng.randrange(2**32), share)
+        good &= wrong is None and slowest < _SLOWEST and tried > 0
+        said.append(f"{name} {tried} files, {taken} taken, slowest {slowest:.2f} s{f', {wrong}' if wrong else ''}")
+    more = _megabytes() - begun
+    return good and more < _MOST, "; ".join(said) + f"; {more:.0f} MB more than before"
+
+
+def _feed(
+    read: Callable[[Path], Any], files: st.SearchStrategy[bytes], start: int, until: float
+) -> tuple[int, int, float, str | None]:
+    """How many files there were, how many were taken, the slowest, and the first thing that went wrong."""
+    tried = taken = 0
+    slowest = 0.0
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "a_file"
+
+        @seed(start)
+        @settings(max_examples=INPUTS, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+        @given(files)
+        def feed(content: bytes) -> None:
+            nonlocal tried, taken, slowest
+            if time.monotonic() > until:
+                return
+            path.write_bytes(content)
+            began = time.process_time()
+            tried += 1
+            try:
+                read(path)
+                taken += 1
+            except UserError as error:
+                if not str(error).isprintable() or len(str(error)) > 600:
+                    raise AssertionError(repr(str(error))) from error
+            slowest = max(slowest, time.process_time() - began)
+
+        try:
+            feed()
+        except Exception as error:
+            return tried, taken, slowest, f"{type(error).__name__}: {str(error)[:200]}"
+    return tried, taken, slowest, None
+
+
+def _megabytes() -> float:
+    unit = 1024 if sys.platform != "darwin" else 1024**2
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / unit
