@@ -23,6 +23,7 @@ from functools import cached_property
 from typing import Protocol
 
 import numpy as np
+import torch
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Bag, Floats
@@ -155,7 +156,7 @@ class BagRows:
         for column in self.language.T:
             by_phrase[:-1] += padded.take(column, axis=0, mode="wrap")
         flat = by_phrase.reshape(-1)
-        total = flat.take(self.cells[0])
+        total: Floats = flat.take(self.cells[0])
         for column in self.cells[1:]:
             total += flat.take(column)
         return total
@@ -165,22 +166,21 @@ class BagRows:
         return gathered(np.stack([self._gradient(own) for own in residual]), self.active)
 
     def _gradient(self, residual: Floats) -> Floats:
-        phrases, columns, starts = self._by_column
+        phrases, columns = self._by_column
         size = len(self.language) * self.shape[1] + 1
         weights = np.broadcast_to(residual, self.cells.shape).reshape(-1)
         cells = np.bincount(self.cells.reshape(-1), weights, minlength=size)[:-1].reshape(-1, self.shape[1])
-        whole = np.zeros(self.shape)
-        if len(columns):
-            whole[columns] = np.add.reduceat(cells.take(phrases, axis=0), starts, axis=0)
-        return whole
+        whole = torch.zeros(self.shape, dtype=torch.float64)  # numpy's sums of rows take twice as long
+        whole.index_add_(0, columns, torch.from_numpy(cells).index_select(0, phrases))
+        gradient: Floats = whole.numpy()
+        return gradient
 
     @cached_property
-    def _by_column(self) -> tuple[Ints, Ints, Ints]:
-        """The phrases that each language column fires in, column after column; the columns; where each begins."""
+    def _by_column(self) -> tuple[torch.Tensor, torch.Tensor]:
+        """The phrases that each language column fires in, column after column, and the columns."""
         fires = self.language.reshape(-1)
         order = np.argsort(fires, kind="stable")[np.count_nonzero(fires < 0) :]
-        columns, starts = np.unique(fires[order], return_index=True)
-        return order // max(1, self.language.shape[1]), columns, starts
+        return torch.from_numpy(order // max(1, self.language.shape[1])), torch.from_numpy(fires[order])
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
@@ -262,7 +262,7 @@ class Objective:
         assert isinstance(self.rows, DenseRows)
         q = len(self.count) - 1
         basis = np.eye(q) - 1.0 / (q + 1)
-        return [np.kron(basis, np.diag(self.strength[columns])) for _, columns, _ in self.rows.blocks]
+        return [np.kron(basis, np.diag(self.strength[own])).astype(np.float64) for _, own, _ in self.rows.blocks]
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""
