@@ -18,7 +18,7 @@ Conventions: K variables of each of the Q differences, N rows, arrays (Q, K) and
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -27,9 +27,9 @@ import torch
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Bag, Floats
-from dcg_torch.grounding.solvers import Point
+from dcg_torch.grounding.solvers import Function, Point
 
-_CG_STEPS = 50
+_CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
 
 
@@ -296,14 +296,27 @@ class Objective:
             towards = eased + size / before * towards
         return step.reshape(-1)
 
-
     def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
         if isinstance(self.rows, GridRows):
             return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
-        curvature = point.chances * (1.0 - point.chances) * self.total
-        inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
+        inverse = 1.0 / self.diagonal(point)
         return lambda gradient: inverse * gradient
+
+    def diagonal(self, point: Point) -> Floats:
+        """(Q, K) of the Hessian."""
+        curvature = point.chances * (1.0 - point.chances) * self.total
+        own: Floats = self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count))
+        return own
+
+    def scaled(self, root: Floats) -> Function:
+        """The same function of variables that are `root` times as large: their curvatures are about equal."""
+
+        def function(flat: Floats) -> Point:
+            point = self(flat / root)
+            return replace(point, at=flat, gradient=point.gradient / root)
+
+        return function
 
 
 def likelihood(u: Floats, count: Floats, total: Floats) -> tuple[float, Floats, Floats]:
