@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.objective import BagRows, GridRows, likelihood, max_norm
+from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
+from dcg_torch.grounding.rows import BagRows, GridRows
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -68,8 +69,8 @@ def fit(
         prior: (P, L, G) the weights that cost no penalty; None: zero.
         tolerance: stop when the max-norm of the objective's gradient falls below it; absolute, not per example.
         max_steps: of the solver, at the most.
-        solver: "newton" (Cholesky; few weights), "lbfgs" (many), "lbfgs-torch" (torch.optim.LBFGS), or "auto", which
-            takes the one of the first two that measurements say is faster.
+        solver: "auto" takes what measurements say is fastest: Newton's method where few weights move, Newton-CG on a
+            grid, L-BFGS else. "newton" and "lbfgs" insist; "lbfgs-torch" is torch.optim.LBFGS.
 
     Raises:
         ValueError: l2 is not positive.
