@@ -18,9 +18,9 @@ from sklearn.linear_model import LogisticRegression
 from dcg_torch.grounding.design import DesignMatrix, merge
 from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.fit import Solver, fit, objective_at
-from dcg_torch.grounding.objective import BagRows, DenseRows, GridRows
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.reduction import reduce
+from dcg_torch.grounding.rows import BagRows, DenseRows, GridRows
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
 

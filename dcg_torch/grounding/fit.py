@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -19,9 +19,10 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.objective import DenseRows, likelihood, max_norm
+from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
+from dcg_torch.grounding.rows import BagRows, GridRows
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -68,8 +69,8 @@ def fit(
         prior: (P, L, G) the weights that cost no penalty; None: zero.
         tolerance: stop when the max-norm of the objective's gradient falls below it; absolute, not per example.
         max_steps: of the solver, at the most.
-        solver: "newton" (Cholesky; few weights), "lbfgs" (many), "lbfgs-torch" (torch.optim.LBFGS), or "auto", which
-            takes the one of the first two that measurements say is faster.
+        solver: "auto" takes what measurements say is fastest: Newton's method where few weights move, Newton-CG on a
+            grid, L-BFGS else. "newton" and "lbfgs" insist; "lbfgs-torch" is torch.optim.LBFGS.
 
     Raises:
         ValueError: l2 is not positive.
@@ -101,7 +102,11 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
-    if not isinstance(objective.rows, DenseRows) and solver != "lbfgs":
+    if isinstance(objective.rows, BagRows) and solver == "auto":
+        root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
+        found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
+        return replace(found, point=replace(found.point, at=found.point.at / root))
+    if isinstance(objective.rows, GridRows) and solver != "lbfgs":
         return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
     if solver != "lbfgs":
         return solvers.newton(objective, objective.newton_step, start, tolerance=tolerance, max_steps=max_steps)

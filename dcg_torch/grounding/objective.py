@@ -1,4 +1,4 @@
-"""The penalised likelihood of `fit` in the variables that solvers move, and three ways to compute its scores.
+"""The penalised likelihood of `fit` in the variables that solvers move.
 
 Weights are a basis times the variables: with Q = P - 1 and d[q] = weight[q + 1] - weight[0],
 
@@ -18,184 +18,17 @@ Conventions: K variables of each of the Q differences, N rows, arrays (Q, K) and
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Protocol
 
 import numpy as np
 
-from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import Bag, Floats
-from dcg_torch.grounding.solvers import Point
+from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.rows import DenseRows, GridRows, Rows
+from dcg_torch.grounding.solvers import Function, Point
 
-_CG_STEPS = 50
+_CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
-
-
-class Rows(Protocol):
-    """What fires in N rows."""
-
-    def scores(self, d: Floats) -> Floats:
-        """(Q, N) from (Q, K)."""
-        ...
-
-    def gradient(self, residual: Floats) -> Floats:
-        """(Q, K) from (Q, N): the transpose of `scores`."""
-        ...
-
-
-@dataclass(frozen=True)
-class DenseRows:
-    """A few rows and columns as one matrix (N, K)."""
-
-    matrix: Floats
-
-    def scores(self, d: Floats) -> Floats:
-        """(Q, N)."""
-        return d @ self.matrix.T
-
-    def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
-        return residual @ self.matrix
-
-    @cached_property
-    def blocks(self) -> list[tuple[Ints, Ints, Floats]]:
-        """Rows, columns and matrix of every part that shares no column with the others: verbs, prepositions, nouns."""
-        label = np.arange(self.matrix.shape[1])
-        fires = self.matrix != 0.0
-        while True:  # the least label spreads through all that is connected
-            of_row = np.where(fires, label, len(label)).min(axis=1, initial=len(label))
-            spreading = np.minimum(label, np.where(fires, of_row[:, None], len(label)).min(axis=0, initial=len(label)))
-            if (spreading == label).all():
-                break
-            label = spreading
-        found = []
-        for one in np.unique(label):
-            rows, columns = np.flatnonzero(of_row == one), np.flatnonzero(label == one)
-            found.append((rows, columns, np.asfortranarray(self.matrix[rows][:, columns])))
-        return found
-
-
-@dataclass(frozen=True)
-class GridRows:
-    """Every phrase with every grounding: scores are A d B', whose cells are the rows.
-
-    Attributes:
-        language: (A, L).
-        grounding: (M, G).
-        active: (K,) which cells of (L, G) the variables are; None: all.
-    """
-
-    language: Floats
-    grounding: Floats
-    active: Ints | None
-
-    def scores(self, d: Floats) -> Floats:
-        """(Q, A * M)."""
-        left = self.language @ spread(d, self.active, (self.language.shape[1], self.grounding.shape[1]))
-        return (left @ self.grounding.T).reshape(len(d), -1)
-
-    def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
-        cells = residual.reshape(len(residual), len(self.language), len(self.grounding))
-        return gathered(self.language.T @ (cells @ self.grounding), self.active)
-
-    def preconditioner(self, chances: Floats, total: Floats, l2: float) -> Callable[[Floats], Floats]:
-        """About the inverse Hessian, as a function of (Q, K): exact where curvature is a product of three sides.
-
-        The curvature of a row is taken to be that of its phrase times that of its grounding times a (Q, Q) matrix. So
-        the Hessian is a Kronecker product of three small matrices plus the penalty, and their eigenvectors invert it.
-        """
-        q = len(chances)
-        shape = len(self.language), len(self.grounding)
-        mean = np.einsum("an,bn,n->ab", chances, -chances, total)
-        mean[np.diag_indices(q)] += chances @ total
-        curvature = ((chances * (1.0 - chances)).sum(axis=0) * total).reshape(shape)
-        whole = max(float(curvature.sum()), np.finfo(float).tiny)
-        half = np.linalg.cholesky(np.linalg.inv(np.eye(q) - 1.0 / (q + 1)))
-        values, vectors = np.linalg.eigh(half.T @ mean @ half / max(float(np.trace(mean)), np.finfo(float).tiny))
-        vectors = half @ vectors
-        left, across = np.linalg.eigh((self.language.T * (curvature.sum(axis=1) / whole)) @ self.language)
-        right, down = np.linalg.eigh((self.grounding.T * curvature.sum(axis=0)) @ self.grounding)
-        divisor = values[:, None, None] * left[:, None] * right + l2
-
-        def solve(gradient: Floats) -> Floats:
-            cells = spread(gradient, self.active, (len(left), len(right)))
-            turned = np.einsum("ab,alg->blg", vectors, across.T @ cells @ down) / divisor
-            return gathered(across @ np.einsum("ab,blg->alg", vectors, turned) @ down.T, self.active)
-
-        return solve
-
-
-@dataclass(frozen=True)
-class BagRows:
-    """Rows that are some cells of A d, which is the sum of the rows of d that each phrase names.
-
-    Sums go a column of a bag at a time: so every numpy operation is about all rows or all phrases.
-
-    Attributes:
-        language: (A, k) bag of the phrases.
-        cells: (k', N) cells of (A, G), column after column; A * G where a row has fewer.
-        shape: (L, G).
-        active: (K,) which cells of (L, G) the variables are; None: all.
-    """
-
-    language: Bag
-    cells: Ints
-    shape: tuple[int, int]
-    active: Ints | None
-
-    def scores(self, d: Floats) -> Floats:
-        """(Q, N)."""
-        return np.stack([self._scores(own) for own in spread(d, self.active, self.shape)])
-
-    def _scores(self, d: Floats) -> Floats:
-        by_phrase = np.zeros((len(self.language) + 1, self.shape[1]))
-        padded = np.concatenate([d, np.zeros((1, self.shape[1]))])
-        for column in self.language.T:
-            by_phrase[:-1] += padded.take(column, axis=0, mode="wrap")
-        flat = by_phrase.reshape(-1)
-        total = flat.take(self.cells[0])
-        for column in self.cells[1:]:
-            total += flat.take(column)
-        return total
-
-    def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
-        return gathered(np.stack([self._gradient(own) for own in residual]), self.active)
-
-    def _gradient(self, residual: Floats) -> Floats:
-        phrases, columns, starts = self._by_column
-        size = len(self.language) * self.shape[1] + 1
-        weights = np.broadcast_to(residual, self.cells.shape).reshape(-1)
-        cells = np.bincount(self.cells.reshape(-1), weights, minlength=size)[:-1].reshape(-1, self.shape[1])
-        whole = np.zeros(self.shape)
-        if len(columns):
-            whole[columns] = np.add.reduceat(cells.take(phrases, axis=0), starts, axis=0)
-        return whole
-
-    @cached_property
-    def _by_column(self) -> tuple[Ints, Ints, Ints]:
-        """The phrases that each language column fires in, column after column; the columns; where each begins."""
-        fires = self.language.reshape(-1)
-        order = np.argsort(fires, kind="stable")[np.count_nonzero(fires < 0) :]
-        columns, starts = np.unique(fires[order], return_index=True)
-        return order // max(1, self.language.shape[1]), columns, starts
-
-
-def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
-    """(Q, L, G) of variables (Q, K): zero where none is."""
-    if active is None:
-        return d.reshape(len(d), *shape)
-    whole = np.zeros((len(d), shape[0] * shape[1]))
-    whole[:, active] = d
-    return whole.reshape(len(d), *shape)
-
-
-def gathered(whole: Floats, active: Ints | None) -> Floats:
-    """(Q, K) of (Q, L, G): the transpose of `spread`."""
-    flat = whole.reshape(len(whole), -1)
-    return flat if active is None else flat[:, active]
 
 
 @dataclass(frozen=True)
@@ -262,7 +95,7 @@ class Objective:
         assert isinstance(self.rows, DenseRows)
         q = len(self.count) - 1
         basis = np.eye(q) - 1.0 / (q + 1)
-        return [np.kron(basis, np.diag(self.strength[columns])) for _, columns, _ in self.rows.blocks]
+        return [np.kron(basis, np.diag(self.strength[own])).astype(np.float64) for _, own, _ in self.rows.blocks]
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""
@@ -300,17 +133,23 @@ class Objective:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
         if isinstance(self.rows, GridRows):
             return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
-        curvature = point.chances * (1.0 - point.chances) * self.total
-        inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
+        inverse = 1.0 / self.diagonal(point)
         return lambda gradient: inverse * gradient
 
-    def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
-        """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
-        if isinstance(self.rows, GridRows):
-            return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
+    def diagonal(self, point: Point) -> Floats:
+        """(Q, K) of the Hessian."""
         curvature = point.chances * (1.0 - point.chances) * self.total
-        inverse = 1.0 / (self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count)))
-        return lambda gradient: inverse * gradient
+        own: Floats = self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count))
+        return own
+
+    def scaled(self, root: Floats) -> Function:
+        """The same function of variables that are `root` times as large: their curvatures are about equal."""
+
+        def function(flat: Floats) -> Point:
+            point = self(flat / root)
+            return replace(point, at=flat, gradient=point.gradient / root)
+
+        return function
 
 
 def likelihood(u: Floats, count: Floats, total: Floats) -> tuple[float, Floats, Floats]:

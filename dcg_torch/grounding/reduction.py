@@ -16,8 +16,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, distinct_rows, stack
-from dcg_torch.grounding.objective import BagRows, DenseRows, GridRows, Objective, likelihood
+from dcg_torch.grounding.objective import Objective, likelihood
 from dcg_torch.grounding.psi import Floats, binary, scores
+from dcg_torch.grounding.rows import BagRows, DenseRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes, row_keys
 
 Mask = NDArray[np.bool_]
