@@ -22,6 +22,7 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
+from dcg_torch.grounding.threads import one_thread
 from dcg_torch.grounding.rows import BagRows, GridRows
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
@@ -84,7 +85,8 @@ def fit(
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
     fixed = np.where(active, 0.0 if prior is None else prior, weight)
     reduced = reduce(designs, weight, fixed, active, strength, prefer=solver)
-    found = _solve(reduced, tolerance, max_steps, solver)
+    with one_thread():
+        found = _solve(reduced, tolerance, max_steps, solver)
     factor.set_weight(reduced.weight(found.point.at))
     distance = (fixed if prior is None else fixed - prior)[:, pairs]
     return FitResult(

@@ -40,9 +40,9 @@ from dcg_torch.types import (
 
 _RELATION_L2 = 0.2
 """Penalty on the weights that are taught by generated lessons."""
-_ON_THE_WAY, _SETTLED = 0.1, 1e-3
-"""Max-norm of the gradient at which the fit of a round of lessons ends, and that of the last round: of a sum over tens of
-thousands of factors."""
+_ON_THE_WAY, _SETTLED = 75, 300
+"""Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
+landmarks move it anyway."""
 
 
 class GroundingModel:
@@ -258,7 +258,7 @@ class GroundingModel:
 
         def fit_once(rows: list[Rows], last: bool) -> None:
             designs = design_matrices([*kept, *rows], self.features, self.factor.correspondences)
-            self._fit(designs, free=free, l2=l2, tolerance=_SETTLED if last else _ON_THE_WAY)
+            self._fit(designs, free=free, l2=l2, tolerance=1e-3, max_steps=_SETTLED if last else _ON_THE_WAY)
             if last and not relations_only:
                 self.held |= firing(designs, self.features.shape)
 
@@ -313,8 +313,16 @@ class GroundingModel:
         self.prior = np.pad(self.prior, [(0, 0), (0, more[0]), (0, more[1])])
 
     def _fit(
-        self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float, tolerance: float = 1e-7
+        self,
+        designs: Sequence[DesignMatrix],
+        *,
+        free: NDArray[np.bool_] | None,
+        l2: float,
+        tolerance: float = 1e-7,
+        max_steps: int = 500,
     ) -> FitResult:
         """Fit the free weights to labelled factors, in place."""
-        self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior, tolerance=tolerance)
+        self.fitted = fit(
+            self.factor, designs, l2=l2, free=free, prior=self.prior, tolerance=tolerance, max_steps=max_steps
+        )
         return self.fitted
