@@ -27,7 +27,6 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from dcg_torch.checkpoint import load, save
     from dcg_torch.grounding.explanation import explain, rivalry
     from dcg_torch.grounding.features import Group
     from dcg_torch.grounding.fit import FitResult
@@ -38,13 +37,14 @@ if TYPE_CHECKING:
     from dcg_torch.language import parse_command as parse
     from dcg_torch.lessons import initial_training, read_training
     from dcg_torch.model import Experience, GroundingModel, Learned, Told, TrainingSet, Variant
-    from dcg_torch.pretrain import pretrained
+    from dcg_torch.model.checkpoint import load, save
+    from dcg_torch.model.pretrain import pretrained
     from dcg_torch.types import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
 
 __version__ = "0.2.0"
 
 _WHERE = {
-    "checkpoint": "load save",
+    "model.checkpoint": "load save",
     "grounding.explanation": "explain rivalry",
     "grounding.features": "Group",
     "grounding.graph": "FactorGraph",
@@ -54,7 +54,7 @@ _WHERE = {
     "language": "Parse Parser",
     "lessons": "initial_training read_training",
     "model": "Experience GroundingModel Learned Told TrainingSet Variant",
-    "pretrain": "pretrained",
+    "model.pretrain": "pretrained",
     "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names.split()}

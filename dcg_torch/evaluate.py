@@ -20,7 +20,6 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from dcg_torch.checkpoint import save
 from dcg_torch.cli.application import one_line_errors, run_application
 from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
@@ -31,9 +30,10 @@ from dcg_torch.experiment.factory import make_model
 from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
-from dcg_torch.resources import resource
+from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import EvaluateSettings, SettingsError
 from dcg_torch.storage.claim import claim
+from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"

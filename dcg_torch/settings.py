@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass
 from typing import Any
 
-from dcg_torch.errors import UserError
+from dcg_torch.storage.errors import UserError
 from dcg_torch.world.generator import TYPES
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
 

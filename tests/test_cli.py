@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 from making import typed
 
-from dcg_torch.run import main
+from dcg_torch.cli.run import main
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.folder import ITERATIONS, PARTS, TIMINGS, part_of
 from dcg_torch.experiment.pool import WorkerKilledError

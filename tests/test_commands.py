@@ -63,7 +63,7 @@ import importlib.util
 real = importlib.util.find_spec
 importlib.util.find_spec = lambda name, package=None: None if name == "pybullet" else real(name, package)
 import dcg_torch, dcg_torch.evaluate
-from dcg_torch.run import main
+from dcg_torch.cli.run import main
 sys.exit(main())
 """
 

@@ -15,7 +15,7 @@ from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.records import Iteration
-from dcg_torch.resources import resource
+from dcg_torch.storage.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
 from dcg_torch.types import Object

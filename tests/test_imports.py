@@ -203,7 +203,7 @@ def test_a_model_needs_no_simulator_no_parser_and_no_configuration() -> None:
     script = (
         f"import sys, {light}, dcg_torch.report.measures\n"
         "assert 'torch' not in sys.modules\n"
-        "import dcg_torch.model, dcg_torch.lessons, dcg_torch.checkpoint, dcg_torch.agent.loop\n"
+        "import dcg_torch.model, dcg_torch.lessons, dcg_torch.model.checkpoint, dcg_torch.agent.loop\n"
         f"print([m for m in {heavy} if m in sys.modules])\n"
     )
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dcg_torch.checkpoint import load, save
+from dcg_torch.model.checkpoint import load, save
 from dcg_torch.explanation import rivalry
 from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.features import Group

@@ -13,7 +13,7 @@ import torch
 from dcg_torch.agent.asking import Question, Reply
 from dcg_torch.agent.command import _told
 from dcg_torch.agent.explore import LookBefore, compares
-from dcg_torch.checkpoint import load, save
+from dcg_torch.model.checkpoint import load, save
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import Solution
 from dcg_torch.lessons import initial_training

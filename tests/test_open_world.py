@@ -14,7 +14,7 @@ import torch
 
 from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.explore import LookBefore, Worth
-from dcg_torch.checkpoint import load, save
+from dcg_torch.model.checkpoint import load, save
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.learning.lexicon import lexicon_table, load_lexicon, save_lexicon
 from dcg_torch.lessons import initial_training

@@ -20,7 +20,7 @@ from making import typed
 
 from dcg_torch.experiment.folder import ITERATIONS, MODEL, SETTINGS, TIMINGS, RunFolderError, lexicon_of, part_of
 from dcg_torch.experiment.runner import run
-from dcg_torch.run import main
+from dcg_torch.cli.run import main
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.storage.claim import claim
 

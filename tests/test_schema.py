@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 from hostile import EPISODE, TRAINING, WORLD
 
-from dcg_torch.schema import schemas, write_schemas
+from dcg_torch.cli.schema import schemas, write_schemas
 
 COMMITTED = Path(__file__).parent.parent / "docs" / "schemas"
 

@@ -16,7 +16,7 @@ from dcg_torch import evaluate
 from dcg_torch import run as experiment
 from dcg_torch.cli.completion import script
 from dcg_torch.cli.config import register
-from dcg_torch.resources import resource
+from dcg_torch.storage.resources import resource
 from dcg_torch.settings import (
     Bounds,
     EvaluateSettings,

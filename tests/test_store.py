@@ -11,7 +11,7 @@ import torch
 from making import command_tree, percept, saw
 from safetensors.torch import load_file, save_file
 
-from dcg_torch.checkpoint import DESCRIPTION, WEIGHTS, StoreError, load, save
+from dcg_torch.model.checkpoint import DESCRIPTION, WEIGHTS, StoreError, load, save
 from dcg_torch.grounding.features import Group
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 

@@ -18,7 +18,7 @@ from dcg_torch.experiment.outcome import save_screenshots
 from dcg_torch.experiment.runner import run
 from dcg_torch.grounding.graph import Hypothesis, Solution
 from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
-from dcg_torch.resources import resource
+from dcg_torch.storage.resources import resource
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
 from dcg_torch.simulator import Camera, FakeRobot, SimulatedRobot
 from dcg_torch.simulator.stage import Stage

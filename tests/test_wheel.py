@@ -88,7 +88,7 @@ def test_the_installed_wheel_runs_from_any_directory(experiment: str, built: Pat
     ]
     subprocess.run(install, check=True, capture_output=True)
     environment = {**os.environ, "PYTHONPATH": str(site)}
-    where = [sys.executable, "-c", "import dcg_torch.resources as r; print(r.__file__, r.resource('conf'))"]
+    where = [sys.executable, "-c", "import dcg_torch.storage.resources as r; print(r.__file__, r.resource('conf'))"]
     found = subprocess.run(where, check=True, capture_output=True, text=True, cwd=elsewhere, env=environment).stdout
     assert all(path.startswith(str(site)) for path in found.split())
     done = subprocess.run(

@@ -32,9 +32,9 @@ from dcg_torch.language import default_parser
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import FakeRobot, SimulatedRobot
+from dcg_torch.storage.resources import resource
 from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import COLORS, TYPES

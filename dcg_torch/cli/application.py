@@ -14,7 +14,7 @@ from hydra._internal.utils import get_args_parser
 
 import dcg_torch
 from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
-from dcg_torch.errors import UserError, explain_os_error
+from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
 _LONGEST = 1_000  # characters of a message

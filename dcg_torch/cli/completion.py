@@ -12,8 +12,8 @@ from collections.abc import Iterator
 
 from dcg_torch.cli.commands import COMMANDS
 from dcg_torch.cli.settings_help import SCHEMAS
-from dcg_torch.resources import resource
 from dcg_torch.settings import described
+from dcg_torch.storage.resources import resource
 
 _SCRIPT = """\
 _dcg_torch() {{

@@ -17,7 +17,6 @@ from omegaconf.errors import OmegaConfBaseException
 
 from dcg_torch.cli.settings_help import SCHEMAS, settings_help
 from dcg_torch.report.summary import flatten
-from dcg_torch.resources import resource
 from dcg_torch.settings import (
     EvaluateSettings,
     ModelSettings,
@@ -28,6 +27,7 @@ from dcg_torch.settings import (
     check_bounds,
     described,
 )
+from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole
 
 CONFIG_ERRORS = (HydraException, OmegaConfBaseException)

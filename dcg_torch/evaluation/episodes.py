@@ -11,8 +11,8 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
-from dcg_torch.errors import UserError
 from dcg_torch.scene.workspace import Workspace
+from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
 

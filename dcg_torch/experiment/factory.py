@@ -16,7 +16,7 @@ from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.grounding.features import Group
 from dcg_torch.lessons import training_set
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.pretrain import LESSONS, VARIANT, pretrained, train_open_world
+from dcg_torch.model.pretrain import LESSONS, VARIANT, pretrained, train_open_world
 from dcg_torch.settings import Asking, LearnerKind, ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator.fake import FakeRobot
 from dcg_torch.simulator.recogniser import Recogniser

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from dcg_torch.errors import UserError
 from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
+from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.whole import write_whole
 
 ITERATIONS, TIMINGS, MODEL, PARTS = "iterations.jsonl", "timings.jsonl", "model", "trials"
@@ -192,7 +192,7 @@ def _is_model_of(directory: Path, trial: int) -> bool:
     except (OSError, ValueError, RecursionError):
         return False
     # Here: it takes seconds to import, and most runs don't need it.
-    from dcg_torch.checkpoint import CheckpointError, load
+    from dcg_torch.model.checkpoint import CheckpointError, load
 
     try:
         load(directory)

@@ -6,7 +6,8 @@ import contextlib
 import functools
 import os
 import tempfile
-from collections.abc import Mapping, Sequence
+import threading
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -69,12 +70,24 @@ def _write_curves(
     from dcg_torch.report.board import write_board
 
     with tempfile.TemporaryDirectory(prefix=".curves.", suffix=".part", dir=directory) as part:
-        write_board(Path(part), rows, timings, varied_settings(directory), figures)
+        with _quiet_threads():
+            write_board(Path(part), rows, timings, varied_settings(directory), figures)
         new = list(Path(part).glob(_EVENTS))
         for stale in directory.glob(_EVENTS):
             stale.unlink()
         for file in new:
             os.replace(file, directory / file.name)
+
+
+@contextlib.contextmanager
+def _quiet_threads() -> Iterator[None]:
+    """TensorBoard writes in a thread; what fails there it raises once more in this one, so once is enough to say it."""
+    before = threading.excepthook
+    threading.excepthook = lambda _: None
+    try:
+        yield
+    finally:
+        threading.excepthook = before
 
 
 def save_screenshots(settings: Settings, directory: Path) -> None:

@@ -21,7 +21,7 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
-from dcg_torch.errors import UserError
+from dcg_torch.storage.errors import UserError
 
 T = TypeVar("T")
 
@@ -31,6 +31,11 @@ TICK = 0.25
 
 class WorkerKilledError(UserError):
     """A process that worked off tasks was killed from outside; the message is one line."""
+
+
+def may_start_processes() -> bool:
+    """Whether this process is one that a user started; one that a launcher of sweeps made works alone."""
+    return multiprocessing.current_process().name == "MainProcess"
 
 
 def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
@@ -48,6 +53,15 @@ def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> I
         WorkerKilledError: a process was killed.
         Exception: what `work` raised.
     """
+    if not may_start_processes():
+        for task in tasks:
+            work(task)
+            yield [task]
+        return
+    yield from _work_off(work, tasks, workers)
+
+
+def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
     waiting = deque(tasks)
     links: dict[Connection, BaseProcess] = {}
     try:

@@ -11,7 +11,6 @@ order of the trials, so the same seed gives the same bytes for any number of wor
 from __future__ import annotations
 
 import functools
-import multiprocessing
 import os
 import time
 from collections.abc import Callable, Sequence
@@ -21,7 +20,7 @@ from pathlib import Path
 from dcg_torch.experiment.folder import check_owner, mark_as_own, open_trials, remove_parts
 from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
-from dcg_torch.experiment.pool import TICK, work_off
+from dcg_torch.experiment.pool import TICK, may_start_processes, work_off
 from dcg_torch.records import Iteration
 from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError
 
@@ -91,8 +90,7 @@ def run(settings: Settings, directory: Path, progress: Progress, say: Callable[[
     journal = Journal(directory, settings.trials, settings.iterations)
     progress(journal.advance())
     workers = min(settings.workers or os.cpu_count() or 1, len(trials))
-    # One window to look at; and a process that another launcher watches over may not start more.
-    if workers <= 1 or settings.simulator.gui or multiprocessing.current_process().daemon:
+    if workers <= 1 or settings.simulator.gui or not may_start_processes():  # gui: one window to look at
         _run_here(settings, directory, trials, lambda: progress(journal.advance()))
     else:
         for _ in work_off(functools.partial(_run_trial, settings, directory), trials, workers):

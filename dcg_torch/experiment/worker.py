@@ -12,7 +12,6 @@ import torch
 
 from dcg_torch.agent.command import Look
 from dcg_torch.agent.robot import SimulationRobot
-from dcg_torch.checkpoint import save
 from dcg_torch.experiment.factory import make_asking, make_explorer, make_model, make_robot
 from dcg_torch.experiment.folder import MODEL, ORIGIN, animation_of, lexicon_of, part_of
 from dcg_torch.experiment.plan import trial_commands, trial_generators
@@ -20,6 +19,7 @@ from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import default_parser
 from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
+from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import LearnerKind, Settings
 from dcg_torch.speaker import Command
 from dcg_torch.storage.whole import write_whole, write_whole_folder

@@ -22,8 +22,8 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.threads import one_thread
 from dcg_torch.grounding.rows import BagRows, GridRows
+from dcg_torch.grounding.threads import one_thread
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 

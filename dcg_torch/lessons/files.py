@@ -9,11 +9,11 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from dcg_torch.errors import UserError
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.scene.upsilon import world_model
+from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import problem_of, read_yaml, shown
 from dcg_torch.types import (
     Child,

@@ -10,8 +10,8 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from dcg_torch.errors import UserError
 from dcg_torch.report.measures import Measures
+from dcg_torch.storage.errors import UserError
 
 SUMMARY = "summary.json"
 

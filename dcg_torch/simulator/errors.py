@@ -1,6 +1,6 @@
 """What goes wrong in the simulator."""
 
-from dcg_torch.errors import UserError
+from dcg_torch.storage.errors import UserError
 
 
 class SimulatorError(UserError):

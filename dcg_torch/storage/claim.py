@@ -9,7 +9,7 @@ import os
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
-from dcg_torch.errors import UserError
+from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.whole import sweep_parts
 
 LOCK = ".lock"

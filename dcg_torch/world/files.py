@@ -8,7 +8,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from dcg_torch.errors import UserError
+from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import problem_of, read_yaml, shown
 from dcg_torch.types import Pose
 

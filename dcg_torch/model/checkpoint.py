@@ -21,12 +21,12 @@ from safetensors import SafetensorError
 from safetensors.numpy import load as load_bytes
 from safetensors.numpy import save_file
 
-from dcg_torch.errors import UserError
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.storage.errors import UserError
 from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"

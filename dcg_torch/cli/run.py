@@ -19,9 +19,9 @@ from dcg_torch.cli.config import save_composed, settings_of
 from dcg_torch.cli.console import CommandBar, make_console
 from dcg_torch.experiment.folder import MARKS, check_owner, lexicon_of
 from dcg_torch.experiment.runner import check_feasible, run
-from dcg_torch.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.storage.claim import claim
+from dcg_torch.storage.resources import resource
 
 _STARTED = time.perf_counter()
 

@@ -10,17 +10,17 @@ import sys
 from importlib.resources import files
 from pathlib import Path
 
-from dcg_torch.checkpoint import load, save
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+from dcg_torch.model.checkpoint import load, save
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, beam=12)
 LESSONS = 1000
 _ROUNDS = 2
-_SHIPPED = Path(str(files("dcg_torch"))) / "shipped"
+_SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
 
 def pretrained() -> GroundingModel:

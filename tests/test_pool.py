@@ -1,0 +1,60 @@
+"""Processes that work off tasks: all are done, errors come through, a death is noticed, nothing lives on."""
+
+from __future__ import annotations
+
+import functools
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from dcg_torch.storage.errors import UserError
+from dcg_torch.experiment.pool import WorkerKilledError, work_off
+
+
+def note(directory: Path, task: int) -> None:
+    (directory / str(task)).write_text(str(os.getpid()))
+
+
+def refuse(task: int) -> None:
+    raise UserError(f"task {task} is wrong")
+
+
+def fail(task: int) -> None:
+    raise ZeroDivisionError
+
+
+def die(task: int) -> None:
+    os.kill(os.getpid(), signal.SIGKILL)
+
+
+def test_every_task_is_done_once_in_another_process(tmp_path: Path) -> None:
+    done = [task for ended in work_off(functools.partial(note, tmp_path), range(7), 2) for task in ended]
+    assert sorted(done) == list(range(7))
+    pids = {(tmp_path / str(task)).read_text() for task in range(7)}
+    assert str(os.getpid()) not in pids
+    assert len(pids) <= 2
+    assert not any(Path(f"/proc/{pid}").exists() for pid in pids)
+
+
+def test_errors_come_through_with_what_the_worker_said() -> None:
+    with pytest.raises(UserError, match=r"^task 3 is wrong$") as error:
+        list(work_off(refuse, [3], 1))
+    assert "in refuse" in str(error.value.__cause__)
+    with pytest.raises(ZeroDivisionError):
+        list(work_off(fail, [1], 1))
+
+
+def test_a_worker_that_is_killed_is_noticed() -> None:
+    with pytest.raises(WorkerKilledError, match="was killed") as error:
+        list(work_off(die, [1, 2, 3], 2))
+    assert "\n" not in str(error.value)
+
+
+def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
+    results = work_off(functools.partial(note, tmp_path), range(100), 2)
+    next(results)
+    results.close()
+    pids = {path.read_text() for path in tmp_path.iterdir()}
+    assert not any(Path(f"/proc/{pid}").exists() for pid in pids if pid)
