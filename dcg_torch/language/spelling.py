@@ -7,7 +7,7 @@ exists is never changed: "brick" is no misspelt "block".
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
 
@@ -38,14 +38,14 @@ def _letters(word: str) -> int:
 
 
 class Speller:
-    """Mends words towards groups of known words, the likelier group first; words in `english` stay.
+    """Mends words towards groups of known words, the likelier group first; words that `is_english` stay.
 
-    >>> Speller([{"pyramid", "cube"}], english={"cub"}).correct("pyramind")
+    >>> Speller([{"pyramid", "cube"}], lambda word: word == "cub").correct("pyramind")
     'pyramid'
     """
 
-    def __init__(self, groups: Sequence[Collection[str]], english: Collection[str]) -> None:
-        self._english = english
+    def __init__(self, groups: Sequence[Collection[str]], is_english: Callable[[str], bool]) -> None:
+        self._is_english = is_english
         self._known = frozenset().union(*groups)
         # The words of commands are many: the short ones are too near one another to choose from.
         self._words = [
@@ -65,7 +65,7 @@ class Speller:
         """
         if not SHORTEST <= len(word) <= LONGEST or not word.isalpha() or word in self._known:
             return word
-        if word in self._english or word.removesuffix("s") in self._english:
+        if self._is_english(word):
             return word
         limits = np.where(np.minimum(self._lengths, len(word)) >= 7, 2, 1)
         letters = np.uint32(_letters(word))

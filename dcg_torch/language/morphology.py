@@ -1,0 +1,99 @@
+"""Base forms of English words: what a word may be, the singular of a noun, the base of a verb."""
+
+from __future__ import annotations
+
+import functools
+
+from dcg_torch.language.lexicon import NORMAL, NUMBERS, PRONOUNS, SETS, english, irregular
+
+# Endings of inflected forms and what the base ends in instead, the likelier first.
+_PLURAL = (("ches", "ch"), ("shes", "sh"), ("xes", "x"), ("zes", "z"), ("sses", "ss"), ("oes", "o"), ("ies", "y"),
+           ("ves", "f"), ("s", ""), ("men", "man"))  # fmt: skip
+_VERBAL = (("ies", "y"), ("es", "e"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", "e"), ("ed", ""), ("ing", "e"),
+           ("ing", ""))  # fmt: skip
+_IRREGULAR_COPULAS = {"left": "leave", "'s": "be", "'re": "be", "is": "be", "are": "be", "'m": "be", "re": "be"}
+
+
+def parts(word: str) -> dict[str, int]:
+    """Parts of speech that the dictionary has for a word as it stands."""
+    return dict(english().get(word, {}))
+
+
+@functools.lru_cache(4096)
+def singular(word: str) -> str:
+    """The singular of a noun, known or unknown.
+
+    >>> [singular(word) for word in ("boxes", "zorps", "bus", "shelves", "glass", "people")]
+    ['box', 'zorp', 'bus', 'shelf', 'glass', 'person']
+    """
+    known = english()
+    base = irregular().get((word, "n"), word)
+    if base != word and "n" in known.get(base, {}):
+        return base
+    if "n" in known.get(word, {}) and not word.endswith("s"):
+        return word
+    if word.endswith(("ss", "us", "is")) or len(word) < 4 or not word.endswith(("s", "men")):
+        return word
+    if known.get(word, {}).get("n", 0) > 3 and "n" not in known.get(word[:-1], {}):
+        return word
+    for old, new in _PLURAL:
+        stem = word[: len(word) - len(old)] + new
+        if word.endswith(old) and "n" in known.get(stem, {}):
+            return stem
+    if word in known:
+        return word
+    return word[:-1] if word.endswith("s") else word
+
+
+@functools.lru_cache(4096)
+def verb(word: str) -> str:
+    """The base form of a verb, or the word itself.
+
+    >>> [verb(word) for word in ("going", "picked", "sits", "held", "placing")]
+    ['go', 'pick', 'sit', 'hold', 'place']
+    """
+    if word in _IRREGULAR_COPULAS:
+        return _IRREGULAR_COPULAS[word]
+    known = english()
+    if "v" in known.get(word, {}):
+        return word
+    base = irregular().get((word, "v"))
+    if base is not None:
+        return base
+    for old, new in _VERBAL:
+        if not word.endswith(old) or len(word) - len(old) < 2:
+            continue
+        stem = word[: len(word) - len(old)] + new
+        if "v" in known.get(stem, {}):
+            return stem
+        if stem[-1:] == stem[-2:-1] and "v" in known.get(stem[:-1], {}):
+            return stem[:-1]
+    return word
+
+
+@functools.lru_cache(4096)
+def is_plural(word: str) -> bool:
+    """Whether a noun is a plural form."""
+    return singular(word) != word
+
+
+@functools.lru_cache(8192)
+def is_english(word: str) -> bool:
+    """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
+    if word in english() or word in PRONOUNS or word in NUMBERS or word in NORMAL:
+        return True
+    if any(word in words for words in SETS.values()):
+        return True
+    if singular(word) in english() or verb(word) in english():
+        return True
+    return irregular().get((word, "a"), "") in english() or _compared(word)
+
+
+def _compared(word: str) -> bool:
+    """Whether a word is an adjective's comparative or superlative."""
+    for ending in ("er", "est"):
+        stem = word.removesuffix(ending)
+        stems = {stem, f"{stem}e", stem[:-1], f"{stem[:-1]}y"} if stem != word else set()
+        if any("a" in english().get(base, {}) for base in stems):
+            return True
+    return False
