@@ -276,6 +276,8 @@ class _Builder:
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
         last = self.nouns[-1]
+        if only_color(item) and last.stop == item.start and last.noun is None and last.color is None:
+            return True  # "something red"
         ordered = not SETS["ordinals"].isdisjoint(item.words) and last.stop == item.start  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
@@ -283,7 +285,7 @@ class _Builder:
             return False
         if not item.determined:
             return item.color is not None or bool(item.words)
-        return not self.and_joined and bool(item.color or item.words)
+        return not self.and_joined and bool(item.color or item.words or item.text.endswith(" one"))
 
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""

@@ -34,7 +34,7 @@ def candidates(word: str) -> tuple[tuple[str, float], ...]:
     if word in NORMAL and not found:
         _add(found, GRAMMAR["lists"]["modifiers"])
     _add_color(found, word)
-    plain = all(part.isalpha() for part in word.split("'") if part) and word.isascii() and len(word) <= _LONGEST
+    plain = word.replace("'", "").isalnum() and word.isascii() and not word.isdigit() and len(word) <= _LONGEST
     if plain and not is_fixed(word):
         _add_open(found, word)
     return tuple(found.items())
@@ -103,9 +103,10 @@ def _add_unknown(found: dict[str, float], word: str) -> None:
 
 
 def _add_inflected(found: dict[str, float], word: str) -> None:
-    _add(found, _OPEN["inflected"])
     if word.endswith("s"):
+        _add(found, _OPEN["third_person"])
         return
+    _add(found, _OPEN["inflected"])
     _add(found, _OPEN["participle"])
     if word.endswith("ing") and word not in SETS["modifiers"]:
         _add(found, _OPEN["gerund"])

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 T = TypeVar("T")
-_NEGLIGIBLE = -6.0  # log-weight of an option that is not followed up
+_NEGLIGIBLE = -4.0  # log-weight, against the best, of what is not followed up
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,16 +59,19 @@ class Decisions:
 def best_first(run: Callable[[Decisions], T], limit: int) -> Iterator[tuple[T, Decisions]]:
     """At most `limit` runs with their choices, by falling weight of what their scripts are known to cost."""
     heap: list[tuple[float, int, tuple[int, ...]]] = [(0.0, 0, ())]
-    number = 0
+    number, best = 0, None
     while heap and number < limit:
-        _, _, script = heapq.heappop(heap)
+        cost, _, script = heapq.heappop(heap)
+        if best is not None and -cost < best + _NEGLIGIBLE:
+            return
         number += 1
         decisions = Decisions(script)
         yield run(decisions), decisions
+        best = decisions.log_weight if best is None else best
         made = decisions.made
         for at in range(len(script), len(made)):
             before = tuple(choice.chosen for choice in made[:at])
             for other, weight in enumerate(made[at].weights):
-                if other != made[at].chosen and weight > _NEGLIGIBLE:
+                if other != made[at].chosen:
                     cost = decisions.log_weight - made[at].weights[made[at].chosen] + weight
                     heapq.heappush(heap, (-cost, len(heap) + number * 1000, (*before, other)))

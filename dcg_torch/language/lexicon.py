@@ -72,7 +72,9 @@ VIEW: Final = re.compile(_filled(_PATTERNS["view"]))
 ORDINALS: Final = tuple(
     (re.compile(rf"(?:{_filled(old)})(?= |$)"), tuple(new.split())) for old, new in _PATTERNS["ordinals"]
 )
-REFUSALS: Final = tuple((re.compile(_filled(old)), reason) for old, reason in _PATTERNS["refusals"])
+REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
+TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
+"""Those of the refusals that hold for a clause after another as well."""
 MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
 GREETING: Final = re.compile(_PATTERNS["greeting"])
 SAME: Final[Mapping[str, str]] = _PATTERNS["same"]

@@ -11,6 +11,7 @@ _PLURAL = (("ches", "ch"), ("shes", "sh"), ("xes", "x"), ("zes", "z"), ("sses", 
            ("ves", "f"), ("s", ""), ("men", "man"))  # fmt: skip
 _VERBAL = (("ies", "y"), ("es", "e"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", "e"), ("ed", ""), ("ing", "e"),
            ("ing", ""))  # fmt: skip
+_MUCH_COMMONER = 3  # in powers of two
 _IRREGULAR_COPULAS = {"left": "leave", "'s": "be", "'re": "be", "is": "be", "are": "be", "'m": "be", "re": "be"}
 
 
@@ -28,7 +29,7 @@ def singular(word: str) -> str:
     """
     known = english()
     base = irregular().get((word, "n"), word)
-    if base != word and "n" in known.get(base, {}):
+    if base != word and "n" in known.get(base, {}) and _commoner(base, word):
         return base
     if "n" in known.get(word, {}) and not word.endswith("s"):
         return word
@@ -43,6 +44,12 @@ def singular(word: str) -> str:
     if word in known:
         return word
     return word[:-1] if word.endswith("s") else word
+
+
+def _commoner(base: str, word: str) -> bool:
+    """Whether an irregular plural is meant and no noun of its own: "men", but "cola"."""
+    known = english()
+    return "n" not in known.get(word, {}) or known[base]["n"] > known[word]["n"] + _MUCH_COMMONER
 
 
 @functools.lru_cache(4096)

@@ -282,9 +282,10 @@ class NounPhrase:
 
     def _noun_name(self) -> str | None:
         """The noun in the singular; what its words say beside it goes to the words and the number."""
-        names = [word for token in self.nouns for word in token.text.split()]
-        self.plural = self.plural or is_plural(names[-1])
-        names[-1] = singular(names[-1])
+        spoken = [word for token in self.nouns for word in token.text.split()]
+        last = self.nouns[-1]
+        names = [*spoken[:-1], last.value[-1] if last.tag == "N" else singular(spoken[-1])]
+        self.plural = self.plural or names[-1] != spoken[-1]
         noun = " ".join(names)
         if noun in SETS["all_things"] | SETS["some_things"]:
             self.plural = noun in SETS["all_things"]

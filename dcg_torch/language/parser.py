@@ -14,18 +14,19 @@ from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import CHOICES, SETS, VERBS, english
+from dcg_torch.language.lexicon import CHOICES, VERBS, english
 from dcg_torch.language.phrases import items
 from dcg_torch.language.refusals import MOTION, NO_THING, greeted, moves, refuse, talk
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
-from dcg_torch.language.tokens import mend, normal_noun, tokens
+from dcg_torch.language.tokens import mend, names, normal_noun, tokens
 from dcg_torch.types import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 600
 MAX_WORDS = 120  # four times the longest of most thousand human commands; the time goes with the number of words
 _PATHS = 3
 _RUNS_A_READING = 2
+_CONTENT = frozenset({Kind.ADVERB, Kind.NOUN, Kind.VERB})
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,15 +109,15 @@ class Parser:
             return Parse(text, problem="the command is empty")
         if len(text) > MAX_CHARACTERS:
             return Parse(text, problem=f"the command is longer than {MAX_CHARACTERS} characters")
-        known = {normal_noun(noun) for noun in vocabulary}
+        known = frozenset(normal_noun(noun) for noun in vocabulary)
         words = tokens(text)
         if len(words) > MAX_WORDS:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
-        command = _Command(words, known)
+        command = _Command(words, known, names(text))
         found: dict[ParseTree, Reading] = {}
-        for (tree, unread), decisions in best_first(command.read, _RUNS_A_READING * k):
+        for tree, decisions in best_first(command.read, _RUNS_A_READING * k):
             if tree is not None and tree not in found:
-                found[tree] = Reading(tree, decisions.log_weight, decisions.rules, unread)
+                found[tree] = Reading(tree, decisions.log_weight, decisions.rules, command.unread())
             if len(found) == k:
                 break
         if not found:
@@ -128,35 +129,48 @@ class Parser:
 class _Command:
     """The words of a command, and what of them is the same in all readings."""
 
-    def __init__(self, words: Sequence[str], known: Collection[str]) -> None:
-        self.known = known
+    def __init__(self, words: Sequence[str], known: frozenset[str], names: frozenset[str]) -> None:
+        self.known, self.names = known, names
         self.kept = list(words)
-        self.mended = mend(words, known)
-        self.tagged: dict[bool, list[Path]] = {}
+        self.mended = mend(words, known | names)
+        self.tagged: dict[bool, tuple[list[Path], list[tuple[int, int, str]]]] = {}
+        self.words: Sequence[str] = words
+        self.items: list[Item] = []
         self.clauses: list[Clause] = []
         self.parts: list[tuple[int, int, str]] = []
 
-    def read(self, decisions: Decisions) -> tuple[ParseTree | None, tuple[str, ...]]:
-        """One reading: its tree and its unread words."""
+    def read(self, decisions: Decisions) -> ParseTree | None:
+        """The tree of one reading, None if it has none."""
         mended = True
         if len(self.mended) == len(self.kept) and self.mended != self.kept:
             mended = decisions.choose("spelling", CHOICES["spelling"]) == "mended"
-        words = self.mended if mended else self.kept
-        if mended not in self.tagged:
-            self.tagged[mended] = paths(words, self.known, _PATHS)
-        options = {str(n): CHOICES["scale"] * path.weight for n, path in enumerate(self.tagged[mended])}
-        if not options:
-            return None, ()
-        path = self.tagged[mended][int(decisions.choose("words", options))]
+        words = self.words = self.mended if mended else self.kept
         begin = greeted(words)
-        found = items([token for token in path.tokens if token.start >= begin])
-        self.parts = talk(words)
-        groups = split(found)
+        if mended not in self.tagged:
+            self.tagged[mended] = paths(words, self.known, self.names, _PATHS), [] if begin else talk(words)
+        tagged, self.parts = self.tagged[mended]
+        options = {str(n): CHOICES["scale"] * path.weight for n, path in enumerate(tagged)}
+        if not options:
+            return None
+        path = tagged[int(decisions.choose("words", options))]
+        self.items = items([token for token in path.tokens if token.start >= begin])
+        groups = split(self.items)
         self.clauses = [build(group, _supplied(groups, n), decisions) for n, group in enumerate(groups)]
         for clause, group in zip(self.clauses, groups, strict=True):
-            refuse(clause, group, [] if begin else self.parts)
-        tree = root(self.clauses, decisions)
-        return tree, _unread(words, found, self.clauses)
+            refuse(clause, group, self.parts, words)
+        return root(self.clauses, decisions)
+
+    def unread(self) -> tuple[str, ...]:
+        """The content words of the last reading that are in no phrase."""
+        used: set[int] = set()
+        for clause in self.clauses:
+            for item in (clause.verb, *clause.objects, *clause.places):
+                for node in item.walk() if item is not None else ():
+                    used.update(range(node.start, node.stop))
+        for item in self.items:
+            if item.said or item.kind not in _CONTENT:
+                used.update(range(item.start, item.stop))
+        return tuple(word for i, word in enumerate(self.words) if i not in used and is_content(word))
 
     def reason(self) -> str:
         """Why there is no tree."""
@@ -174,19 +188,6 @@ def _supplied(groups: Sequence[Sequence[Item]], k: int) -> bool:
             if objects[0].pronoun and objects[0].color is None:
                 return True
     return False
-
-
-def _unread(words: Sequence[str], found: Sequence[Item], clauses: Sequence[Clause]) -> tuple[str, ...]:
-    """The content words of the clauses that are in no phrase."""
-    used: set[int] = set()
-    for clause in clauses:
-        for item in (clause.verb, *clause.objects, *clause.places):
-            for node in item.walk() if item is not None else ():
-                used.update(range(node.start, node.stop))
-    for item in found:
-        if item.said or item.kind not in {Kind.ADVERB, Kind.NOUN, Kind.VERB}:
-            used.update(range(item.start, item.stop))
-    return tuple(word for i, word in enumerate(words) if i not in used and is_content(word) and word not in SETS["be"])
 
 
 def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:

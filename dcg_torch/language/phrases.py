@@ -66,7 +66,7 @@ class _Phrases:
 
     def preposition(self, i: int) -> int:
         token = self.tokens[i]
-        if token.text in SETS["filler_prepositions"] and self.previous() in {Kind.PREPOSITION, Kind.VERB, None}:
+        if token.text in SETS["filler_words"] and self.previous() in {Kind.PREPOSITION, Kind.VERB, None}:
             return i + 1  # "go to like the cone"
         normal = token.value[0]
         if token.text.startswith("from the") and normal in {"left of", "right of"} and self.ordered():

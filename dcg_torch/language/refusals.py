@@ -6,8 +6,9 @@ from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import GREETING, MEETING, REFUSALS, SETS, VERBS
+from dcg_torch.language.lexicon import GREETING, MEETING, REFUSALS, SETS, TALK, VERBS
 
+_BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
 NO_THING = "it names no thing"
 MOTION = "it says how to move and names no thing to go to"
 
@@ -49,15 +50,22 @@ def greeted(words: Sequence[str]) -> int:
     return 0 if match is None else match.group().count(" ") + 1
 
 
-def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]]) -> None:
-    """Mark a clause that is within a part that orders nothing; what follows "and" in it is an order again."""
-    first = next((item for item in items if item.kind not in {Kind.AND, Kind.COMMA, Kind.ADVERB}), items[0])
+def refuse(
+    clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]], words: Sequence[str]
+) -> None:
+    """Mark a clause that orders nothing about a thing.
+
+    A clause is within one of the `parts`, unless it follows "and" and is an order again; or it is talk by itself.
+    """
+    first = next((item for item in items if item.kind not in _BEFORE), items[0])
     for start, stop, reason in parts:
         if start <= first.start < stop:
             ordered = clause.verb is not None and clause.action in SETS["commands"] - VERBS["lesson"]
-            joined = items[0].kind in {Kind.AND, Kind.COMMA, Kind.ADVERB}
-            later = first.start > start and joined and ordered and reason is not MEETING[1]
+            later = first.start > start and items[0].kind in _BEFORE and ordered and reason is not MEETING[1]
             clause.refused = None if later else reason
+    if clause.verb is first and clause.refused is None:
+        said = " ".join(words[first.start : items[-1].stop])
+        clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)
 
 
 def moves(clauses: Sequence[Clause]) -> bool:

@@ -55,9 +55,12 @@ class Path:
     weight: float
 
 
-def paths(words: Sequence[str], vocabulary: Collection[str], k: int) -> list[Path]:
-    """The `k` likeliest ways to tag a command, the likeliest first."""
-    edges = _Lattice(words, vocabulary).edges()
+def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[str], k: int) -> list[Path]:
+    """The `k` likeliest ways to tag a command, the likeliest first.
+
+    `vocabulary` holds nouns that are known, `names` words that are written like names, which have no plural.
+    """
+    edges = _Lattice(words, vocabulary, names).edges()
     n = len(words)
     # best[i][tag]: the weight of the best beginning that ends before word i with that tag.
     best: list[dict[str, float]] = [{} for _ in range(n + 1)]
@@ -104,8 +107,8 @@ def _backwards(
 class _Lattice:
     """Every token that may begin at each word."""
 
-    def __init__(self, words: Sequence[str], vocabulary: Collection[str]) -> None:
-        self.words = words
+    def __init__(self, words: Sequence[str], vocabulary: Collection[str], names: Collection[str]) -> None:
+        self.words, self.names = words, names
         self.known = {noun for noun in vocabulary if " " not in noun}
         self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | compounds()
         self.starts = {name[0] for name in self.compounds}
@@ -122,12 +125,14 @@ class _Lattice:
         word = self.words[i]
         out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
         if (word in self.known or singular(word) in self.known) and is_plain_noun(word):
-            out.append(self._new(i, i + 1, "N", "known_noun"))
+            out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
         for part in (self._prepositions, self._phrases, self._colors, self._compounds, self._names):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
     def _value(self, tag: str, word: str) -> tuple[str, ...]:
+        if tag == "N":
+            return (word if word in self.names else singular(word),)
         return (normal_color(word),) if tag == "COL" else (NORMAL.get(word, word),)
 
     def _new(
@@ -189,8 +194,9 @@ class _Lattice:
             return []
         for length in (4, 3, 2):
             name = (*self.words[i : i + length - 1], *map(singular, self.words[i + length - 1 : i + length]))
-            if len(name) == length and (name in self.compounds or tuple(self.words[i : i + length]) in self.compounds):
-                return [self._new(i, i + length, "N", "compound", tuple(self.words[i : i + length]))]
+            spoken = tuple(self.words[i : i + length])
+            if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
+                return [self._new(i, i + length, "N", "compound", name)]
         return []
 
     def _names(self, i: int) -> list[tuple[Token, float]]:

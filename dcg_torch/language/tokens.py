@@ -17,8 +17,9 @@ _QUOTES = str.maketrans(
     {0x2018: "'", 0x2019: "'", 0x60: "'", 0xB4: "'", 0x201C: '"', 0x201D: '"', 0x2013: "-", 0x2014: ",", 0x2026: "."}
 )
 _HYPHENATED = re.compile(r"\b([a-z]+)-([a-z]+)\b")
+_NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+\b")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
-_LONG_ENOUGH = 3
+_LONG_ENOUGH, _LONG_COLOR = 3, 5
 
 
 def tokens(text: str) -> list[str]:
@@ -39,6 +40,15 @@ def tokens(text: str) -> list[str]:
         elif token not in SETS["fillers"] and (found or not (token in SETS["openings"] or token == ",")):
             found += MISSPELT.get(token, token).split()
     return found
+
+
+def names(text: str) -> frozenset[str]:
+    """Words that are written like names: with a capital, inside a sentence of small letters.
+
+    >>> sorted(names("Follow Jules to the TV."))
+    ['jules']
+    """
+    return frozenset(match.group().lower() for match in _NAME.finditer(text))
 
 
 def _swap(match: re.Match[str]) -> str:
@@ -72,11 +82,12 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
 
 @functools.lru_cache(16)
 def _speller(known: frozenset[str]) -> Speller:
-    return Speller([known, single_colors(), _command_words()], is_english)
+    return Speller([known, SETS["basic_colors"], _command_words()], is_english)
 
 
 @functools.cache
 def _command_words() -> frozenset[str]:
     words = SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"]
     single = {name for names in PLACING.values() for name in names if " " not in name}
-    return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH)
+    colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
+    return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors
