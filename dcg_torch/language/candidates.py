@@ -10,7 +10,7 @@ import functools
 from typing import Final
 
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PRONOUNS, SETS, VERBS
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, VERBS
 from dcg_torch.language.morphology import is_plural, parts, singular, verb
 
 _OPEN: Final = GRAMMAR["open"]
@@ -27,14 +27,14 @@ def candidates(word: str) -> tuple[tuple[str, float], ...]:
             _add(found, weights)
     if word in PRONOUNS:
         _add(found, GRAMMAR["pronoun"])
-    if word in NUMBERS or word.isdigit():
+    if word in NUMBERS or word.isdecimal():
         _add(found, GRAMMAR["number"])
-    if word.isdigit():
+    if word.isdecimal():
         _add(found, GRAMMAR["named_number"])
     if word in NORMAL and not found:
         _add(found, GRAMMAR["lists"]["modifiers"])
     _add_color(found, word)
-    plain = word.replace("'", "").isalnum() and word.isascii() and not word.isdigit() and len(word) <= _LONGEST
+    plain = word.replace("'", "").isalnum() and word.isascii() and not word.isdecimal() and len(word) <= _LONGEST
     if plain and not is_fixed(word):
         _add_open(found, word)
     return tuple(found.items())
@@ -42,7 +42,8 @@ def candidates(word: str) -> tuple[tuple[str, float], ...]:
 
 def is_fixed(word: str) -> bool:
     """Whether a word is grammar and nothing else: "the", "and", "me"."""
-    return any(word in SETS[name] for name in GRAMMAR["fixed_lists"].split()) or word in PRONOUNS or word in NUMBERS
+    closed = word in PRONOUNS or word in NUMBERS or word in PLACING["single"]
+    return closed or any(word in SETS[name] for name in GRAMMAR["fixed_lists"].split())
 
 
 @functools.lru_cache(4096)
@@ -83,6 +84,7 @@ def _add_open(found: dict[str, float], word: str) -> None:
     most = max(known.values(), default=0)
     if "n" in known or (base != word and not known):
         less = step * (most - known.get("n", 0)) + _noun_penalty(word)
+        less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
         _add(found, _OPEN["plural" if is_plural(word) else "noun"], less)
     if "v" in known and stem == word and word not in SETS["commands"]:
         _add(found, _OPEN["verb"], step * (most - known["v"]))
@@ -92,6 +94,8 @@ def _add_open(found: dict[str, float], word: str) -> None:
         _add(found, _OPEN["adverb"], step * (most - known["r"]))
     if stem != word:
         _add_inflected(found, word)
+    if "N" not in found and not found.keys() & {"COL", "SIDE"}:
+        _add(found, _OPEN["no_noun"])
 
 
 def _add_unknown(found: dict[str, float], word: str) -> None:

@@ -82,7 +82,7 @@ class NounPhrase:
     def _number(self, token: Token) -> bool:
         if self.nouns:
             return False
-        short = token.text.isdigit() and len(token.text) <= _LONGEST_NUMBER
+        short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
         number = NUMBERS.get(token.text) or (int(token.text) if short else None)
         if self.group is not None:
             self.of = number

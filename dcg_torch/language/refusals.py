@@ -60,7 +60,8 @@ def refuse(
     first = next((item for item in items if item.kind not in _BEFORE), items[0])
     for start, stop, reason in parts:
         if start <= first.start < stop:
-            ordered = clause.verb is not None and clause.action in SETS["commands"] - VERBS["lesson"]
+            acts = clause.verb is not None and not clause.verb.participle
+            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
             later = first.start > start and items[0].kind in _BEFORE and ordered and reason is not MEETING[1]
             clause.refused = None if later else reason
     if clause.verb is first and clause.refused is None:

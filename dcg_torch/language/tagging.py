@@ -204,6 +204,6 @@ class _Lattice:
         if self.words[i] not in SETS["names"] or i + 1 >= len(self.words):
             return []
         number = self.words[i + 1]
-        if not (number.isdigit() or number in NUMBERS):
+        if not (number.isdecimal() or number in NUMBERS):
             return []
         return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(NUMBERS.get(number, number)),)), 1.0)]
