@@ -40,11 +40,13 @@ class _Builder:
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
+        self.not_colors: list[str] = []  # "not orange, not pink"
 
     def run(self, supplied: bool, decisions: Decisions) -> Clause:
         """Read the items."""
         for k, item in enumerate(self.items):
             self.step(item, self.items[k + 1] if k + 1 < len(self.items) else None)
+        self.deny_colors()
         settle(self.clause, self.pending, supplied, decisions)
         for noun in self.nouns:
             settle_nothing(noun)
@@ -72,6 +74,14 @@ class _Builder:
         elif item.kind is Kind.NOUN and not self.is_subject(item, after):
             self.noun(item)
             self.joined = self.forced = self.excluded = False
+
+    def deny_colors(self) -> None:
+        """Say of the object, which may have no name, which colours it has not: "blue, not purple"."""
+        if self.not_colors and not self.clause.objects and not self.clause.places and not self.pending:
+            first = self.items[0]
+            self.clause.objects = [Item(Kind.NOUN, first.start, first.start, "", pronoun=True)]
+        if self.not_colors and self.clause.objects:
+            self.clause.objects[0].words += tuple(self.not_colors)
 
     def is_exception(self, item: Item, after: Item | None) -> bool:
         """The "but" of "all cubes but the red one", "anything but the cone"."""
@@ -201,6 +211,9 @@ class _Builder:
             return
         if place is not None and (self.joined or not place.children):
             self.landmark(item, place)
+        elif self.excluded and only_color(item):
+            self.not_colors.append(f"not {item.color}")
+            item.said = True
         elif self.excluded:
             self.nouns.append(item)  # what is said of it goes with it
         elif self.is_inverted(item):

@@ -55,16 +55,18 @@ def refuse(
 ) -> None:
     """Mark a clause that orders nothing about a thing.
 
-    A clause is within one of the `parts`, unless it follows "and" and is an order again; or it is talk by itself.
+    A clause is within one of the `parts`, unless an order begins in it; or it is talk by itself.
     """
     first = next((item for item in items if item.kind not in _BEFORE), items[0])
     for start, stop, reason in parts:
         if start <= first.start < stop:
             acts = clause.verb is not None and not clause.verb.participle
             ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
-            later = first.start > start and items[0].kind in _BEFORE and ordered and reason is not MEETING[1]
+            own = words[first.start - 1] not in SETS["subordinates"]
+            later = first.start > start and own and ordered and reason is not MEETING[1]
             clause.refused = None if later else reason
-    if clause.verb is first and clause.refused is None:
+    own = not first.start or words[first.start - 1] not in SETS["subordinates"]
+    if clause.verb is first and clause.refused is None and own:
         said = " ".join(words[first.start : items[-1].stop])
         clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)
 
