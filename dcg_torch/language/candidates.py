@@ -10,7 +10,7 @@ import functools
 from typing import Final
 
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, VERBS
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, VERBS, irregular
 from dcg_torch.language.morphology import is_plural, parts, singular, verb
 
 _OPEN: Final = GRAMMAR["open"]
@@ -92,9 +92,9 @@ def _add_open(found: dict[str, float], word: str) -> None:
         _add(found, _OPEN["adjective"], step * (most - known["a"]))
     if "r" in known:
         _add(found, _OPEN["adverb"], step * (most - known["r"]))
-    if stem != word:
+    if stem != word or (word, "v") in irregular():
         _add_inflected(found, word)
-    if "N" not in found and not found.keys() & {"COL", "SIDE"}:
+    if "N" not in found and not found.keys() & {"COL", "SIDE"} and word not in SETS["modifiers"]:
         _add(found, _OPEN["no_noun"])
 
 

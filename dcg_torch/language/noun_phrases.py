@@ -156,7 +156,7 @@ class NounPhrase:
     def _denial(self, token: Token) -> bool:
         """ "The not blue cube", "a non red one"."""
         after = self.tag(self.at + 1)
-        if not self.determined or self.nouns or after not in _DESCRIBING:
+        if not (self.determined or self.words) or self.nouns or after not in _DESCRIBING:
             return False
         self.words.append(f"not {self.tokens[self.at + 1].value[0]}")
         return self._take(2)

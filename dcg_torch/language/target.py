@@ -109,6 +109,9 @@ def _resolved(chosen: Choice, found: list[Choice]) -> Choice:
     empty = noun.color is None and not noun.words and not noun.children
     if noun.pronoun and (empty or noun.text in SETS["stands_for"]):
         earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
+        handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
+        if handled and chosen.place is None:
+            return handled[-1]
         if earlier:
             return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
     return chosen
