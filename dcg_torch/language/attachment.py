@@ -40,7 +40,8 @@ class _Builder:
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
-        self.not_colors: list[str] = []  # "not orange, not pink"
+        self.not_colors: list[str] = []  # "(blue), not orange, not pink"
+        self.denials: list[str] = []  # "not the bright one", which is no word of another thing
 
     def run(self, supplied: bool, decisions: Decisions) -> Clause:
         """Read the items."""
@@ -77,9 +78,10 @@ class _Builder:
 
     def deny_colors(self) -> None:
         """Say of the object, which may have no name, which colours it has not: "blue, not purple"."""
-        if self.not_colors and not self.clause.objects and not self.clause.places and not self.pending:
+        if (self.not_colors or self.denials) and not self.clause.objects and not self.pending:
             first = self.items[0]
-            self.clause.objects = [Item(Kind.NOUN, first.start, first.start, "", pronoun=True)]
+            unnamed = Item(Kind.NOUN, first.start, first.start, "", tuple(self.denials), pronoun=True)
+            self.clause.objects = [unnamed]
         if self.not_colors and self.clause.objects:
             self.clause.objects[0].words += tuple(self.not_colors)
 
@@ -211,9 +213,11 @@ class _Builder:
             return
         if place is not None and (self.joined or not place.children):
             self.landmark(item, place)
-        elif self.excluded and only_color(item):
-            self.not_colors.append(f"not {item.color}")
+        elif self.excluded and item.pronoun and (item.color or item.words):
             item.said = True
+            found = self.denials if item.determined else self.not_colors
+            found += [f"not {word}" for word in (item.color, *item.words) if word]
+            self.nouns += [item] if item.determined else []
         elif self.excluded:
             self.nouns.append(item)  # what is said of it goes with it
         elif self.is_inverted(item):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import gc
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language.attachment import build
@@ -114,10 +114,12 @@ class Parser:
         if len(words) > MAX_WORDS:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
         command = _Command(words, known, names(text))
-        found: dict[ParseTree, Reading] = {}
+        found: dict[Hashable, Reading] = {}
         for tree, decisions in best_first(command.read, _RUNS_A_READING * k):
-            if tree is not None and tree not in found:
-                found[tree] = Reading(tree, decisions.log_weight, decisions.rules, command.unread())
+            if tree is not None and _shape(tree) not in found:
+                unread = command.unread()
+                weight = decisions.log_weight + CHOICES["unread"] * len(unread)
+                found[_shape(tree)] = Reading(tree, weight, decisions.rules, unread)
             if len(found) == k:
                 break
         if not found:
@@ -188,6 +190,13 @@ def _supplied(groups: Sequence[Sequence[Item]], k: int) -> bool:
             if objects[0].pronoun and objects[0].color is None:
                 return True
     return False
+
+
+def _shape(tree: ParseTree) -> Hashable:
+    """A tree without its texts: two readings of one shape are one."""
+    phrase = tree.phrase
+    said = (phrase.kind, phrase.words, phrase.noun, phrase.color, phrase.plural, phrase.count)
+    return said, tuple(_shape(child) for child in tree.children)
 
 
 def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:
