@@ -179,6 +179,8 @@ class _Builder:
         main = not item.participle and not self.relative and name != "be"
         if self.clause.verb is None and (main or not self.nouns):
             self.clause.verb = item
+        elif item.finite and self.clause.verb is None and self.clause.objects and not self.relative:
+            self.clause.verb, self.clause.acting = item, True  # "the top box moves left"
         elif name == "be":
             self.copula = self.forced = True
             if self.clause.verb is None and not self.relative:

@@ -10,7 +10,7 @@ import functools
 from typing import Final
 
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, VERBS, irregular
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, irregular
 from dcg_torch.language.morphology import is_plural, parts, singular, verb
 
 _OPEN: Final = GRAMMAR["open"]
@@ -82,7 +82,7 @@ def _add_open(found: dict[str, float], word: str) -> None:
             _add_unknown(found, word)
         return
     most = max(known.values(), default=0)
-    if "n" in known or (base != word and not known):
+    if "n" in known or (base != word and stem == word and not known):
         less = step * (most - known.get("n", 0)) + _noun_penalty(word)
         less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
         _add(found, _OPEN["plural" if is_plural(word) else "noun"], less)
@@ -121,4 +121,4 @@ def _noun_penalty(word: str) -> float:
         return float(_OPEN["closed_noun"])
     if normal_color(word) in SETS["basic_colors"]:
         return float(GRAMMAR["color_noun"])
-    return float(_OPEN["unused_noun"]) if word in SETS["commands"] or word in VERBS["take"] else 0.0
+    return float(_OPEN["unused_noun"]) if singular(word) in SETS["commands"] else 0.0

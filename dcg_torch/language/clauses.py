@@ -24,6 +24,7 @@ class Clause:
     objects: list[Item] = field(default_factory=list)
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
     statement: bool = False
+    acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
 
     @property
@@ -140,4 +141,4 @@ def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
         if any(other.kind is Kind.VERB for other in clause):
             return False
     after_noun = before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]
-    return not (after_noun and (item.participle or lemma == "have"))
+    return not (after_noun and (item.participle or item.finite or lemma == "have"))

@@ -36,6 +36,7 @@ class Item:
     count: int | None = None
     pronoun: bool = False  # it, one, that: stands for something else
     participle: bool = False  # a verb's -ed or -ing form
+    finite: bool = False  # a verb's -s form
     determined: bool = False  # has an article
     negative: bool = False  # "no cube"
     beside: bool = False  # "and" or a comma joins it to the noun phrase before

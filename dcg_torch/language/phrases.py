@@ -90,7 +90,8 @@ class _Phrases:
         token = self.tokens[i]
         base = verb(token.text) if token.tag != "HAVE" else "have"
         item = self.add(Kind.VERB, i, i + 1, (base,))
-        item.participle = token.tag == "VG" and not token.text.endswith("s")
+        item.finite = token.tag == "VG" and token.text.endswith("s")
+        item.participle = token.tag == "VG" and not item.finite
         after = self.text(i + 1)
         stop = i + 1
         if after in SETS["verb_particles"] and base in VERBS["lift"]:

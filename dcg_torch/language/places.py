@@ -72,6 +72,8 @@ def _goal(
     supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
     if target is None or supplied:
         return None
+    if clause.acting:
+        return next((place for place in full if place.item.start >= clause.verb.start), None) if clause.verb else None
     if clause.action in VERBS["put"]:
         goal = _destination(full)
         if goal is None or goal.name in PLACING["sure"]:

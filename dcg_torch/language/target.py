@@ -32,7 +32,7 @@ def choices(clauses: Sequence[Clause]) -> list[Choice]:
         target = main_object(clause)
         if target is not None:
             found.append(Choice(target, clause, _object_score(clause) + penalty))
-            if clause.action in VERBS["put"] | VERBS["take"]:
+            if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
             child = place.children[0]
@@ -45,6 +45,8 @@ def choices(clauses: Sequence[Clause]) -> list[Choice]:
 
 def _object_score(clause: Clause) -> float:
     verb = clause.action
+    if clause.acting:
+        return TARGETS["acting"]
     if verb in VERBS["shun"]:
         return TARGETS["shun"]
     if clause.statement or not verb:
