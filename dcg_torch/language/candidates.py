@@ -117,6 +117,8 @@ def _add_inflected(found: dict[str, float], word: str) -> None:
 
 
 def _noun_penalty(word: str) -> float:
+    if word in SETS["ordinals"]:
+        return float(_OPEN["ordinal_noun"])
     if any(word in SETS[name] for name in _CLOSED):
         return float(_OPEN["closed_noun"])
     if normal_color(word) in SETS["basic_colors"]:

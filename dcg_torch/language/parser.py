@@ -157,7 +157,8 @@ class _Command:
         path = tagged[int(decisions.choose("words", options))]
         self.items = items([token for token in path.tokens if token.start >= begin])
         groups = split(self.items)
-        self.clauses = [build(group, _supplied(groups, n), decisions) for n, group in enumerate(groups)]
+        last = _supplied(groups)
+        self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         for clause, group in zip(self.clauses, groups, strict=True):
             refuse(clause, group, self.parts, words)
         return root(self.clauses, decisions)
@@ -181,15 +182,14 @@ class _Command:
         return MOTION if moves(self.clauses) else NO_THING
 
 
-def _supplied(groups: Sequence[Sequence[Item]], k: int) -> bool:
-    """Whether a later clause puts "it" somewhere, so that this one needs no destination."""
-    for group in groups[k + 1 :]:
-        verb = next((item for item in group if item.kind is Kind.VERB), None)
-        objects = [item for item in group if item.kind is Kind.NOUN][:1]
-        if verb is not None and verb.words[0] in VERBS["put"] and objects:
-            if objects[0].pronoun and objects[0].color is None:
-                return True
-    return False
+def _supplied(groups: Sequence[Sequence[Item]]) -> int:
+    """The number of the last clause that puts "it" somewhere, so that those before need no destination; -1: none."""
+    for n in range(len(groups) - 1, -1, -1):
+        verb = next((item for item in groups[n] if item.kind is Kind.VERB), None)
+        noun = next((item for item in groups[n] if item.kind is Kind.NOUN), None)
+        if verb and noun and verb.words[0] in VERBS["put"] and noun.pronoun and noun.color is None:
+            return n
+    return -1
 
 
 def _shape(tree: ParseTree) -> Hashable:

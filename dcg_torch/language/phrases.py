@@ -28,6 +28,7 @@ class _Phrases:
     def __init__(self, tokens: Sequence[Token]) -> None:
         self.tokens = tokens
         self.out: list[Item] = []
+        self.first = True  # no noun phrase stands before in the sentence
 
     def step(self, i: int) -> int:
         token = self.tokens[i]
@@ -50,6 +51,7 @@ class _Phrases:
         part = self.tokens[i:j]
         item = Item(kind, part[0].start, part[-1].stop, " ".join(token.text for token in part), words)
         self.out.append(item)
+        self.first = kind is Kind.STOP or (self.first and kind is not Kind.NOUN)
         return item
 
     def previous(self) -> Kind | None:
@@ -133,17 +135,12 @@ class _Phrases:
             item = self.add(Kind.NOUN, i, i + 2, ("each other",))
             item.pronoun = True
             return i + 2
-        alone = all(item.kind is not Kind.NOUN for item in self.clause())
-        phrase = NounPhrase(self.tokens, i, alone)
+        phrase = NounPhrase(self.tokens, i, self.first)
         if phrase.is_measure:
             return phrase.at
         if phrase.named:
             self.out.append(phrase.item())
+            self.first = False
             return phrase.at
         self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.text(i),))
         return i + 1
-
-    def clause(self) -> list[Item]:
-        """The items since the last stop."""
-        stops = [k for k, item in enumerate(self.out) if item.kind is Kind.STOP]
-        return self.out[stops[-1] + 1 if stops else 0 :]

@@ -28,6 +28,8 @@ from dcg_torch.language.lexicon import (
 )
 from dcg_torch.language.morphology import singular
 
+_NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
+_DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer
 START, END = "START", "END"
 _TAGS: Final = tuple(GRAMMAR["tags"])
 _AFTER: Final = {
@@ -83,14 +85,13 @@ def _backwards(
 ) -> list[Path]:
     """Search from the end: a partial path's bound is exact, so that complete paths come out in order."""
     heap: list[tuple[float, int, int, str, float, tuple[Token, ...]]] = []
-    number = 0
     for tag, weight in best[n].items():
-        heap.append((-(weight + _AFTER[tag][END]), number, n, tag, _AFTER[tag][END], ()))
-        number += 1
-    heapq.heapify(heap)
+        behind = _AFTER[tag][END]
+        heapq.heappush(heap, (-(weight + behind), n, len(heap), tag, behind, ()))
     found: list[Path] = []
+    number = len(heap)
     while heap and len(found) < k:
-        bound, _, at, tag, behind, tokens = heapq.heappop(heap)
+        bound, at, _, tag, behind, tokens = heapq.heappop(heap)
         if at == 0:
             found.append(Path(tokens, -bound))
             continue
@@ -99,8 +100,10 @@ def _backwards(
                 continue
             for before, start in best[token.start].items():
                 after = behind + weight + _AFTER[before][tag]
+                if found and start + after < found[0].weight - _NEGLIGIBLE:
+                    continue
                 number += 1
-                heapq.heappush(heap, (-(start + after), number, token.start, before, after, (token, *tokens)))
+                heapq.heappush(heap, (-(start + after), token.start, number, before, after, (token, *tokens)))
     return found
 
 
@@ -124,7 +127,8 @@ class _Lattice:
     def _at(self, i: int) -> list[tuple[Token, float]]:
         word = self.words[i]
         out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
-        if (word in self.known or singular(word) in self.known) and is_plain_noun(word):
+        doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
+        if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
             out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
         for part in (self._prepositions, self._phrases, self._colors, self._compounds, self._names):
             out += part(i)

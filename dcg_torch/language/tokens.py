@@ -7,6 +7,7 @@ import re
 import unicodedata
 from collections.abc import Collection, Sequence
 
+from dcg_torch.language.candidates import is_plain_noun
 from dcg_torch.language.colors import color_names, single_colors
 from dcg_torch.language.lexicon import MISSPELT, PLACING, REWRITES, SETS, WORD
 from dcg_torch.language.morphology import is_english
@@ -20,6 +21,7 @@ _HYPHENATED = re.compile(r"\b([a-z]+)-([a-z]+)\b")
 _NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+\b")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 _LONG_ENOUGH, _LONG_COLOR = 3, 5
+_STRANGE = 12  # words at most that are mended: more are no English, and each costs time
 
 
 def tokens(text: str) -> list[str]:
@@ -72,11 +74,15 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
     speller = _speller(frozenset(part for noun in known for part in noun.split()))
     single = {noun for noun in known if " " not in noun}
     mended: list[str] = []
+    strange = 0
     for word in words:
-        if mended and mended[-1] + word in single and word not in single:
+        if mended and mended[-1] + word in single and word not in single and is_plain_noun(mended[-1]):
             mended[-1] += word  # "mail box" where "mailbox" is known
-        else:
+        elif strange < _STRANGE and not is_english(word):
+            strange += 1
             mended.append(speller.correct(word))
+        else:
+            mended.append(word)
     return mended
 
 
