@@ -32,7 +32,8 @@ def counts(folder: Path) -> dict[str, Counter[str]]:
 
 def words(folder: Path) -> dict[str, str]:
     """Every plain word and what it can be: {"drill": "n3v4"}."""
-    used, found = counts(folder), defaultdict(str)
+    used = counts(folder)
+    found: dict[str, str] = defaultdict(str)
     for part, letter in PARTS.items():
         for line in (folder / f"index.{part}").read_text(encoding="utf-8").splitlines():
             word = line.split(" ", 1)[0]

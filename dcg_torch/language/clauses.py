@@ -42,15 +42,16 @@ def main_object(clause: Clause) -> Item | None:
     return None
 
 
-def split(items: Sequence[Item]) -> list[list[Item]]:
-    """Cut a command into clauses: one main verb with all that follows it."""
+def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> list[list[Item]]:
+    """Cut a command into clauses: one main verb with all that follows it. `talk`: words that order nothing."""
     clauses: list[list[Item]] = [[]]
     relative = False
     for k, item in enumerate(items):
         before = items[k - 1] if k else None
         if item.kind is Kind.STOP:
             relative = False
-            if _is_fragment(items[k + 1 :]) and clauses[-1]:
+            said = clauses[-1] and any(start <= clauses[-1][0].start < stop for start, stop, _ in talk)
+            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said:
                 clauses[-1].append(replace(item, kind=Kind.COMMA))
             else:
                 clauses.append([])
@@ -75,11 +76,7 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
 
 def _begins(clause: Sequence[Item], items: Sequence[Item], k: int, relative: bool) -> bool:
     """Whether a clause begins with the verb at `k`."""
-    return (
-        _is_main(items, k, relative)
-        and not _is_statement(clause, items, k)
-        and not _is_inverted(clause, items[k])
-    )
+    return _is_main(items, k, relative) and not _is_statement(clause, items, k) and not _is_inverted(clause, items[k])
 
 
 def _is_fragment(after: Sequence[Item]) -> bool:

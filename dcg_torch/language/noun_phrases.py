@@ -218,7 +218,9 @@ class NounPhrase:
         while self.tag(after) == "DET":
             after += 1
         bare_group = self.text(after) in SETS["groups"] and self.text(after + 1) != "of"
-        if bare_group or (self.tag(self.at + 1) not in _STARTS and self.text(self.at + 1) not in SETS["group_pronouns"]):
+        if bare_group or (
+            self.tag(self.at + 1) not in _STARTS and self.text(self.at + 1) not in SETS["group_pronouns"]
+        ):
             self.closed = True  # "the last of the row": the row is no such thing
             return False
         if self.nouns:

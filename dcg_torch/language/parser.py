@@ -115,16 +115,19 @@ class Parser:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
         command = _Command(words, known, names(text))
         found: dict[Hashable, Reading] = {}
+        reason = NO_THING
+        nothing = -math.inf  # the log-weight of the likeliest reading that means no thing
         for tree, decisions in best_first(command.read, _RUNS_A_READING * k):
             if tree is not None and _shape(tree) not in found:
                 unread = command.unread()
                 weight = decisions.log_weight + CHOICES["unread"] * len(unread)
                 found[_shape(tree)] = Reading(tree, weight, decisions.rules, unread)
+            elif tree is None and nothing == -math.inf:
+                nothing, reason = decisions.log_weight, command.reason()
             if len(found) == k:
                 break
-        if not found:
-            reason = command.reason()
-            return Parse(text, problem=reason, refused=reason if words else None)
+        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing or not found:
+            return Parse(text, problem=reason, refused=reason)
         return Parse(text, _normalised(list(found.values())))
 
 
@@ -156,7 +159,7 @@ class _Command:
             return None
         path = tagged[int(decisions.choose("words", options))]
         self.items = items([token for token in path.tokens if token.start >= begin])
-        groups = split(self.items)
+        groups = split(self.items, self.parts)
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         for clause, group in zip(self.clauses, groups, strict=True):

@@ -7,7 +7,6 @@ where the other way is possible.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 from dcg_torch.language.clauses import Clause, main_object
@@ -101,9 +100,11 @@ def _unnamed(clause: Clause) -> None:
     """ "closest to me", "in the corner", "my left": of the thing only the place is said."""
     somewhere = SETS["places"] | SETS["someone"]
     places = [p for p in clause.places if p.words[0] in PLACING["extremes"] or p.children[0].noun in somewhere]
-    for side in clause.objects:
-        if is_side(side) and side.determined:
-            places.append(Item(Kind.PREPOSITION, side.start, side.stop, side.text, ("on",), children=[side]))
+    places += [
+        Item(Kind.PREPOSITION, side.start, side.stop, side.text, ("on",), children=[side])
+        for side in clause.objects
+        if is_side(side) and side.determined
+    ]
     if places:
         first = places[0]
         clause.places = [place for place in clause.places if place not in places]

@@ -50,9 +50,7 @@ def greeted(words: Sequence[str]) -> int:
     return 0 if match is None else match.group().count(" ") + 1
 
 
-def refuse(
-    clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]], words: Sequence[str]
-) -> None:
+def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]], words: Sequence[str]) -> None:
     """Mark a clause that orders nothing about a thing.
 
     A clause is within one of the `parts`, unless an order begins in it; or it is talk by itself.

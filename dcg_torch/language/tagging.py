@@ -80,9 +80,7 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
     return _backwards(best, into, n, k)
 
 
-def _backwards(
-    best: list[dict[str, float]], into: list[list[tuple[Token, float]]], n: int, k: int
-) -> list[Path]:
+def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]]], n: int, k: int) -> list[Path]:
     """Search from the end: a partial path's bound is exact, so that complete paths come out in order."""
     heap: list[tuple[float, int, int, str, float, tuple[Token, ...]]] = []
     for tag, weight in best[n].items():
