@@ -55,7 +55,8 @@ def is_plain_noun(word: str) -> bool:
 
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
-    return not (is_fixed(word) or word in SETS["adverbs"] or word in SETS["particles"] or not word[:1].isalpha())
+    plain = any(word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words"))
+    return not (is_fixed(word) or plain or singular(word) in SETS["measures"] or not word[:1].isalpha())
 
 
 def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) -> None:

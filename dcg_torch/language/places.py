@@ -43,6 +43,8 @@ def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: De
         if not place.item.children:
             if place.nouns and place.name in PLACING["bare"]:
                 place.nouns[-1].words += place.item.words
+            elif place.nouns and place.name in PLACING["extremes"]:
+                place.nouns[-1].words += (place.name.split()[0],)  # "the one farthest away"
             continue
         if place.name == "for" and place.item.children[0].noun in SETS["someone"]:
             continue  # "find it for me" says nothing of the thing
