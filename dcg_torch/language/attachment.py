@@ -14,6 +14,7 @@ from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin, settle
 from dcg_torch.language.predicates import is_edge_of, is_side, last_thing, only_color, settle_nothing, share_noun
+from dcg_torch.language.selection import is_superlative
 
 _WHICH_EXCEPT = frozenset({"all", "every", "any", "each"})
 
@@ -135,7 +136,8 @@ class _Builder:
         bare = self.joined or self.clause.verb is None
         # "the cube that is biggest", "the cube, big"
         predicate = self.forced or self.copula or (bare and name not in SETS["sides"])
-        predicate = name == "alone" or (predicate and name not in SETS["adverbs"])
+        ranked = is_superlative(name) and name not in SETS["ordinals"]
+        predicate = name == "alone" or ranked or (predicate and name not in SETS["adverbs"])
         before_rank = after is not None and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
         if name in SETS["ordinals"] and before_rank:
             predicate = True  # "the cone second from the left", "... second closest to the sphere"
@@ -231,6 +233,9 @@ class _Builder:
             self.merge(self.nouns[-1], item)
         elif self.nouns and is_side(item) and not self.joins_sides():
             self.side(item)
+        elif self.nouns and self.is_bare_place(item):
+            where = Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("in",), children=[item])
+            last_thing(self.nouns).children.append(where)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
             conjoin(item, self.nouns, self.pending, self.clause)
@@ -238,6 +243,11 @@ class _Builder:
             self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)
+
+    def is_bare_place(self, item: Item) -> bool:
+        """ "(blue fan,) top row": where the thing is, without a preposition."""
+        somewhere = item.noun in SETS["place_nouns"] and bool(item.words) and not item.color
+        return somewhere and not self.and_joined and self.clause.verb is None and not item.determined
 
     def is_about_color(self, item: Item, place: Item | None) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""

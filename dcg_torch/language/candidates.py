@@ -11,7 +11,7 @@ from typing import Final
 
 from dcg_torch.language.colors import normal_color, single_colors
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, irregular
-from dcg_torch.language.morphology import is_plural, parts, singular, verb
+from dcg_torch.language.morphology import is_compared, is_plural, parts, singular, verb
 
 _OPEN: Final = GRAMMAR["open"]
 _CLOSED: Final = tuple(name for name in GRAMMAR["lists"] if name not in GRAMMAR["open_lists"].split())
@@ -55,7 +55,7 @@ def is_plain_noun(word: str) -> bool:
 
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
-    plain = any(word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words"))
+    plain = any(word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words", "postures"))
     return not (is_fixed(word) or plain or singular(word) in SETS["measures"] or not word[:1].isalpha())
 
 
@@ -78,6 +78,8 @@ def _add_open(found: dict[str, float], word: str) -> None:
     base, stem = singular(word), verb(word)
     if base != word and "n" in parts(base):
         known["n"] = max(known.get("n", 0), parts(base)["n"])
+    if is_compared(word) and not found:
+        _add(found, _OPEN["compared"])
     if not known and base == word and stem == word:
         if not found:
             _add_unknown(found, word)

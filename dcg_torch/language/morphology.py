@@ -93,11 +93,13 @@ def is_english(word: str) -> bool:
         return True
     if singular(word) in english() or verb(word) in english():
         return True
-    return irregular().get((word, "a"), "") in english() or _compared(word)
+    return is_compared(word)
 
 
-def _compared(word: str) -> bool:
+def is_compared(word: str) -> bool:
     """Whether a word is an adjective's comparative or superlative."""
+    if irregular().get((word, "a"), "") in english():
+        return True
     for ending in ("er", "est"):
         stem = word.removesuffix(ending)
         stems = {stem, f"{stem}e", stem[:-1], f"{stem[:-1]}y"} if stem != word else set()

@@ -82,7 +82,8 @@ def _goal(
         kept = decisions.choose("goal", CHOICES["goal"]) == "destination"
         return goal if kept else None
     if clause.action in VERBS["take"] | VERBS["go"]:
-        return next((place for place in full if place.name in PLACING["strong"] and not place.forced), None)
+        strong = (place for place in full if place.name in PLACING["strong"] and not place.forced)
+        return next((place for place in strong if not _about_noun(place)), None)
     return None
 
 
