@@ -239,7 +239,7 @@ class _Builder:
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
             conjoin(item, self.nouns, self.pending, self.clause)
-        elif item.noun not in SETS["measures"]:
+        elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
             self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)

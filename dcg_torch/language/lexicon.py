@@ -87,7 +87,7 @@ _PREPOSITION: Final = re.compile(
 
 @dataclass(frozen=True, slots=True)
 class PrepositionMatch:
-    """A preposition of a command: its words, their number (0: those of another begin at once), its normal form.
+    """A preposition of a command: its words, their number, its normal form (empty: only says how exactly).
 
     `weight` is what the pattern adds to the log-weight of a preposition.
     """
@@ -108,8 +108,7 @@ def match_preposition(joined: str, offset: int) -> PrepositionMatch | None:
     normal = _NORMALS[at]
     if normal == "=":
         normal = SAME.get(raw, raw)
-    length = raw.count(" ") + (0 if raw.endswith(" ") else 1)
-    return PrepositionMatch(raw, length, normal.replace("<compass>", compass or ""), _WEIGHTS[at])
+    return PrepositionMatch(raw, raw.count(" ") + 1, normal.replace("<compass>", compass or ""), _WEIGHTS[at])
 
 
 @functools.cache

@@ -147,7 +147,7 @@ class _Lattice:
         out: list[tuple[Token, float]] = []
         match = match_preposition(self.joined, self.offsets[i])
         word = self.words[i]
-        if match is not None and match.length:
+        if match is not None:
             stop = i + match.length
             if not match.normal:  # "all the way" of "all the way to"
                 out.append((Token(i, stop, "ADV", match.raw, ("",)), 0.5))
