@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import functools
 
-from dcg_torch.language.lexicon import NORMAL, NUMBERS, PRONOUNS, SETS, english, irregular
+from dcg_torch.language.lexicon import (
+    NORMAL,
+    NUMBERS,
+    PLURAL_ENDINGS,
+    PRONOUNS,
+    SETS,
+    VERB_ENDINGS,
+    VERB_FORMS,
+    english,
+    irregular,
+)
 
-# Endings of inflected forms and what the base ends in instead, the likelier first.
-_PLURAL = (("ches", "ch"), ("shes", "sh"), ("xes", "x"), ("zes", "z"), ("sses", "ss"), ("oes", "o"), ("ies", "y"),
-           ("ves", "f"), ("s", ""), ("men", "man"))  # fmt: skip
-_VERBAL = (("ies", "y"), ("es", "e"), ("es", ""), ("s", ""), ("ied", "y"), ("ed", "e"), ("ed", ""), ("ing", "e"),
-           ("ing", ""))  # fmt: skip
 _MUCH_COMMONER = 3  # in powers of two
-_IRREGULAR_COPULAS = {"left": "leave", "'s": "be", "'re": "be", "is": "be", "are": "be", "'m": "be", "re": "be"}
 
 
 def parts(word: str) -> dict[str, int]:
@@ -37,7 +41,7 @@ def singular(word: str) -> str:
         return word
     if known.get(word, {}).get("n", 0) > 3 and "n" not in known.get(word[:-1], {}):
         return word
-    for old, new in _PLURAL:
+    for old, new in PLURAL_ENDINGS:
         stem = word[: len(word) - len(old)] + new
         if word.endswith(old) and "n" in known.get(stem, {}):
             return stem
@@ -59,15 +63,15 @@ def verb(word: str) -> str:
     >>> [verb(word) for word in ("going", "picked", "sits", "held", "placing")]
     ['go', 'pick', 'sit', 'hold', 'place']
     """
-    if word in _IRREGULAR_COPULAS:
-        return _IRREGULAR_COPULAS[word]
+    if word in VERB_FORMS:
+        return VERB_FORMS[word]
     known = english()
     if "v" in known.get(word, {}):
         return word
     base = irregular().get((word, "v"))
     if base is not None:
         return base
-    for old, new in _VERBAL:
+    for old, new in VERB_ENDINGS:
         if not word.endswith(old) or len(word) - len(old) < 2:
             continue
         stem = word[: len(word) - len(old)] + new

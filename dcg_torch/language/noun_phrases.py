@@ -235,7 +235,7 @@ class NounPhrase:
         after = self.at + 1
         while self.tag(after) == "DET":
             after += 1
-        return self.tag(after) == "NUM" and self.nouns[-1].text in {"middle", "center"}
+        return self.tag(after) == "NUM" and self.nouns[-1].text in SETS["counted_middles"]
 
     def _them(self, token: Token) -> bool:
         """ "All of them"."""
@@ -293,8 +293,8 @@ class NounPhrase:
             self.plural = noun in SETS["all_things"]
             self.words += ["all"] if self.plural else []
             return None
-        side = next((word for word in self.words if word in {"left", "right"}), None)
-        if side and names in (["side"], ["hand", "side"], ["hand"]):  # "the left hand side"
+        side = next((word for word in self.words if word in SETS["left_right"]), None)
+        if side and SETS["side_nouns"].issuperset(names):  # "the left hand side"
             self.words.remove(side)
             return side
         return NORMAL.get(noun, noun)

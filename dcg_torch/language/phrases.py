@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import PRONOUNS, SETS, VERBS
+from dcg_torch.language.lexicon import PLACING, PRONOUNS, SETS, VERBS
 from dcg_torch.language.morphology import verb
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Token
@@ -71,7 +71,7 @@ class _Phrases:
         if token.text in SETS["filler_words"] and self.previous() in {Kind.PREPOSITION, Kind.VERB, None}:
             return i + 1  # "go to like the cone"
         normal = token.value[0]
-        if token.text.startswith("from the") and normal in {"left of", "right of"} and self.ordered():
+        if token.text.startswith("from the") and normal in PLACING["beside"] and self.ordered():
             normal = "from"  # "the second from the left of the row"
             self.add(Kind.PREPOSITION, i, i + 1, (normal,))
             side = self.add(Kind.NOUN, i, i + 1)
@@ -131,7 +131,7 @@ class _Phrases:
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
-        if (self.text(i), self.text(i + 1)) in {("each", "other"), ("one", "another")}:
+        if self.text(i) in SETS["reciprocal_starts"] and self.text(i + 1) in SETS["reciprocal_ends"]:
             item = self.add(Kind.NOUN, i, i + 2, ("each other",))
             item.pronoun = True
             return i + 2

@@ -123,7 +123,7 @@ def _below(owner: Item, place: Item) -> None:
     child = place.children[0]
     if place.words == ("of",) and child.pronoun and not (child.color or child.children or owner.pronoun):
         return  # "the bigger cube of the two"
-    if place.words[0] in PLACING["sided"] and child.noun in {"left", "right"}:
+    if place.words[0] in PLACING["sided"] and child.noun in SETS["left_right"]:
         place.words = ("on",)
     elif place.words == ("towards",) and child.noun in SETS["places"]:
         place.words = ("in",)

@@ -31,14 +31,14 @@ def is_side(item: Item) -> bool:
     if item.noun not in SETS["sides"] or item.color is not None or item.plural:
         return False
     owned = not SETS["owned"].isdisjoint(item.words)
-    return owned or (not item.determined and all(word in SETS["sides"] | {"very"} for word in item.words))
+    return owned or (not item.determined and all(word in SETS["sides"] for word in item.words))
 
 
 def settle_nothing(noun: Item) -> None:
     """ "with nothing on top of it" becomes the word "nothing on" of the noun phrase, "nothing behind it" another."""
     for without in [child for child in noun.children if child.words == ("without",)]:
         thing = without.children[0]
-        if thing.noun not in SETS["nothing"] | {"thing"} or len(thing.children) != 1:
+        if thing.noun not in SETS["unnamed_things"] or len(thing.children) != 1:
             continue
         (where,) = thing.children
         if where.children[0].noun in {None, "top"}:

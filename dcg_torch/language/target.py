@@ -13,7 +13,7 @@ from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
 @dataclass(slots=True, eq=False)
-class Choice:
+class Mention:
     """A noun phrase that may be the one meant, the clause it is in, and how surely the verb is about it."""
 
     noun: Item
@@ -22,16 +22,16 @@ class Choice:
     place: Item | None = None  # the prepositional phrase it stands in
 
 
-def choices(clauses: Sequence[Clause]) -> list[Choice]:
+def choices(clauses: Sequence[Clause]) -> list[Mention]:
     """Every noun phrase that some clause is about, in the order of the command."""
-    found: list[Choice] = []
+    found: list[Mention] = []
     for clause in clauses:
         if clause.refused is not None:
             continue
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            found.append(Choice(target, clause, _object_score(clause) + penalty))
+            found.append(Mention(target, clause, _object_score(clause) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -39,7 +39,7 @@ def choices(clauses: Sequence[Clause]) -> list[Choice]:
             if child.noun in SETS["directions"] | {"you"} and not child.children:
                 continue
             score = _place_score(place.words[0], clause.action, target is not None)
-            found.append(Choice(child, clause, score + penalty, place))
+            found.append(Mention(child, clause, score + penalty, place))
     return found
 
 
@@ -93,7 +93,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     return ParseTree(phrase, tuple(freeze(child) for child in children))
 
 
-def _choose(found: list[Choice], decisions: Decisions) -> Choice:
+def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     best = max(choice.score for choice in found)
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
@@ -105,7 +105,7 @@ def _choose(found: list[Choice], decisions: Decisions) -> Choice:
     return found[int(decisions.choose("target", options))]
 
 
-def _resolved(chosen: Choice, found: list[Choice]) -> Choice:
+def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
     noun = chosen.noun
     empty = noun.color is None and not noun.words and not noun.children
@@ -119,7 +119,7 @@ def _resolved(chosen: Choice, found: list[Choice]) -> Choice:
     return chosen
 
 
-def _beside(chosen: Choice) -> list[Item]:
+def _beside(chosen: Mention) -> list[Item]:
     """The noun phrases that are meant beside the chosen one."""
     objects = chosen.clause.objects
     at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
@@ -130,7 +130,7 @@ def _beside(chosen: Choice) -> list[Item]:
     return [noun for noun in named if noun.noun not in SETS["directions"] or noun.children]
 
 
-def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
+def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:
     """ "pick up the cube and put it on the block": where a later clause puts "it"."""
     at = next(k for k, clause in enumerate(clauses) if clause is chosen.clause)
     for clause in clauses[at + 1 :]:
@@ -139,7 +139,7 @@ def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
     return []
 
 
-def _describe_later(chosen: Choice, clauses: Sequence[Clause]) -> None:
+def _describe_later(chosen: Mention, clauses: Sequence[Clause]) -> None:
     """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
     for clause in clauses:
         if clause is chosen.clause or not clause.objects or clause.verb is not None:
