@@ -29,7 +29,7 @@ def candidates(word: str) -> tuple[tuple[str, float], ...]:
         _add(found, GRAMMAR["pronoun"])
     if word in NUMBERS or word.isdecimal():
         _add(found, GRAMMAR["number"])
-    if word.isdecimal():
+    if word.isdecimal() or (len(word) == 1 and word.isalpha()):
         _add(found, GRAMMAR["named_number"])
     if word in NORMAL and not found:
         _add(found, GRAMMAR["lists"]["modifiers"])
@@ -55,7 +55,7 @@ def is_plain_noun(word: str) -> bool:
 
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
-    plain = any(word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words", "postures"))
+    plain = any(word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words", "postures", "modals"))
     return not (is_fixed(word) or plain or singular(word) in SETS["measures"] or not word[:1].isalpha())
 
 

@@ -104,7 +104,8 @@ class NounPhrases:
         if place.children or place.words[0] not in PLACING["between"] or item.plural:
             self.preposition = None
         place.children.append(item)
-        self.nouns.append(item)
+        if place.words != ("of",) or item.determined or not self.nouns:
+            self.nouns.append(item)  # what follows "a pallet of tires" is said of the pallet
 
     def is_inverted(self, item: Item) -> bool:
         """The cone of "behind the cube is a cone"."""
