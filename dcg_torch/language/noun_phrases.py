@@ -148,7 +148,7 @@ class NounPhrase:
 
     def _name(self, token: Token) -> bool:
         """ "Cube 3": a number that is part of a name."""
-        if not self.headed:
+        if not self.headed or singular(self.text(self.at + 1)) in SETS["measures"]:
             return False
         self.words += token.value
         return self._take()

@@ -172,7 +172,6 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Claus
         clause.objects.append(item)  # "On the left, the red cone"
         nouns.append(item)
         return
-    partner = _alike(item, partner, nouns, pending)
     share_noun(partner, item)
     for place in reversed(pending):
         if any(child is partner for child in place.item.children):
@@ -182,14 +181,3 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Claus
     clause.objects.append(item)
     nouns.append(item)
 
-
-def _alike(item: Item, partner: Item, nouns: list[Item], pending: list[Pending]) -> Item:
-    """ "the cube behind the cone and the red one": what is joined is like what it is joined to.
-
-    A landmark keeps its conjunct only where its preposition takes two: "between", "in the middle of", "to".
-    """
-    place = next((p for p in reversed(pending) if any(child is partner for child in p.item.children)), None)
-    if place is None or not place.nouns or place.name in PLACING["of_two"]:
-        return partner
-    thing = place.nouns[-1]
-    return thing if thing in nouns and thing.noun not in SETS["places"] | SETS["someone"] else partner
