@@ -180,4 +180,3 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Claus
             return
     clause.objects.append(item)
     nouns.append(item)
-

@@ -132,7 +132,7 @@ class NounPhrases:
         last = self.nouns[-1]
         if only_color(item) and last.stop == item.start and last.noun is None and last.color is None:
             return True  # "something red"
-        ordered = not SETS["ordinals"].isdisjoint(item.words) and last.stop == item.start  # "the cone second from ..."
+        ordered = not (SETS["ordinals"].isdisjoint(item.words) or item.determined)  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
         if last.noun in SETS["places"] | SETS["robot"] or (last.pronoun and not ordered):
