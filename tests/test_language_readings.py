@@ -107,6 +107,11 @@ def test_a_mended_word_may_have_been_right(parser: Parser) -> None:
     assert [meant(reading).noun for reading in parse.readings] == ["zorg", "zorq"]
 
 
+def test_rules_name_what_was_chosen(parser: Parser) -> None:
+    rules = {meant(reading).color: reading.rules for reading in parser.parse("go to the orange").readings}
+    assert rules == {"orange": ("words=COL",), None: ("words=N",)}
+
+
 def test_content_words_that_no_phrase_uses_are_unread(parser: Parser) -> None:
     assert parser.parse("go to the red cube").unread == ()
     assert parser.parse("please go slowly to the red cube now").unread == ()

@@ -55,10 +55,8 @@ def is_plain_noun(word: str) -> bool:
 
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
-    plain = any(
-        word in SETS[name] for name in ("adverbs", "function_words", "vocatives", "filler_words", "postures", "modals")
-    )
-    return not (is_fixed(word) or plain or singular(word) in SETS["measures"] or not word[:1].isalpha())
+    empty = any(word in SETS[name] for name in GRAMMAR["empty_lists"].split())
+    return not (is_fixed(word) or empty or singular(word) in SETS["measures"] or not word[:1].isalpha())
 
 
 def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) -> None:

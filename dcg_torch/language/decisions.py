@@ -52,8 +52,8 @@ class Decisions:
 
     @property
     def rules(self) -> tuple[str, ...]:
-        """What was chosen where there was a choice: "goal=destination"."""
-        return tuple(f"{c.rule}={c.options[c.chosen]}" for c in self.made if len(c.options) > 1)
+        """What was chosen where there was a choice: "goal=destination"; an option's name ends at its first space."""
+        return tuple(f"{c.rule}={c.options[c.chosen].split(' ')[0]}" for c in self.made if len(c.options) > 1)
 
 
 def best_first(run: Callable[[Decisions], T], limit: int) -> Iterator[tuple[T, Decisions]]:

@@ -51,6 +51,7 @@ NUMBERS: Final[Mapping[str, int]] = _WORDS["numbers"]
 PRONOUNS: Final[Mapping[str, str | None]] = _WORDS["pronouns"]
 CHOICES: Final[Mapping[str, Any]] = GRAMMAR["choices"]
 TARGETS: Final[Mapping[str, float]] = GRAMMAR["targets"]
+NOUN_FORMS: Final[Mapping[str, str]] = _WORDS["noun_forms"]
 VERB_FORMS: Final[Mapping[str, str]] = _WORDS["verb_forms"]
 PLURAL_ENDINGS: Final[list[list[str]]] = _WORDS["plural_endings"]
 VERB_ENDINGS: Final[list[list[str]]] = _WORDS["verb_endings"]
@@ -69,11 +70,9 @@ def _filled(pattern: str) -> str:
 
 REWRITES: Final = tuple((re.compile(_filled(old)), new) for old, new in _PATTERNS["rewrite"])
 WORD: Final = re.compile(_PATTERNS["word"])
-FACING: Final = re.compile(_filled(_PATTERNS["facing"]))
-ALONE: Final = re.compile(_filled(_PATTERNS["alone"]))
-VIEW: Final = re.compile(_filled(_PATTERNS["view"]))
-ORDINALS: Final = tuple(
-    (re.compile(rf"(?:{_filled(old)})(?= |$)"), tuple(new.split())) for old, new in _PATTERNS["ordinals"]
+PHRASES: Final = tuple(
+    (re.compile(rf"(?:{_filled(pattern)})(?= |$)"), tag, value.split(";"), weight)
+    for pattern, tag, value, weight in _PATTERNS["phrases"]
 )
 REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
 TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)

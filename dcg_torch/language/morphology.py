@@ -4,24 +4,14 @@ from __future__ import annotations
 
 import functools
 
-from dcg_torch.language.lexicon import (
-    NORMAL,
-    NUMBERS,
-    PLURAL_ENDINGS,
-    PRONOUNS,
-    SETS,
-    VERB_ENDINGS,
-    VERB_FORMS,
-    english,
-    irregular,
-)
+from dcg_torch.language import lexicon as lx
 
 _MUCH_COMMONER = 3  # in powers of two
 
 
 def parts(word: str) -> dict[str, int]:
     """Parts of speech that the dictionary has for a word as it stands."""
-    return dict(english().get(word, {}))
+    return dict(lx.english().get(word, {}))
 
 
 @functools.lru_cache(4096)
@@ -31,8 +21,10 @@ def singular(word: str) -> str:
     >>> [singular(word) for word in ("boxes", "zorps", "bus", "shelves", "glass", "people")]
     ['box', 'zorp', 'bus', 'shelf', 'glass', 'person']
     """
-    known = english()
-    base = irregular().get((word, "n"), word)
+    known = lx.english()
+    if word in lx.NOUN_FORMS:
+        return lx.NOUN_FORMS[word]
+    base = lx.irregular().get((word, "n"), word)
     if base != word and "n" in known.get(base, {}) and _commoner(base, word):
         return base
     if "n" in known.get(word, {}) and not word.endswith("s"):
@@ -41,7 +33,7 @@ def singular(word: str) -> str:
         return word
     if known.get(word, {}).get("n", 0) > 3 and "n" not in known.get(word[:-1], {}):
         return word
-    for old, new in PLURAL_ENDINGS:
+    for old, new in lx.PLURAL_ENDINGS:
         stem = word[: len(word) - len(old)] + new
         if word.endswith(old) and "n" in known.get(stem, {}):
             return stem
@@ -51,8 +43,8 @@ def singular(word: str) -> str:
 
 
 def _commoner(base: str, word: str) -> bool:
-    """Whether an irregular plural is meant and no noun of its own: "men", but "cola"."""
-    known = english()
+    """Whether an lx.irregular plural is meant and no noun of its own: "men", but "cola"."""
+    known = lx.english()
     return "n" not in known.get(word, {}) or known[base]["n"] > known[word]["n"] + _MUCH_COMMONER
 
 
@@ -63,15 +55,15 @@ def verb(word: str) -> str:
     >>> [verb(word) for word in ("going", "picked", "sits", "held", "placing")]
     ['go', 'pick', 'sit', 'hold', 'place']
     """
-    if word in VERB_FORMS:
-        return VERB_FORMS[word]
-    known = english()
+    if word in lx.VERB_FORMS:
+        return lx.VERB_FORMS[word]
+    known = lx.english()
     if "v" in known.get(word, {}):
         return word
-    base = irregular().get((word, "v"))
+    base = lx.irregular().get((word, "v"))
     if base is not None:
         return base
-    for old, new in VERB_ENDINGS:
+    for old, new in lx.VERB_ENDINGS:
         if not word.endswith(old) or len(word) - len(old) < 2:
             continue
         stem = word[: len(word) - len(old)] + new
@@ -91,22 +83,22 @@ def is_plural(word: str) -> bool:
 @functools.lru_cache(8192)
 def is_english(word: str) -> bool:
     """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
-    if word in english() or word in PRONOUNS or word in NUMBERS or word in NORMAL:
+    if word in lx.english() or word in lx.PRONOUNS or word in lx.NUMBERS or word in lx.NORMAL:
         return True
-    if any(word in words for words in SETS.values()):
+    if any(word in words for words in lx.SETS.values()):
         return True
-    if singular(word) in english() or verb(word) in english():
+    if singular(word) in lx.english() or verb(word) in lx.english():
         return True
     return is_compared(word)
 
 
 def is_compared(word: str) -> bool:
     """Whether a word is an adjective's comparative or superlative."""
-    if irregular().get((word, "a"), "") in english():
+    if lx.irregular().get((word, "a"), "") in lx.english():
         return True
     for ending in ("er", "est"):
         stem = word.removesuffix(ending)
         stems = {stem, f"{stem}e", stem[:-1], f"{stem[:-1]}y"} if stem != word else set()
-        if any("a" in english().get(base, {}) for base in stems):
+        if any("a" in lx.english().get(base, {}) for base in stems):
             return True
     return False

@@ -9,7 +9,7 @@ from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
 from dcg_torch.language.morphology import is_plural, parts, singular
 from dcg_torch.language.selection import normal_words
-from dcg_torch.language.tagging import Token
+from dcg_torch.language.tagging import Reader, Token
 
 _HEADS = frozenset({"N", "SIDE", "ONE"})
 _DESCRIBING = frozenset({"COL", "MOD"})
@@ -17,14 +17,15 @@ _STARTS = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE"})
 _LONGEST_NUMBER = 3
 
 
-class NounPhrase:
+class NounPhrase(Reader):
     """Reads the noun phrase that begins at a token; `at` is the token behind it.
 
     `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one.
     """
 
     def __init__(self, tokens: Sequence[Token], start: int, alone: bool) -> None:
-        self.tokens, self.start, self.at, self.alone = tokens, start, start, alone
+        super().__init__(tokens)
+        self.start, self.at, self.alone = start, start, alone
         self.nouns: list[Token] = []
         self.color: str | None = None
         self.words: list[str] = []
@@ -42,14 +43,6 @@ class NounPhrase:
             if part is None or not part(tokens[self.at]):
                 break
         self._settle()
-
-    def tag(self, i: int) -> str:
-        """The tag of token `i`, empty outside the command."""
-        return self.tokens[i].tag if 0 <= i < len(self.tokens) else ""
-
-    def text(self, i: int) -> str:
-        """The text of token `i`, empty outside the command."""
-        return self.tokens[i].text if 0 <= i < len(self.tokens) else ""
 
     @property
     def headed(self) -> bool:
@@ -258,9 +251,8 @@ class NounPhrase:
         """ "(A sheet of) metal": an adjective that is a noun as well is one where no other is."""
         last = self.tokens[self.at - 1]
         kinds = parts(last.text)
-        if last.text in SETS["modifiers"] and kinds.get("n", 0) <= kinds.get("a", 0) + kinds.get("r", 0):
-            return
-        if last.text in SETS["substances"] or ("n" in kinds and last.text not in SETS["modifiers"] | SETS["sides"]):
+        rather = kinds.get("n", 0) > kinds.get("a", 0) + kinds.get("r", 0)  # a noun than an adjective
+        if last.text in SETS["sides"] or (rather if last.text in SETS["modifiers"] else "n" in kinds):
             self.words.pop()
             self.nouns = [last]
 

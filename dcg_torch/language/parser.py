@@ -154,10 +154,10 @@ class _Command:
         if mended not in self.tagged:
             self.tagged[mended] = paths(words, self.known, self.names, _PATHS), [] if begin else talk(words)
         tagged, self.parts = self.tagged[mended]
-        options = {str(n): CHOICES["scale"] * path.weight for n, path in enumerate(tagged)}
+        options = {f"{_differing(path, tagged)} {n}": CHOICES["scale"] * path.weight for n, path in enumerate(tagged)}
         if not options:
             return None
-        path = tagged[int(decisions.choose("words", options))]
+        path = tagged[int(decisions.choose("words", options).split()[1])]
         self.items = items([token for token in path.tokens if token.start >= begin])
         groups = split(self.items, self.parts)
         last = _supplied(groups)
@@ -183,6 +183,12 @@ class _Command:
         if self.parts:
             return self.parts[0][2]
         return MOTION if moves(self.clauses) else NO_THING
+
+
+def _differing(path: Path, others: Sequence[Path]) -> str:
+    """The tags of a path that not all others have: the name of what it takes words for."""
+    common = set(path.tokens).intersection(*(other.tokens for other in others))
+    return "+".join(token.tag for token in path.tokens if token not in common) or "same"
 
 
 def _supplied(groups: Sequence[Sequence[Item]]) -> int:

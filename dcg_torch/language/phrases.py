@@ -8,7 +8,7 @@ from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import PLACING, PRONOUNS, SETS, VERBS
 from dcg_torch.language.morphology import verb
 from dcg_torch.language.noun_phrases import NounPhrase
-from dcg_torch.language.tagging import Token
+from dcg_torch.language.tagging import Reader, Token
 
 _SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
 NOMINAL = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE", "ONE"})
@@ -24,9 +24,9 @@ def items(tokens: Sequence[Token]) -> list[Item]:
     return reader.out
 
 
-class _Phrases:
+class _Phrases(Reader):
     def __init__(self, tokens: Sequence[Token]) -> None:
-        self.tokens = tokens
+        super().__init__(tokens)
         self.out: list[Item] = []
         self.first = True  # no noun phrase stands before in the sentence
 
@@ -57,14 +57,6 @@ class _Phrases:
     def previous(self) -> Kind | None:
         """The last item's kind."""
         return self.out[-1].kind if self.out else None
-
-    def tag(self, i: int) -> str:
-        """The tag of token `i`, empty outside the command."""
-        return self.tokens[i].tag if 0 <= i < len(self.tokens) else ""
-
-    def text(self, i: int) -> str:
-        """The text of token `i`, empty outside the command."""
-        return self.tokens[i].text if 0 <= i < len(self.tokens) else ""
 
     def preposition(self, i: int) -> int:
         token = self.tokens[i]
@@ -116,6 +108,7 @@ class _Phrases:
         if value[0] == "view":  # "(on the left) from my point of view" is on my left
             if self.previous() is Kind.NOUN:
                 self.out[-1].words += value[1:]
+                self.out[-1].stop = self.tokens[i].stop
             return
         self.add(Kind.ADVERB, i, i + 1, value)
 

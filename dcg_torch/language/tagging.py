@@ -11,30 +11,18 @@ from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import candidates, is_plain_noun
 from dcg_torch.language.colors import match_color, normal_color
-from dcg_torch.language.lexicon import (
-    ALONE,
-    FACING,
-    GRAMMAR,
-    NORMAL,
-    NUMBERS,
-    ORDINALS,
-    PLACING,
-    SETS,
-    VIEW,
-    compounds,
-    match_preposition,
-)
 from dcg_torch.language.morphology import singular
 
 _NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
 _DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer
 START, END = "START", "END"
-_TAGS: Final = tuple(GRAMMAR["tags"])
+_TAGS: Final = tuple(lx.GRAMMAR["tags"])
 _AFTER: Final = {
     before: {tag: float(row.get(tag, row["default"])) for tag in (*_TAGS, END)}
-    for before, row in GRAMMAR["transitions"].items()
+    for before, row in lx.GRAMMAR["transitions"].items()
 }
 
 
@@ -105,13 +93,28 @@ def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]
     return found
 
 
+class Reader:
+    """Reads tokens from left to right."""
+
+    def __init__(self, tokens: Sequence[Token]) -> None:
+        self.tokens = tokens
+
+    def tag(self, i: int) -> str:
+        """The tag of token `i`, empty outside the command."""
+        return self.tokens[i].tag if 0 <= i < len(self.tokens) else ""
+
+    def text(self, i: int) -> str:
+        """The text of token `i`, empty outside the command."""
+        return self.tokens[i].text if 0 <= i < len(self.tokens) else ""
+
+
 class _Lattice:
     """Every token that may begin at each word."""
 
     def __init__(self, words: Sequence[str], vocabulary: Collection[str], names: Collection[str]) -> None:
         self.words, self.names = words, names
         self.known = {noun for noun in vocabulary if " " not in noun}
-        self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | compounds()
+        self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | lx.compounds()
         self.starts = {name[0] for name in self.compounds}
         self.joined = " ".join(words)
         self.offsets = [0]
@@ -135,17 +138,17 @@ class _Lattice:
     def _value(self, tag: str, word: str) -> tuple[str, ...]:
         if tag == "N":
             return (word if word in self.names else singular(word),)
-        return (normal_color(word),) if tag == "COL" else (NORMAL.get(word, word),)
+        return (normal_color(word),) if tag == "COL" else (lx.NORMAL.get(word, word),)
 
     def _new(
         self, i: int, stop: int, tag: str, rule: str, value: tuple[str, ...] | None = None, more: float = 0.0
     ) -> tuple[Token, float]:
         text = " ".join(self.words[i:stop])
-        return Token(i, stop, tag, text, (text,) if value is None else value), float(GRAMMAR[rule][tag]) + more
+        return Token(i, stop, tag, text, (text,) if value is None else value), float(lx.GRAMMAR[rule][tag]) + more
 
     def _prepositions(self, i: int) -> list[tuple[Token, float]]:
         out: list[tuple[Token, float]] = []
-        match = match_preposition(self.joined, self.offsets[i])
+        match = lx.match_preposition(self.joined, self.offsets[i])
         word = self.words[i]
         if match is not None:
             stop = i + match.length
@@ -154,7 +157,7 @@ class _Lattice:
             else:
                 rule = "long_preposition" if match.length > 1 else "preposition"
                 out.append(self._new(i, stop, "P", rule, (match.normal,), match.weight))
-            if match.length > 1 and word in PLACING["single"]:
+            if match.length > 1 and word in lx.PLACING["single"]:
                 out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
         if word == "to":
             out.append(self._new(i, i + 1, "INF", "infinitive"))
@@ -162,27 +165,13 @@ class _Lattice:
 
     def _phrases(self, i: int) -> list[tuple[Token, float]]:
         """How a thing stands, and ordinals of several words."""
-        out, at = [], self.offsets[i]
-        match = FACING.match(self.joined, at)
-        if match is not None:
-            way = NORMAL.get(match["way"], match["way"])
-            bare = match["verb"] in SETS["facing_verbs"] and (i == 0 or self.words[i - 1] not in SETS["relatives"])
-            stop = i + match.group().count(" ") + 1
-            out.append(self._new(i, stop, "FACE", "facing", (f"facing {way}",), -3.0 if bare else 0.0))
-        if self.words[i] in SETS["ways"] and self.words[i + 1 : i + 2] == ["facing"]:
-            way = NORMAL.get(self.words[i], self.words[i])
-            out.append((Token(i, i + 2, "MOD", f"{way} facing", (f"facing {way}",)), 0.5))
-        match = ALONE.match(self.joined, at)
-        if match is not None:
-            out.append(self._new(i, i + match.group().count(" ") + 1, "ADV", "alone", ("alone",)))
-        match = VIEW.match(self.joined, at)
-        if match is not None:
-            out.append(self._new(i, i + match.group().count(" ") + 1, "ADV", "alone", ("view", match["owner"])))
-        for pattern, value in ORDINALS:
-            match = pattern.match(self.joined, at)
+        out = []
+        for pattern, tag, value, weight in lx.PHRASES:
+            match = pattern.match(self.joined, self.offsets[i])
             if match is not None:
-                stop = i + match.group().count(" ") + 1
-                out.append((Token(i, stop, "ORD", match.group(), value), 1.0))
+                way = match.groupdict().get("way", "")
+                words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
+                out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
         return out
 
     def _colors(self, i: int) -> list[tuple[Token, float]]:
@@ -203,9 +192,9 @@ class _Lattice:
 
     def _names(self, i: int) -> list[tuple[Token, float]]:
         """ "(cube) number 3"."""
-        if self.words[i] not in SETS["names"] or i + 1 >= len(self.words):
+        if self.words[i] not in lx.SETS["names"] or i + 1 >= len(self.words):
             return []
         number = self.words[i + 1]
-        if not (number.isdecimal() or number in NUMBERS):
+        if not (number.isdecimal() or number in lx.NUMBERS):
             return []
-        return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(NUMBERS.get(number, number)),)), 1.0)]
+        return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(lx.NUMBERS.get(number, number)),)), 1.0)]

@@ -98,11 +98,11 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
     step = CHOICES["target_step"]
-    options = {str(first): 0.0}
+    options = {f"likeliest {first}": 0.0}
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
-            options[str(k)] = step * (choice.score - best - 1.0)
-    return found[int(decisions.choose("target", options))]
+            options[f"other {k}"] = step * (choice.score - best - 1.0)
+    return found[int(decisions.choose("target", options).split()[1])]
 
 
 def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
