@@ -138,7 +138,7 @@ class _Command:
         self.known, self.names = known, names
         self.kept = list(words)
         self.mended = mend(words, known | names)
-        self.tagged: dict[bool, tuple[list[Path], list[tuple[int, int, str]]]] = {}
+        self.tagged: dict[bool, tuple[dict[str, Path], list[tuple[int, int, str]]]] = {}
         self.words: Sequence[str] = words
         self.items: list[Item] = []
         self.clauses: list[Clause] = []
@@ -152,12 +152,12 @@ class _Command:
         words = self.words = self.mended if mended else self.kept
         begin = greeted(words)
         if mended not in self.tagged:
-            self.tagged[mended] = paths(words, self.known, self.names, _PATHS), [] if begin else talk(words)
+            self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), [] if begin else talk(words)
         tagged, self.parts = self.tagged[mended]
-        options = {f"{_differing(path, tagged)} {n}": CHOICES["scale"] * path.weight for n, path in enumerate(tagged)}
-        if not options:
+        if not tagged:
             return None
-        path = tagged[int(decisions.choose("words", options).split()[1])]
+        weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
+        path = tagged[decisions.choose("words", weights)]
         self.items = items([token for token in path.tokens if token.start >= begin])
         groups = split(self.items, self.parts)
         last = _supplied(groups)
@@ -185,10 +185,12 @@ class _Command:
         return MOTION if moves(self.clauses) else NO_THING
 
 
-def _differing(path: Path, others: Sequence[Path]) -> str:
-    """The tags of a path that not all others have: the name of what it takes words for."""
-    common = set(path.tokens).intersection(*(other.tokens for other in others))
-    return "+".join(token.tag for token in path.tokens if token not in common) or "same"
+def _named(found: Sequence[Path]) -> dict[str, Path]:
+    """Paths by a number and the tags that not all of them have: what they take words for."""
+    all_tokens = [{id(token) for token in path.tokens} for path in found]
+    common = set.intersection(*all_tokens) if found else set()
+    differing = ["+".join(token.tag for token in path.tokens if id(token) not in common) for path in found]
+    return {f"{tags or 'same'} {n}": path for n, (tags, path) in enumerate(zip(differing, found, strict=True))}
 
 
 def _supplied(groups: Sequence[Sequence[Item]]) -> int:
