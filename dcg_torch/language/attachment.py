@@ -150,7 +150,7 @@ class _Builder(NounPhrases):
         """A verb: the clause's own, or one that says something of a noun phrase."""
         name = item.words[0]
         direct = after is not None and after.kind is Kind.NOUN and after.noun not in SETS["measures"]
-        main = not item.participle and not self.relative and name != "be"
+        main = not (item.participle or item.finite or self.relative or name == "be")
         if self.clause.verb is None and (main or not self.nouns):
             self.clause.verb = item
         elif item.finite and self.clause.verb is None and self.clause.objects and not self.relative:
