@@ -11,12 +11,14 @@ from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 from language_descriptions import DEVELOPMENT as DESCRIPTIONS
 from language_sentences import DEVELOPMENT as SENTENCES
 
 from dcg_torch.bench import hostile
 from dcg_torch.language import Parse, Parser, Reading, default_parser, target_phrase
 from dcg_torch.language.decisions import Decisions, best_first
+from dcg_torch.language.lexicon import read
 from dcg_torch.language.tagging import paths
 from dcg_torch.types import ParseTree, Phrase
 
@@ -105,6 +107,22 @@ def test_vocabulary(parser: Parser, text: str, vocabulary: list[str], noun: str)
 def test_a_mended_word_may_have_been_right(parser: Parser) -> None:
     parse = parser.parse("go to the zorq", ["zorg"])
     assert [meant(reading).noun for reading in parse.readings] == ["zorg", "zorq"]
+
+
+@pytest.mark.parametrize("name", ["words.yaml", "patterns.yaml", "grammar.yaml"])
+def test_no_word_of_the_data_is_read_as_a_truth_value(name: str) -> None:
+    def leaves(value: object) -> Iterator[object]:
+        if isinstance(value, dict):
+            yield from value
+            for item in value.values():
+                yield from leaves(item)
+        elif isinstance(value, list):
+            for item in value:
+                yield from leaves(item)
+        else:
+            yield value
+
+    assert not [leaf for leaf in leaves(yaml.safe_load(read(name))) if isinstance(leaf, bool)]
 
 
 def test_rules_name_what_was_chosen(parser: Parser) -> None:

@@ -9,7 +9,7 @@ from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import SETS
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
-_CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE, Kind.NEGATION})
+_CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 
 
 @dataclass(slots=True, eq=False)
@@ -81,7 +81,7 @@ def _begins(clause: Sequence[Item], items: Sequence[Item], k: int, relative: boo
 
 def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
-    first = next((item for item in after if item.kind is not Kind.COMMA), None)
+    first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), None)
     for item in after:
         if item.kind is Kind.STOP:
             break
@@ -89,8 +89,10 @@ def _is_fragment(after: Sequence[Item]) -> bool:
             return False
     if first is None:
         return False
-    described = first.kind is Kind.NOUN and first.pronoun and (first.color or first.words) and not first.determined
-    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or bool(described)
+    denied = after[0].kind is Kind.NEGATION  # "Blue. Not the dark one."
+    described = first.kind is Kind.NOUN and first.pronoun and bool(first.color or first.words)
+    described = described and (denied or not first.determined)
+    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or described
 
 
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:

@@ -47,6 +47,7 @@ class NounPhrases:
             found += [f"not {word}" for word in (item.color, *item.words) if word]
             self.nouns += [item] if item.determined else []
         elif self.excluded:
+            item.said = True
             self.nouns.append(item)  # what is said of it goes with it
         elif self.is_inverted(item):
             self.clause.objects.append(item)
