@@ -1,7 +1,16 @@
-"""Command text -> ParseTree. spaCy's parse is the base; this room mends what it gets wrong in commands.
+"""Command text -> weighted readings: parse trees, each with how likely it is before the world has spoken.
 
-    text -> reader (spelling, spaCy) -> chunks (verbs, prepositions, noun phrases; repairs of tags)
+    text -> tokens (one spelling, misspelt words mended)
+         -> tagging (the likeliest paths through what each word may be: a weighted grammar)
+         -> phrases (verbs, prepositions, noun phrases)
          -> clauses, attachment, places (what belongs to what) -> target (the tree of the object meant)
+         or refusals (why it is no order about a thing)
+
+Every word list, pattern and weight is data: `data/words.yaml` (closed classes), `patterns.yaml` (prepositions, how
+things stand, what is refused), `grammar.yaml` (tags, transitions, choices), `compounds.txt`, `colors.txt`, and an
+English dictionary made from WordNet (`english.tsv`, `irregular.tsv`). A learned word makes a noun surer, and changes
+how nothing else is read. Wherever a sentence can be read in several ways a run of the parser takes a weighted choice
+(`decisions`); a reading is a run, and its `rules` name the choices, so that their weights can be learned.
 
 The root of a tree is a verb phrase (empty for a bare "the red cube"). Its first child holds the object meant:
 a noun phrase ("find the cone") or a preposition with one ("to the cone"); `target_phrase` returns that noun phrase.
@@ -19,9 +28,17 @@ How a noun phrase is written down, beside its noun, colour and number:
     how a thing stands  the word "facing left"; but "facing the wall" is a preposition with a landmark
     a side              the landmark "left" of the preposition "on", with the word "your" or "my" if it is someone's;
                         with no preposition ("the cube, far left") the words "far" and "left"
+    a rank              ordinals are words: "first" to "tenth", "last", with what they count along behind them:
+                        ("second", "from the left") also for "second leftmost"; ("second", "last") for "next to last",
+                        "penultimate"; ("second", "biggest"); ("third", "from me"). A rank from a landmark has the
+                        ordinal as its word and "closest to" or "farthest from" below: "second closest to the sphere"
+    sets                "all", "every", "each", "both" (count 2), "any", "one of" (count 1) are words; "the two cubes"
+                        has the count 2. What is left out is below the preposition "except": "everything but the cone"
+    names               "cube 3" and "cube number 3" are the noun cube with the word "3"
+    isolation           "by itself", "isolated", "on its own" behind a noun phrase are the word "alone"
     each other          "the cubes next to each other": the landmark is another such cube, with the word "each other"
 """
 
-from dcg_torch.language.parser import Parse, Parser, default_parser, parse_command, target_phrase
+from dcg_torch.language.parser import Parse, Parser, Reading, default_parser, parse_command, target_phrase
 
-__all__ = ["Parse", "Parser", "default_parser", "parse_command", "target_phrase"]
+__all__ = ["Parse", "Parser", "Reading", "default_parser", "parse_command", "target_phrase"]

@@ -5,38 +5,53 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from dcg_torch.language import lexicon as lx
 from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import SETS
+
+_BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
+_CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 
 
 @dataclass(slots=True, eq=False)
 class Clause:
-    """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases."""
+    """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases.
+
+    `refused` says why it is no order about a thing.
+    """
 
     verb: Item | None = None
     negated: bool = False
     objects: list[Item] = field(default_factory=list)
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
     statement: bool = False
+    acting: bool = False  # the object does what is ordered: "the top box moves left"
+    refused: str | None = None
+
+    @property
+    def action(self) -> str:
+        """The verb without its particle, empty if there is none."""
+        return self.verb.words[0].split()[0] if self.verb else ""
 
 
 def main_object(clause: Clause) -> Item | None:
     """The direct object that is a thing: not the robot itself, a person spoken to, a measure or a direction."""
     for noun in clause.objects:
-        if noun.noun not in lx.ROBOT | {"me", "way"} and (noun.noun not in lx.DIRECTIONS or noun.children):
+        direction = noun.noun in SETS["directions"] and not noun.children
+        if not direction and noun.noun not in SETS["robot"] | SETS["no_objects"]:
             return noun
     return None
 
 
-def split(items: Sequence[Item]) -> list[list[Item]]:
-    """Cut a command into clauses: one main verb with all that follows it."""
+def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> list[list[Item]]:
+    """Cut a command into clauses: one main verb with all that follows it. `talk`: words that order nothing."""
     clauses: list[list[Item]] = [[]]
     relative = False
     for k, item in enumerate(items):
         before = items[k - 1] if k else None
         if item.kind is Kind.STOP:
             relative = False
-            if _is_fragment(items[k + 1 :]) and clauses[-1]:
+            said = clauses[-1] and any(start <= clauses[-1][0].start < stop for start, stop, _ in talk)
+            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said:
                 clauses[-1].append(replace(item, kind=Kind.COMMA))
             else:
                 clauses.append([])
@@ -45,16 +60,11 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
             relative = True
         elif item.kind is Kind.COMMA and relative:
             relative = False
-        elif (
-            item.kind is Kind.VERB
-            and _is_main(items, k, relative)
-            and not _is_statement(clauses[-1], items, k)
-            and not _is_inverted(clauses[-1], item)
-        ):
+        elif item.kind is Kind.VERB and _begins(clauses[-1], items, k, relative):
             relative = False
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
-            while clauses[-1] and clauses[-1][-1].kind in {Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB}:
+            while clauses[-1] and clauses[-1][-1].kind in _BEFORE_VERB:
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
@@ -64,18 +74,25 @@ def split(items: Sequence[Item]) -> list[list[Item]]:
     return [clause for clause in clauses if clause]
 
 
+def _begins(clause: Sequence[Item], items: Sequence[Item], k: int, relative: bool) -> bool:
+    """Whether a clause begins with the verb at `k`."""
+    return _is_main(items, k, relative) and not _is_statement(clause, items, k) and not _is_inverted(clause, items[k])
+
+
 def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
-    first = next((item for item in after if item.kind is not Kind.COMMA), None)
+    first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), None)
     for item in after:
         if item.kind is Kind.STOP:
             break
-        if item.kind in {Kind.VERB, Kind.RELATIVE, Kind.NEGATION}:
+        if item.kind in _CARRY_ON:
             return False
     if first is None:
         return False
-    described = first.kind is Kind.NOUN and first.pronoun and (first.color or first.words) and not first.determined
-    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or bool(described)
+    denied = after[0].kind is Kind.NEGATION  # "Blue. Not the dark one."
+    described = first.kind is Kind.NOUN and first.pronoun and bool(first.color or first.words)
+    described = described and (denied or not first.determined)
+    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or described
 
 
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
@@ -84,7 +101,7 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
         return False
     after = items[k + 1] if k + 1 < len(items) else None
     named = after is not None and after.kind is Kind.NOUN and after.noun is not None
-    return not named and any(item.kind is Kind.NOUN and item.noun not in {"you", "me"} for item in clause)
+    return not named and any(item.kind is Kind.NOUN and item.noun not in SETS["someone"] for item in clause)
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
@@ -97,12 +114,9 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     after = items[k + 1] if k + 1 < len(items) else None
     if after is None or after.kind is not Kind.VERB or items[k - 1].stop != items[k].start:
         return False
-    if items[k].text in {"it", "they"}:
+    if items[k].text in SETS["stands_for"]:
         return after.words[0] == "be"  # "the ball it is on the cube"
-    return items[k].noun in {"you", "me"} and items[k - 1].noun not in lx.ROBOT
-
-
-_PEOPLE = frozenset({"i", "you", "we", "they", "he", "she", "it", "me"})
+    return items[k].noun in SETS["someone"] and items[k - 1].noun not in SETS["robot"]
 
 
 def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
@@ -112,19 +126,18 @@ def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
     if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
         # "the block being held", "the cube is placed on ...", but "you are looking for"
         subject = items[k - 2]
-        if subject.kind is Kind.NOUN and subject.text not in _PEOPLE:
+        if subject.kind is Kind.NOUN and subject.text not in SETS["people"]:
             return False
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
-        joined = before is not None and before.kind in {Kind.AND, Kind.COMMA}
-        return joined and not item.participle and lemma in lx.COMMANDS
+        joined = before is not None and before.kind in _BEFORE_VERB - {Kind.NEGATION}
+        return joined and not item.participle and lemma in SETS["commands"]
     if before is not None and before.kind is Kind.ADVERB and k > 1:
         before = items[k - 2]
-    if lemma == "be" and before is not None and before.kind is Kind.NOUN and before.noun not in {"you", "me"}:
+    if lemma == "be" and before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]:
         # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
         clause = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
         if any(other.kind is Kind.VERB for other in clause):
             return False
-    return not (
-        item.participle and before is not None and before.kind is Kind.NOUN and before.noun not in {"you", "me"}
-    )
+    after_noun = before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]
+    return not (after_noun and (item.participle or item.finite or lemma == "have"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import enum
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 
@@ -22,12 +23,11 @@ class Kind(enum.Enum):
 
 @dataclass(slots=True, eq=False)
 class Item:
-    """A phrase before it has a place in the tree. `start` and `stop` are word indices, `head` the head word's."""
+    """A phrase before it has a place in the tree. `start` and `stop` are word indices."""
 
     kind: Kind
     start: int
     stop: int
-    head: int
     text: str
     words: tuple[str, ...] = ()
     noun: str | None = None
@@ -36,7 +36,15 @@ class Item:
     count: int | None = None
     pronoun: bool = False  # it, one, that: stands for something else
     participle: bool = False  # a verb's -ed or -ing form
+    finite: bool = False  # a verb's -s form
     determined: bool = False  # has an article
     negative: bool = False  # "no cube"
     beside: bool = False  # "and" or a comma joins it to the noun phrase before
+    said: bool = False  # an adverb or participle that is said of a noun phrase
     children: list[Item] = field(default_factory=list)
+
+    def walk(self) -> Iterator[Item]:
+        """The item and all below it."""
+        yield self
+        for child in self.children:
+            yield from child.walk()

@@ -1,206 +1,135 @@
-"""Words that commands are made of. Everything else in a command is read by spaCy's tags alone.
+"""The words of commands, loaded from `data/`: lists, patterns, weights, and an English dictionary.
 
-The verbs are sorted by what they do with their object, because that decides which noun phrase is meant and where a
-prepositional phrase belongs ("put X on Y" needs a destination, "pick up X on Y" does not).
+Whatever is a list of words, a pattern or a number of the grammar stands there and not in code.
 """
 
 from __future__ import annotations
 
+import functools
 import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+from typing import Any, Final
+
+import yaml
+
+_LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-def word_set(text: str) -> frozenset[str]:
-    """The words of a text."""
-    return frozenset(text.split())
+def read(name: str) -> str:
+    """The text of a file of `data/`."""
+    return resources.files(__package__).joinpath("data", name).read_text(encoding="utf-8")
 
 
-# Take an object and need a place to put it.
-PUT = word_set(
-    """
-    place put move shift drop set stack lay bring carry push pull drag slide transfer deliver position deposit
-    insert throw relocate rest return lower
-    """
-)
-# Act on an object, with no destination of their own.
-TAKE = word_set(
-    """
-    pick take grab grasp lift raise remove hold get fetch collect retrieve open close press hit kick touch bump
-    knock rotate flip release clean
-    """
-)
-# Go somewhere; the goal follows a preposition.
-GO = word_set(
-    """
-    go drive move head walk run come travel roll navigate proceed advance continue return ride approach race
-    rush steer stop park stand wait stay keep remain halt back drop get sit pull make cross bring take
-    """
-)
-# Have the goal as their direct object.
-REACH = word_set(
-    """
-    approach find reach locate visit see seek meet follow target hit touch face check inspect examine identify
-    choose select click tap mark highlight indicate avoid dodge evade leave pass circle look search want need show
-    spot watch point enter explore
-    """
-)
-LOOK = word_set("turn look face rotate spin point watch see swivel pivot orient align notice")
-SHUN = frozenset(["avoid", "dodge", "evade", "leave", "pass", "circle"])
-COMMANDS = PUT | TAKE | GO | REACH | LOOK
-COPULAS = word_set("be is are 's 're was were being am 'm lie lies re")
-# Tagged as nouns often; a verb of these stands at the start of a clause.
-NEGATIONS = frozenset({"neither", "nor", "not", "n't", "never", "nt", "dont", "don't"})
+def lines(name: str) -> list[str]:
+    """The lines of a file of `data/` that are neither empty nor comments."""
+    return [line for line in read(name).splitlines() if line and not line.startswith("#")]
 
-# Words of noun phrases that are never part of the noun.
-ORDINALS = word_set(
-    """
-    first second third fourth fifth sixth seventh eighth ninth tenth last 1st 2nd 3rd 4th 5th next
-    """
+
+def _yaml(name: str) -> dict[str, Any]:
+    loaded: dict[str, Any] = yaml.load(read(name), Loader=_LOADER)
+    return loaded
+
+
+_WORDS: Final = _yaml("words.yaml")
+GRAMMAR: Final = _yaml("grammar.yaml")
+_PATTERNS: Final = _yaml("patterns.yaml")
+
+VERBS: Final[Mapping[str, frozenset[str]]] = {name: frozenset(text.split()) for name, text in _WORDS["verbs"].items()}
+"""Verbs by what they do with their object."""
+SETS: Final[Mapping[str, frozenset[str]]] = {
+    **{name: frozenset(text.split()) for name, text in _WORDS.items() if isinstance(text, str)},
+    "commands": frozenset().union(*(VERBS[name] for name in ("put", "take", "go", "reach", "look"))),
+}
+"""Closed classes of words by name."""
+PLACING: Final[Mapping[str, frozenset[str]]] = {
+    name: frozenset(part.strip() for part in text.split(";")) for name, text in GRAMMAR["prepositions"].items()
+}
+"""Prepositions by what they can do."""
+NUMBERS: Final[Mapping[str, int]] = _WORDS["numbers"]
+PRONOUNS: Final[Mapping[str, str | None]] = _WORDS["pronouns"]
+CHOICES: Final[Mapping[str, Any]] = GRAMMAR["choices"]
+TARGETS: Final[Mapping[str, float]] = GRAMMAR["targets"]
+NOUN_FORMS: Final[Mapping[str, str]] = _WORDS["noun_forms"]
+VERB_FORMS: Final[Mapping[str, str]] = _WORDS["verb_forms"]
+PLURAL_ENDINGS: Final[list[list[str]]] = _WORDS["plural_endings"]
+VERB_ENDINGS: Final[list[list[str]]] = _WORDS["verb_endings"]
+MISSPELT: Final[Mapping[str, str]] = _WORDS["misspelt"]
+COLOR_SPELLINGS: Final[Mapping[str, str]] = _WORDS["color_spellings"]
+_SIZED: Final = {f"{size}{ending}": size for size in SETS["sizes"] for ending in SETS["size_endings"]}
+NORMAL: Final[Mapping[str, str]] = {**_WORDS["normal"], **_SIZED, **_WORDS["size_words"]}
+"""One word for those of one meaning: "furthest" is "farthest", "largish" is "large"."""
+
+
+def _filled(pattern: str) -> str:
+    for name, part in _PATTERNS["parts"].items():
+        pattern = pattern.replace(f"<{name}>", part)
+    return pattern
+
+
+REWRITES: Final = tuple((re.compile(_filled(old)), new) for old, new in _PATTERNS["rewrite"])
+WORD: Final = re.compile(_PATTERNS["word"])
+PHRASES: Final = tuple(
+    (re.compile(rf"(?:{_filled(pattern)})(?= |$)"), tag, value.split(";"), weight)
+    for pattern, tag, value, weight in _PATTERNS["phrases"]
 )
-SIDES = word_set("left right front back top bottom middle center rear upper lower far near")
-ADJECTIVES = word_set(
-    """
-    big bigger biggest large larger largest small smaller smallest little tiny huge tall taller tallest short
-    shorter shortest high higher highest low lower lowest wide narrow long longest thin thick round square
-    rectangular flat closest nearest farthest furthest closer nearer further leftmost rightmost topmost
-    bottommost frontmost uppermost lowermost rearmost backmost foremost other another same single double only
-    lone alone different metal wooden plastic rubber cardboard glass steel upside old new nearby exposed
-    opposite whole entire top remaining identical central outer inner extreme very visible hidden empty full
-    medium average giant massive middlemost centermost
-    cubic conical cylindrical spherical solid striped shiny light dark
-    """
-)
-SIZES = word_set("big large small little tiny huge tall short wide narrow long thin thick medium mid average normal")
-# "large-ish", "largish" and "large-sized" mean large.
-SIZED = {f"{size}{ending}": size for size in SIZES for ending in ("ish", "-sized")} | {
-    "largish": "large", "biggish": "big", "widish": "wide",
-}  # fmt: skip
-MODIFIERS = ORDINALS | SIDES | ADJECTIVES | SIZED.keys()
-QUANTIFIERS = frozenset(["all", "either", "every", "each", "both", "any", "some", "several"])
-NUMBERS = {"one": 1, "two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8, "nine": 9, "ten": 10}
-GROUPS = word_set(
-    """
-    row line column stack pile group bunch set pair couple tower cluster collection array heap circle ring series
-    trio formation arrangement
-    """
-)
-# "go to the position of the cone" means the cone.
-CARRIERS = frozenset(["location", "position", "place", "spot", "vicinity", "site", "kind", "type"])
-MEASURES = word_set(
-    """
-    square space step meter metre foot inch centimeter centimetre unit cell tile degree cm m ft second minute
-    time
-    """
-)
-DIRECTIONS = word_set(
-    """
-    left right front back forward way direction distance end rear top bottom ahead side
-    """
-)
-ROBOT = frozenset(["robot", "turtlebot", "bot", "yourself", "you", "machine", "rover"])
-HOLDERS = ROBOT | {"arm", "hand", "gripper", "claw"}
-PRONOUNS = {
-    "me": "me", "myself": "me", "i": "me", "mine": "me", "us": "me", "you": "you", "yourself": "you",
-    "yours": "you", "it": None, "itself": None, "them": None, "they": None, "this": None, "that": None, "these": None,
-    "those": None, "one": None, "ones": None, "he": None, "him": None, "she": None, "her": None,
-}  # fmt: skip
-NORMAL_WORDS = {
-    "nearest": "closest", "nearer": "closer", "furthest": "farthest", "further": "farther", "centre": "center",
-    "1st": "first", "2nd": "second", "3rd": "third", "4th": "fourth", "5th": "fifth", "holding": "held",
-    "uppermost": "topmost", "rear": "back", "backmost": "rearmost", "centermost": "middlemost",
-    "forwards": "forward", "backwards": "backward", **SIZED,
-}  # fmt: skip
-ADVERBS = word_set(
-    """
-    then now slowly quickly directly straight just forward forwards backward backwards there here please
-    carefully immediately right exactly almost again ahead together away first finally next afterwards also too
-    back over up down out off around along so still diagonally diametrically clockwise
-    """
+REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
+TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
+"""Those of the refusals that hold for a clause after another as well."""
+MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
+GREETING: Final = re.compile(_PATTERNS["greeting"])
+SAME: Final[Mapping[str, str]] = _PATTERNS["same"]
+_NORMALS: Final = tuple(row[1] for row in _PATTERNS["prepositions"])
+_WEIGHTS: Final = tuple(row[2] if len(row) > 2 else 0.0 for row in _PATTERNS["prepositions"])
+_PREPOSITION: Final = re.compile(
+    "|".join(f"(?P<p{i}>(?:{_filled(row[0])})(?= |$))" for i, row in enumerate(_PATTERNS["prepositions"]))
 )
 
-OPENINGS = word_set("ok okay alright hey hi hello yes yeah yep no nope so")  # said before the command begins
-FILLERS = word_set("um uh uhm umm uhh er erm hm hmm hmmm ah oh eh")
-WAYS = word_set("left right forward forwards backward backwards front back away up down sideways")
-ALONE_RE = re.compile(r"(?:all )?(?:alone|by (?:itself|themselves)|on its own)(?= |$)")
-# "facing left" is how a thing stands, and a word of its noun phrase; "facing the wall" has a landmark.
-FACING_RE = re.compile(
-    r"(?P<verb>facing|faces|face|pointing|pointed|points|looking|looks|turned|oriented|angled)"
-    rf"(?: to(?:wards?)?)?(?: the| my| your)? (?P<way>{'|'.join(sorted(WAYS, key=len, reverse=True))})"
-    r"(?= (?!of |side )|$)"
-)
 
-_VIEW = r"(?:perspective|point of view|viewpoint|view|angle)"
-_NO_VIEW = rf"(?! (?:my|your) {_VIEW})"
-VIEW_RE = re.compile(rf"(?:from|in) (?P<owner>my|your) {_VIEW}(?= |$)")
+@dataclass(frozen=True, slots=True)
+class PrepositionMatch:
+    """A preposition of a command: its words, their number, its normal form (empty: only says how exactly).
 
-# Prepositions, read on the words of the command; the first pattern that fits wins. The normal form follows.
-_THE = r"(?:the |your |its |my |a )?"
-_AT = r"(?:to|on|at|in|from|towards?)"
-_SIDE = r"(?: hand)?(?: side)?"
-PREPOSITIONS: tuple[tuple[str, str], ...] = (
-    (r"from (?:on )?(?:the )?top of|from (?:on top|atop)(?: of)?", "on top of"),
-    (r"from (?=(?:above|behind|under|underneath|below|beside|near|between|next|in front|over|inside) )", ""),
-    (r"(?:to |on |onto |on to |at |in |over )?(?:the )?top (?:side |part )?of", "on top of"),
-    (r"(?:up )?on top(?= the )|atop(?: of)?|ontop(?: of)?", "on top of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?left{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "left of"),
-    (rf"{_AT} {_THE}(?:immediate |direct |far |very )?right{_SIDE} (?:of|to|from)(?! where){_NO_VIEW}", "right of"),
-    (r"left(?: hand)?(?: side)? of|left to(?= )", "left of"),
-    (r"right(?: hand)?(?: side)? of|right to(?= (?:the |a )?\w+ ?(?:\w+ )?)", "right of"),
-    (rf"(?:in|at|to|on|into) {_THE}front(?: side)? of|infront(?: of)?|front of", "in front of"),
-    (rf"(?:in|at|to|on) {_THE}(?:back|rear)(?: side)? of|in back of|back of", "behind"),
-    (rf"(?:in|at|to|on) {_THE}bottom of(?= (?:the |a )?(?:{'|'.join(sorted(GROUPS))})(?: |$))", "at the bottom of"),
-    (rf"(?:in|at|to|on) {_THE}bottom of|underneath|beneath|under(?:neath)?|below", "under"),
-    (rf"(?:in|at|to|into) {_THE}(?:middle|cent(?:er|re)) (?:of|between)", "in the middle of"),
-    (r"all the way(?= )|(?:way|right|just|directly|immediately) (?=(?:over|on|at|in|to|behind|next|under|above) )", ""),
-    (r"(?:facing|pointing) (?:to|at|towards?)|(?:facing|pointing)(?= away from )", "facing"),
-    (r"(?:of |with )?the same colou?r as", "same color as"),
-    (r"(?:of |with )?the same size as", "same size as"),
-    (r"(?:of |with )?the same (?:shape|kind|type) as", "same shape as"),
-    (r"in between|inbetween|between", "between"),
-    (r"in the midst of|among(?:st)?", "among"),
-    (r"(?:the )?(?:closest|nearest|near most) (?:to|from|by)", "closest to"),
-    (r"closest|nearest", "closest to"),
-    (r"(?:the )?(?:farthest|furthest|most distant) (?:away )?(?:from|to)", "farthest from"),
-    (r"(?:closer|nearer) to|nearer", "closer to"),
-    (r"(?:farther|further) (?:away )?from", "farther from"),
-    (r"far(?: away)? from", "far from"),
-    (r"(?:as )?(?:close|near) as (?:you can|possible)(?: get)?(?: to)?", "close to"),
-    (r"(?:up )?(?:very )?close (?:up )?(?:to|by)|(?:up )?close(?= the )", "close to"),
-    (r"away from|clear of|off of|off(?= (?:the|of) )", "away from"),
-    (r"adjacent to|next to|(?:to|on|at|by|along) (?:the )?side of", "next to"),
-    (r"along ?side(?: of)?|besides?|next(?= the )", "next to"),
-    (r"near to|nearby to|nearby(?= the )|near(?: by)?|in the (?:vicinity|proximity|neighbou?rhood) of", "near"),
-    (r"(?:in|into) the direction of|in direction of|towards?|in the direction to", "towards"),
-    (r"(?:over|up|across|back|on|out|down) to(?= the)|up (?:un)?to|(?:over|back|down|across) to|unto", "to"),
-    (r"to where|until|till", "to"),
-    (r"ahead of", "ahead of"),
-    (r"diagonal(?:ly)? (?:to|from|across from)", "diagonal to"),
-    (r"across from|opposite(?: to| of| from)?(?= (?:the|you|me|your) )", "opposite"),
-    (r"on ?to", "onto"),
-    (r"in ?to", "into"),
-    (r"inside(?: of)?|within", "in"),
-    (r"outside(?: of)?", "outside"),
-    (r"instead of|rather than|except(?: for)?|apart from", "instead of"),
-    (r"by means of|by way of|via", "via"),
-    (r"because of|according to|due to", "because of"),
-    (r"from|to|on|at|in|by|behind|above|over|past|around|round|through|thru|across|along|against|with|without|beyond"
-     r"|before|after|for|of|opposite|touching|facing|about|like|than|upon|as", "="),
-)  # fmt: skip
-PREPOSITION_RE = re.compile("|".join(f"(?P<p{i}>(?:{pattern})(?= |$))" for i, (pattern, _) in enumerate(PREPOSITIONS)))
-SAME = {"round": "around", "thru": "through", "upon": "on"}
-
-# A motion may end there.
-GOALS = word_set("to towards onto into near behind on at by under above between in opposite against over for") | {
-    "before", "close to", "closer to", "closest to", "next to", "in front of", "left of", "right of", "on top of",
-    "in the middle of", "away from", "far from", "ahead of", "farther from",
-}  # fmt: skip
-STRONG = frozenset({"to", "onto", "into", "towards"})
-PATHS = frozenset({"past", "around", "through", "via", "along", "across", "from", "without", "with", "of", "about",
-                   "instead of", "after", "because of", "like", "than", "as"})  # fmt: skip
-SUPPORTS = frozenset({"on", "on top of", "onto", "above", "over", "into", "in"})
-EXTREMES = frozenset({"closest to", "farthest from", "closer to", "farther from"})
-PLACES = word_set(
+    `weight` is what the pattern adds to the log-weight of a preposition.
     """
-    corner edge center middle left right side end border margin back front top bottom floor ground board wall
-    room row grid table hand gripper
-    """
-)  # fmt: skip
+
+    raw: str
+    length: int
+    normal: str
+    weight: float
+
+
+def match_preposition(joined: str, offset: int) -> PrepositionMatch | None:
+    """The preposition that begins at a letter of a command's words joined by spaces, or None."""
+    match = _PREPOSITION.match(joined, offset)
+    if match is None:
+        return None
+    raw, compass = match.group(), match["compass"]
+    at = next(i for i in range(len(_NORMALS)) if match[f"p{i}"] is not None)
+    normal = _NORMALS[at]
+    if normal == "=":
+        normal = SAME.get(raw, raw)
+    return PrepositionMatch(raw, raw.count(" ") + 1, normal.replace("<compass>", compass or ""), _WEIGHTS[at])
+
+
+@functools.cache
+def english() -> Mapping[str, Mapping[str, int]]:
+    """A dictionary: word -> {part of speech (n, v, a, r): how often it is that, a power of two}."""
+    found: dict[str, Mapping[str, int]] = {}
+    for line in lines("english.tsv"):
+        word, kinds = line.split("\t")
+        found[word] = {kinds[i]: int(kinds[i + 1]) for i in range(0, len(kinds), 2)}
+    return found
+
+
+@functools.cache
+def irregular() -> Mapping[tuple[str, str], str]:
+    """(irregular form, part of speech) -> base form."""
+    return {(form, kind): base for form, kind, base in (line.split("\t") for line in lines("irregular.tsv"))}
+
+
+@functools.cache
+def compounds() -> frozenset[tuple[str, ...]]:
+    """Nouns of several words whose words would be read one by one otherwise."""
+    return frozenset(tuple(line.split()) for line in lines("compounds.txt"))

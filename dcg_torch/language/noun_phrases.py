@@ -1,199 +1,292 @@
-"""Words -> one base noun phrase: its noun, colour, number and other words, without what stands below it."""
+"""Tagged tokens -> one base noun phrase: noun, colour, number and other words, without what stands below it."""
 
 from __future__ import annotations
 
-from dcg_torch.language import lexicon as lx
-from dcg_torch.language.colors import FILLERS, PLURALS, match_color
-from dcg_torch.language.items import Kind
-from dcg_torch.language.quantities import DEMONSTRATIVES, Draft, Quantities
+from collections.abc import Sequence
+
+from dcg_torch.language.colors import PLURALS
+from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
+from dcg_torch.language.morphology import is_plural, parts, singular
+from dcg_torch.language.selection import normal_words
+from dcg_torch.language.tagging import Reader, Token
+
+_HEADS = frozenset({"N", "SIDE", "ONE"})
+_DESCRIBING = frozenset({"COL", "MOD"})
+_STARTS = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE"})
+_LONGEST_NUMBER = 3
 
 
-class NounPhrases(Quantities):
-    """Reads noun phrases. Each part's method says whether it dealt with the word at hand."""
+class NounPhrase(Reader):
+    """Reads the noun phrase that begins at a token; `at` is the token behind it.
 
-    def noun_phrase(self, i: int) -> int | None:
-        """Add the noun phrase that begins at word `i` and return the index behind it; None if none begins there.
+    `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one.
+    """
 
-        A distance ("two squares to the left") is passed over without an item.
-        """
-        if (self.text(i), self.text(i + 1)) in {("each", "other"), ("one", "another")}:
-            self.add(Kind.NOUN, i, i + 2, words=("each other",), pronoun=True)
-            return i + 2
-        draft = Draft(i, i)
-        parts = (self._determiner, self._group, self._possessive, self._pick, self._one, self._number, self._denial,
-                 self._facing, self._color, self._modifier, self._noun, self._joint)  # fmt: skip
-        while draft.at < len(self.texts) and not draft.closed:
-            if draft.nouns and self.leads_on(draft.at):
+    def __init__(self, tokens: Sequence[Token], start: int, alone: bool) -> None:
+        super().__init__(tokens)
+        self.start, self.at, self.alone = start, start, alone
+        self.nouns: list[Token] = []
+        self.color: str | None = None
+        self.words: list[str] = []
+        self.count: int | None = None
+        self.of: int | None = None  # how many a group has: "the row of five cubes"
+        self.group: str | None = None
+        self.picked = False  # "the bigger of the ...": what follows tells what it is picked from
+        self.negative = self.plural = self.determined = self.pronoun = self.closed = self.is_measure = False
+        parts = {"DET": self._determiner, "Q": self._quantifier, "NUM": self._number, "ORD": self._describe,
+                 "MOD": self._describe, "COL": self._color, "NM": self._noun, "N": self._noun, "SIDE": self._noun,
+                 "ONE": self._one, "NAME": self._name, "POS": self._possessive, "P": self._of, "NEG": self._denial,
+                 "AND": self._joint, "COMMA": self._joint, "PRO": self._them}  # fmt: skip
+        while self.at < len(tokens) and not self.closed:
+            part = parts.get(tokens[self.at].tag)
+            if part is None or not part(tokens[self.at]):
                 break
-            if self._is_pronoun(draft.at):
-                if draft.at == i or (draft.determined and not draft.nouns and not draft.color):
-                    return self._pronoun(draft)
-                break
-            if self._is_measure(draft):
-                return draft.at + 1
-            if not any(part(draft) for part in parts):
-                if self.texts[draft.at] in DEMONSTRATIVES and draft.at == i:
-                    return self._pronoun(draft)
-                break
-        named = draft.nouns or draft.color or draft.pronoun or "one of" in draft.modifiers
-        picked = draft.determined and (draft.modifiers or draft.count is not None)  # "the biggest", "those two"
-        picked = picked or (draft.modifiers and draft.modifiers[-1] in lx.ORDINALS and self.text(draft.at) == "from")
-        if not named and not picked:
-            # Anything that an article leads is a noun for want of better.
-            if not (draft.determined and draft.at > i and self.is_noun(draft.at, loose=True)):
-                return None
-            draft.nouns.append(draft.at)
-            draft.at += 1
-        return self._finish(draft)
+        self._settle()
 
-    def _is_pronoun(self, i: int) -> bool:
-        text = self.texts[i]
-        if text == "he" and self.in_phrase(i + 1):
-            return False  # a slip of "the": nobody is called "he" in front of a noun
-        return text in lx.PRONOUNS and text not in {"one", "ones"} | DEMONSTRATIVES
+    @property
+    def headed(self) -> bool:
+        """Whether the noun has its last word."""
+        return bool(self.nouns) and self.nouns[-1].tag in _HEADS
 
-    def _denial(self, draft: Draft) -> bool:
-        """ "the not blue cube", "a non red one"."""
-        i = draft.at
-        if self.texts[i] not in {"not", "non"} or not draft.determined or draft.nouns:
-            return False
-        found = match_color(self.texts, i + 1)
-        if found is None and not (self.text(i + 1) in lx.MODIFIERS or self.tag(i + 1) == "JJ"):
-            return False
-        name, stop = found or (self.texts[i + 1], i + 2)
-        draft.modifiers.append(f"not {name}")
-        return draft.take(stop)
+    def _take(self, number: int = 1) -> bool:
+        self.at += number
+        return True
 
-    def _facing(self, draft: Draft) -> bool:
-        """ "the left facing chair"."""
-        i = draft.at
-        if self.texts[i] not in lx.WAYS or self.text(i + 1) != "facing" or draft.nouns or not self.in_phrase(i + 2):
+    def _determiner(self, token: Token) -> bool:
+        if self.nouns or (self.at > self.start and self.tag(self.at - 1) not in {"Q", "DET", "P"}):
             return False
-        draft.modifiers.append(f"facing {lx.NORMAL_WORDS.get(self.texts[i], self.texts[i])}")
-        return draft.take(i + 2)
+        self.negative = self.negative or token.text in SETS["none"]
+        if token.text in SETS["owned"]:
+            self.words.append(token.text)
+        self.determined = True
+        return self._take()
 
-    def _color(self, draft: Draft) -> bool:
-        text = self.texts[draft.at]
-        if text in FILLERS and draft.modifiers and not draft.nouns and self.in_phrase(draft.at + 1):
-            return draft.take(draft.at + 1)  # "the dark coloured ball"
-        several = text in PLURALS and draft.determined and text not in self.known  # "the reds"
-        if several and not draft.nouns and draft.color is None and self.ends_phrase(draft.at + 1):
-            draft.color, draft.plural, draft.pronoun = PLURALS[text], True, True
-            draft.take(draft.at + 1)
-            return draft.close()
-        found = match_color(self.texts, draft.at)
-        if found is None or self.is_compound(draft.at):
+    def _quantifier(self, token: Token) -> bool:
+        if self.nouns:
             return False
-        name, stop = found
-        if draft.nouns and (draft.color or self.is_noun(stop) or self.text(stop) in {"one", "ones"}):
-            return draft.close()  # "the cone red cube": another phrase begins
-        if draft.color is None:
-            draft.color = name
+        several = token.text in SETS["of_many"] and not self.picked
+        self.plural = self.plural or several
+        self.count = 2 if token.text == "both" else self.count
+        if not self.picked:  # "the biggest of all the cubes"
+            self.words.append(token.text)
+        return self._take()
+
+    def _number(self, token: Token) -> bool:
+        if self.nouns:
+            return False
+        short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
+        number = NUMBERS.get(token.text) or (int(token.text) if short else None)
+        if self.group is not None:
+            self.of = number
+            return self._take()
+        after = self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else None
+        if not self.determined and after is not None and singular(after.text) in SETS["measures"]:
+            behind = self.tag(self.at + 2)
+            if behind not in _STARTS - {"DET", "SIDE"} or self.text(self.at + 2) in SETS["directions"]:
+                self.is_measure = self.closed = True
+                return self._take(2)
+        self.count = self.count if self.picked else number
+        self._take()
+        if token.text == "one" and self.text(self.at) == "of":
+            self.words.append("one of")
+        elif token.text == "one" and self.tag(self.at) not in _STARTS:
+            self.pronoun = self.closed = True
+        return True
+
+    def _describe(self, token: Token) -> bool:
+        if self.headed:
+            return False
+        if token.text in SETS["color_fillers"] and not self.words:
+            return self._take()
+        self.words += token.value
+        return self._take()
+
+    def _color(self, token: Token) -> bool:
+        if self.headed:
+            return False
+        if self.color is None:
+            self.color = token.value[0]
         else:
-            draft.modifiers.append(name)  # "the red and blue tower": the first is its colour
-        return draft.take(stop)
+            self.words.append(token.value[0])  # "the red and blue tower": the first is its colour
+        if self.text(self.at + 1) in SETS["color_fillers"]:
+            self._take()
+        return self._take()
 
-    def _modifier(self, draft: Draft) -> bool:
-        i = draft.at
-        text = self.texts[i]
-        known = text in lx.MODIFIERS
-        place = text in lx.DIRECTIONS | lx.PLACES
-        after_noun = bool(draft.nouns) and draft.nouns[-1] == i - 1
-        if draft.nouns and known and self.texts[draft.nouns[-1]] not in lx.MODIFIERS and not self.is_compound(i):
-            return draft.close()
-        if not known and not self.is_adjective(i):
+    def _noun(self, token: Token) -> bool:
+        if self.headed:
             return False
-        if after_noun and (self.tag(i) in {"VBN", "VBG"} or text in {"touching", "facing"}):
-            return draft.close()  # "the ball touching ..."
-        last = self.ends_phrase(i + 1) and not (self.text(i + 1) == "of" and self.picks(i))
-        rare = text not in lx.MODIFIERS - {"square"} and self.reader.is_noun(text)
-        if last and rare and (after_noun or not draft.nouns):
-            draft.nouns.append(i)  # the tagger takes rare nouns for adjectives: "the hydrant"
-            return draft.take(i + 1)
-        if after_noun and not self.is_noun(i + 1):
-            return draft.close()
-        if last and not place and not self.is_noun(i, strict=True):
-            if draft.determined or draft.color or draft.modifiers:
-                draft.modifiers.append(text)
-                draft.take(i + 1)
-            return draft.close()
-        if last and (place or not known):
-            draft.nouns.append(i)
-        else:
-            draft.modifiers.append(text)
-        return draft.take(i + 1)
+        if token.text in PLURALS and self.determined and self.color is None and not self.nouns:
+            self.color, self.plural, self.pronoun = PLURALS[token.text], True, True  # "the reds"
+            self.closed = True
+            return self._take()
+        if token.text in SETS["color_fillers"] and (self.words or self.color) and self.tag(self.at + 1) in _STARTS:
+            return self._take()  # "the dark coloured ball"
+        self.nouns.append(token)
+        return self._take()
 
-    def _noun(self, draft: Draft) -> bool:
-        i = draft.at
-        if not self.is_noun(i):
+    def _one(self, token: Token) -> bool:
+        """ "The red one"; "the one red cube"."""
+        if self.headed:
             return False
-        if draft.nouns and draft.nouns[-1] != i - 1:
-            return draft.close()
-        draft.nouns.append(i)
-        return draft.take(i + 1)
+        if self.tag(self.at + 1) in {"COL", "N", "NM"} and self.determined and token.text == "one":
+            self.count = 1
+            return self._take()
+        if token.text == "one" and self.text(self.at + 1) == "of" and not (self.determined or self.words):
+            self.words.append("one of")
+            return self._take()
+        self.pronoun = self.closed = True
+        self.plural = self.plural or token.text == "ones"
+        return self._take()
 
-    def _joint(self, draft: Draft) -> bool:
+    def _name(self, token: Token) -> bool:
+        """ "Cube 3": a number that is part of a name."""
+        if not self.headed or singular(self.text(self.at + 1)) in SETS["measures"]:
+            return False
+        self.words += token.value
+        return self._take()
+
+    def _denial(self, token: Token) -> bool:
+        """ "The not blue cube", "a non red one"."""
+        after = self.tag(self.at + 1)
+        if not (self.determined or self.words) or self.nouns or after not in _DESCRIBING:
+            return False
+        self.words.append(f"not {self.tokens[self.at + 1].value[0]}")
+        return self._take(2)
+
+    def _joint(self, token: Token) -> bool:
         """The "and" and commas of "the red, white and blue tower"."""
-        i = draft.at
-        if self.texts[i] not in {"and", ",", "&"} or draft.nouns or not (draft.color or draft.modifiers):
+        if self.nouns or not (self.color or self.words) or self.picked:
             return False
-        if self.text(i + 1) == "and":
-            i += 1
-        follows = match_color(self.texts, i + 1) is not None or self.text(i + 1) in lx.MODIFIERS
-        if not follows or self.ends_phrase(i):
+        at = self.at + 1 + (self.text(self.at + 1) == "and")
+        follows = self.tag(at + 1) in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
+        if self.tag(at) not in _DESCRIBING or not follows:
             return False
-        return draft.take(i + 1)
+        return self._take(at - self.at)
 
-    def _finish(self, draft: Draft) -> int:
-        nouns, color = draft.nouns, draft.color
-        if draft.of is not None:
-            draft.modifiers.append(f"of {draft.of}")
-        if not nouns and color in self.known and self.texts[draft.at - 1] == color:
-            nouns, color = [draft.at - 1], None  # "the orange" is a colour unless oranges are known
-        head = nouns[-1] if nouns else draft.at - 1
-        noun = self._name(draft, nouns, head) if nouns else None
-        if "both" in draft.modifiers and nouns and noun == self.texts[head] and self.text(draft.at) == "and":
-            draft.modifiers.remove("both")  # "both the cube and the cone"
-            draft.count, draft.plural = None, False
-        item = self.add(
-            Kind.NOUN,
-            draft.start,
-            draft.at,
-            noun=noun,
-            color=color,
-            words=tuple(dict.fromkeys(lx.NORMAL_WORDS.get(word, word) for word in draft.modifiers)),
-            plural=(draft.plural or (draft.count or 0) > 1) and draft.count != 1,
-            count=draft.count,
-            pronoun=draft.pronoun or noun is None,
-            determined=draft.determined,
-            negative=draft.negative,
-        )
-        item.head = head
-        return draft.at
+    def _possessive(self, token: Token) -> bool:
+        """ "The robot's cube" is the cube, "the robot's left" your left."""
+        if not self.nouns or self.tag(self.at + 1) not in _STARTS:
+            return False
+        if self.tag(self.at + 1) == "SIDE" and self.nouns[-1].text in SETS["robot"]:
+            self.words.append("your")
+        self.nouns, self.color = [], None
+        return self._take()
 
-    def _name(self, draft: Draft, nouns: list[int], head: int) -> str | None:
-        """The noun in the singular; what its words say beside it goes to the draft's modifiers and number."""
-        parts = [self.texts[n] for n in nouns]
-        draft.plural = draft.plural or self.reader.is_plural(parts[-1], self.words[head].tag)
-        parts[-1] = self.reader.singular(parts[-1])
-        while len(parts) > 1 and " ".join(parts) not in self.known and self._describes(parts[0]):
-            draft.modifiers.append(parts.pop(0))
-        noun = " ".join(parts)
-        if noun in {"everything", "something"}:
-            draft.modifiers += ["all"] if noun == "everything" else []
-            draft.plural = noun == "everything"
+    def _of(self, token: Token) -> bool:
+        """What "of" makes of a group ("the row of cubes"), a place ("the position of the cube"), a pick."""
+        if token.text != "of" or self.at == self.start:
+            return False
+        return self._group_of() or self._pick_of()
+
+    def _group_of(self) -> bool:
+        if not self.headed or self.tag(self.at + 1) not in _STARTS:
+            return False
+        last = self.nouns[-1].text
+        unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
+        if unit not in SETS["groups"] | SETS["carriers"]:
+            return False
+        self.words += [t.text for t in self.nouns[:-1]]
+        self.nouns = []
+        if unit in SETS["pairs"]:
+            self.count = 2
+        elif unit in SETS["groups"]:
+            self.words.append(unit)
+            self.group = unit
+            self.plural = True
+            self.count = self.count if self.picked else None  # "two rows of cubes" are not two cubes
+        self._take()
+        while self.tag(self.at) == "DET":
+            self._take()
+        return True
+
+    def _pick_of(self) -> bool:
+        """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
+        picker = self.tokens[self.at - 1]
+        if self.headed and not (self.nouns[-1].tag == "SIDE" and self._picks_side()):
+            return False
+        if not self.headed and (self.nouns or picker.tag not in {"Q", "NUM", "ORD", "MOD", "ONE"}):
+            return False
+        after = self.at + 1
+        while self.tag(after) == "DET":
+            after += 1
+        bare_group = self.text(after) in SETS["groups"] and self.text(after + 1) != "of"
+        if bare_group or (
+            self.tag(self.at + 1) not in _STARTS and self.text(self.at + 1) not in SETS["group_pronouns"]
+        ):
+            self.closed = True  # "the last of the row": the row is no such thing
+            return False
+        if self.nouns:
+            self.words.append(self.nouns.pop().text)
+        if picker.text in {"one", "either"} or picker.tag in {"ORD", "MOD", "SIDE"}:
+            self.count = 1
+        self.picked = True
+        return self._take()
+
+    def _picks_side(self) -> bool:
+        """ "The middle of the three cones", but "the middle of the table"."""
+        after = self.at + 1
+        while self.tag(after) == "DET":
+            after += 1
+        return self.tag(after) == "NUM" and self.nouns[-1].text in SETS["counted_middles"]
+
+    def _them(self, token: Token) -> bool:
+        """ "All of them"."""
+        if not self.picked or self.nouns or token.text not in SETS["group_pronouns"]:
+            return False
+        self.pronoun = self.closed = True
+        self.plural = self.plural or self.count != 1
+        return self._take()
+
+    def _settle(self) -> None:
+        """Whether the words are a noun phrase, once they have been read."""
+        if not self.nouns and not self.color and self.words and self.tag(self.at - 1) == "MOD":
+            self._noun_after_all()
+        ordered = bool(self.words) and self.words[-1] in SETS["ordinals"] and self.text(self.at) == "from"
+        picked = self.determined and (bool(self.words) or self.count is not None)  # "the biggest", "those two"
+        picked = picked or (self.alone and bool(self.words))
+        self.named = bool(self.nouns or self.color or self.pronoun or picked or ordered or "one of" in self.words)
+
+    def _noun_after_all(self) -> None:
+        """ "(A sheet of) metal": an adjective that is a noun as well is one where no other is."""
+        last = self.tokens[self.at - 1]
+        kinds = parts(last.text)
+        rather = kinds.get("n", 0) > kinds.get("a", 0) + kinds.get("r", 0)  # a noun than an adjective
+        if last.text in SETS["sides"] or (rather if last.text in SETS["modifiers"] else "n" in kinds):
+            self.words.pop()
+            self.nouns = [last]
+
+    def item(self) -> Item:
+        """The noun phrase as an item."""
+        if self.of is not None:
+            self.words.append(f"of {self.of}")
+        noun = self._noun_name() if self.nouns else None
+        last = self.nouns[-1].text if self.nouns else ""
+        if "both" in self.words and self.nouns and not is_plural(last) and self.text(self.at) == "and":
+            self.words.remove("both")  # "both the cube and the cone"
+            self.count, self.plural = None, False
+        text = " ".join(token.text for token in self.tokens[self.start : self.at])
+        item = Item(Kind.NOUN, self.tokens[self.start].start, self.tokens[self.at - 1].stop, text)
+        item.words = normal_words(self.words)
+        item.noun, item.color, item.count = noun, self.color, self.count
+        item.plural = (self.plural or (self.count or 0) > 1) and self.count != 1
+        item.pronoun = self.pronoun or noun is None
+        item.determined, item.negative = self.determined, self.negative
+        return item
+
+    def _noun_name(self) -> str | None:
+        """The noun in the singular; what its words say beside it goes to the words and the number."""
+        spoken = [word for token in self.nouns for word in token.text.split()]
+        last = self.nouns[-1]
+        names = [*spoken[:-1], last.value[-1] if last.tag == "N" else singular(spoken[-1])]
+        self.plural = self.plural or names[-1] != spoken[-1]
+        noun = " ".join(names)
+        if noun in SETS["all_things"] | SETS["some_things"]:
+            self.plural = noun in SETS["all_things"]
+            self.words += ["all"] if self.plural else []
             return None
-        side = next((word for word in draft.modifiers if word in {"left", "right"}), None)
-        if noun == "side" and side:  # "the left hand side"
-            draft.modifiers = [word for word in draft.modifiers if word not in {side, "hand"}]
+        side = next((word for word in self.words if word in SETS["left_right"]), None)
+        if side and SETS["side_nouns"].issuperset(names):  # "the left hand side"
+            self.words.remove(side)
             return side
-        return lx.NORMAL_WORDS.get(noun, noun)
-
-    def _describes(self, part: str) -> bool:
-        """Whether the first part of a noun is rather an adjective: "matte sphere", "metal cylinder"."""
-        return part in lx.SIDES | {"hand"} or self.reader.is_adjective(part)
-
-    def _pronoun(self, draft: Draft) -> int:
-        noun = lx.PRONOUNS[self.texts[draft.at]]
-        self.add(Kind.NOUN, draft.start, draft.at + 1, noun=noun, pronoun=noun is None)
-        return draft.at + 1
+        return NORMAL.get(noun, noun)

@@ -1,32 +1,72 @@
-"""Command text -> parse tree, or a sentence that says why there is none."""
+"""Command text -> weighted readings, or a sentence that says why there is none."""
 
 from __future__ import annotations
 
 import functools
 import gc
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 
-from dcg_torch.language import lexicon as lx
 from dcg_torch.language.attachment import build
-from dcg_torch.language.chunks import items
-from dcg_torch.language.clauses import split
+from dcg_torch.language.candidates import is_content
+from dcg_torch.language.clauses import Clause, split
+from dcg_torch.language.colors import color_names
+from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.reader import Reader
+from dcg_torch.language.lexicon import CHOICES, VERBS, english
+from dcg_torch.language.phrases import items
+from dcg_torch.language.refusals import MOTION, NO_THING, greeted, moves, refuse, talk
+from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
+from dcg_torch.language.tokens import mend, names, normal_noun, tokens
 from dcg_torch.types import ParseTree, PhraseKind
 
-MAX_CHARACTERS = 400
-MAX_WORDS = 64  # twice the longest of two thousand human commands; the time goes with the number of words
+MAX_CHARACTERS = 600
+MAX_WORDS = 120  # four times the longest of most thousand human commands; the time goes with the number of words
+_PATHS = 3
+_RUNS_A_READING = 2
+_CONTENT = frozenset({Kind.ADVERB, Kind.NOUN, Kind.VERB})
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One way to read a command.
+
+    Attributes:
+        tree: what it says, in the form of the package's docstring.
+        log_weight: log p(reading | command) before the world has spoken, over the readings kept.
+        rules: the weighted choices that led here, as "rule=option".
+        unread: content words that no phrase uses.
+    """
+
+    tree: ParseTree
+    log_weight: float
+    rules: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Parse:
-    """What a command says: a tree, or else the problem in words. Exactly one of the two is None."""
+    """What a command says: readings, the likeliest first, or else the `problem` in words.
+
+    `refused` says why a command is no order about a thing; it then has no reading, and the problem is the same.
+    """
 
     text: str
-    tree: ParseTree | None = None
+    readings: tuple[Reading, ...] = ()
     problem: str | None = None
+    refused: str | None = None
+
+    @property
+    def tree(self) -> ParseTree | None:
+        """The likeliest reading's tree."""
+        return self.readings[0].tree if self.readings else None
+
+    @property
+    def unread(self) -> tuple[str, ...]:
+        """The content words that the likeliest reading leaves unread."""
+        return self.readings[0].unread if self.readings else ()
 
     @property
     def noun(self) -> str | None:
@@ -53,52 +93,136 @@ def target_phrase(tree: ParseTree) -> ParseTree:
 
 
 class Parser:
-    """Reads commands. Loading takes half a second, a command a few milliseconds.
-
-    Raises OSError if no English spaCy model is installed.
-    """
+    """Reads commands. Loading takes a tenth of a second, a command a few milliseconds."""
 
     def __init__(self) -> None:
-        self._reader = Reader()
+        english()
+        color_names()
 
-    def parse(self, text: str, vocabulary: Collection[str] = ()) -> Parse:
-        """The tree of `text`.
+    def parse(self, text: str, vocabulary: Collection[str] = (), k: int = 4) -> Parse:
+        """At most `k` readings of `text`.
 
-        `vocabulary` holds nouns known to the robot. They are used to mend misspelt words and to keep nouns of
-        several words together; a command may name anything else.
+        `vocabulary` holds nouns known to the robot. They serve to mend misspelt words and to keep nouns of several
+        words together; a command may name anything else.
         """
         if not text.strip():
             return Parse(text, problem="the command is empty")
         if len(text) > MAX_CHARACTERS:
             return Parse(text, problem=f"the command is longer than {MAX_CHARACTERS} characters")
-        words = self._reader.words(text, vocabulary, MAX_WORDS)
-        if words is None:
+        known = frozenset(normal_noun(noun) for noun in vocabulary)
+        words = tokens(text)
+        if len(words) > MAX_WORDS:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
-        found = items(words, self._reader, vocabulary)
-        groups = split(found)
-        clauses = [build(group, words, _supplied(groups, k)) for k, group in enumerate(groups)]
-        tree = root(clauses)
-        if tree is None:
-            return Parse(text, problem="no object phrase found")
-        return Parse(text, tree)
+        command = _Command(words, known, names(text))
+        found: dict[Hashable, Reading] = {}
+        reason = NO_THING
+        nothing = -math.inf  # the log-weight of the likeliest reading that means no thing
+        for tree, decisions in best_first(command.read, _RUNS_A_READING * k):
+            if tree is not None and _shape(tree) not in found:
+                unread = command.unread()
+                weight = decisions.log_weight + CHOICES["unread"] * len(unread)
+                found[_shape(tree)] = Reading(tree, weight, decisions.rules, unread)
+            elif tree is None and nothing == -math.inf:
+                nothing, reason = decisions.log_weight, command.reason()
+            if len(found) == k:
+                break
+        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing or not found:
+            return Parse(text, problem=reason, refused=reason)
+        return Parse(text, _normalised(list(found.values())))
 
 
-def _supplied(groups: Sequence[Sequence[Item]], k: int) -> bool:
-    """Whether a later clause puts "it" somewhere, so that this one needs no destination."""
-    for group in groups[k + 1 :]:
-        verb = next((item for item in group if item.kind is Kind.VERB), None)
-        objects = [item for item in group if item.kind is Kind.NOUN][:1]
-        if verb is not None and verb.words[0] in lx.PUT and objects and objects[0].pronoun and objects[0].color is None:
-            return True
-    return False
+class _Command:
+    """The words of a command, and what of them is the same in all readings."""
+
+    def __init__(self, words: Sequence[str], known: frozenset[str], names: frozenset[str]) -> None:
+        self.known, self.names = known, names
+        self.kept = list(words)
+        self.mended = mend(words, known | names)
+        self.tagged: dict[bool, tuple[dict[str, Path], list[tuple[int, int, str]]]] = {}
+        self.words: Sequence[str] = words
+        self.items: list[Item] = []
+        self.clauses: list[Clause] = []
+        self.parts: list[tuple[int, int, str]] = []
+
+    def read(self, decisions: Decisions) -> ParseTree | None:
+        """The tree of one reading, None if it has none."""
+        mended = True
+        if len(self.mended) == len(self.kept) and self.mended != self.kept:
+            mended = decisions.choose("spelling", CHOICES["spelling"]) == "mended"
+        words = self.words = self.mended if mended else self.kept
+        begin = greeted(words)
+        if mended not in self.tagged:
+            self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), [] if begin else talk(words)
+        tagged, self.parts = self.tagged[mended]
+        if not tagged:
+            return None
+        weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
+        path = tagged[decisions.choose("words", weights)]
+        self.items = items([token for token in path.tokens if token.start >= begin])
+        groups = split(self.items, self.parts)
+        last = _supplied(groups)
+        self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
+        for clause, group in zip(self.clauses, groups, strict=True):
+            refuse(clause, group, self.parts, words)
+        return root(self.clauses, decisions)
+
+    def unread(self) -> tuple[str, ...]:
+        """The content words of the last reading that are in no phrase."""
+        used: set[int] = set()
+        for clause in self.clauses:
+            for item in (clause.verb, *clause.objects, *clause.places):
+                for node in item.walk() if item is not None else ():
+                    used.update(range(node.start, node.stop))
+        for item in self.items:
+            if item.said or item.kind not in _CONTENT:
+                used.update(range(item.start, item.stop))
+        return tuple(word for i, word in enumerate(self.words) if i not in used and is_content(word))
+
+    def reason(self) -> str:
+        """Why there is no tree."""
+        if self.parts:
+            return self.parts[0][2]
+        return MOTION if moves(self.clauses) else NO_THING
+
+
+def _named(found: Sequence[Path]) -> dict[str, Path]:
+    """Paths by a number and the tags that not all of them have: what they take words for."""
+    all_tokens = [{id(token) for token in path.tokens} for path in found]
+    common = set.intersection(*all_tokens) if found else set()
+    differing = ["+".join(token.tag for token in path.tokens if id(token) not in common) for path in found]
+    return {f"{tags or 'same'} {n}": path for n, (tags, path) in enumerate(zip(differing, found, strict=True))}
+
+
+def _supplied(groups: Sequence[Sequence[Item]]) -> int:
+    """The number of the last clause that puts "it" somewhere, so that those before need no destination; -1: none."""
+    for n in range(len(groups) - 1, -1, -1):
+        verb = next((item for item in groups[n] if item.kind is Kind.VERB), None)
+        noun = next((item for item in groups[n] if item.kind is Kind.NOUN), None)
+        if verb and noun and verb.words[0] in VERBS["put"] and noun.pronoun and noun.color is None:
+            return n
+    return -1
+
+
+def _shape(tree: ParseTree) -> Hashable:
+    """A tree without its texts: two readings of one shape are one."""
+    phrase = tree.phrase
+    said = (phrase.kind, phrase.words, phrase.noun, phrase.color, phrase.plural, phrase.count)
+    return said, tuple(_shape(child) for child in tree.children)
+
+
+def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:
+    readings.sort(key=lambda reading: -reading.log_weight)
+    top = readings[0].log_weight
+    total = top + math.log(sum(math.exp(reading.log_weight - top) for reading in readings))
+    return tuple(Reading(r.tree, r.log_weight - total, r.rules, r.unread) for r in readings)
 
 
 @functools.cache
 def default_parser() -> Parser:
     """One parser for the whole process, loaded at the first call.
 
-    What is loaded by then leaves Python's cyclic garbage collector: walking spaCy's 200,000 objects would
-    stop a command for up to 0.3 s now and then, and they live as long as the process anyway.
+    What is loaded by then leaves Python's cyclic garbage collector: walking the dictionary would stop a command now
+    and then, and it lives as long as the process anyway.
     """
     parser = Parser()
     gc.collect()
@@ -106,6 +230,6 @@ def default_parser() -> Parser:
     return parser
 
 
-def parse_command(text: str, vocabulary: Collection[str] = ()) -> Parse:
+def parse_command(text: str, vocabulary: Collection[str] = (), k: int = 4) -> Parse:
     """`Parser.parse` of the process's parser."""
-    return default_parser().parse(text, vocabulary)
+    return default_parser().parse(text, vocabulary, k)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from dcg_torch.language import lexicon as lx
 from dcg_torch.language.clauses import Clause, main_object
+from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
 @dataclass(slots=True, eq=False)
-class Choice:
+class Mention:
     """A noun phrase that may be the one meant, the clause it is in, and how surely the verb is about it."""
 
     noun: Item
@@ -21,43 +22,52 @@ class Choice:
     place: Item | None = None  # the prepositional phrase it stands in
 
 
-def choices(clauses: Sequence[Clause]) -> list[Choice]:
+def choices(clauses: Sequence[Clause]) -> list[Mention]:
     """Every noun phrase that some clause is about, in the order of the command."""
-    found: list[Choice] = []
+    found: list[Mention] = []
     for clause in clauses:
-        verb = clause.verb.words[0].split()[0] if clause.verb else ""
-        penalty = 10.0 if clause.negated else 0.0
+        if clause.refused is not None:
+            continue
+        penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            score = (
-                5.0 if verb in (lx.PUT | lx.TAKE) - {"open", "close"} else 4.0 if verb in lx.REACH - lx.LOOK else 2.0
-            )
-            if verb in lx.SHUN:
-                score = 1.8
-            elif clause.statement or not verb:
-                score = 1.5
-            elif verb in lx.LOOK:
-                score = 2.5
-            found.append(Choice(target, clause, score - penalty))
-            if verb in lx.PUT | lx.TAKE:
+            found.append(Mention(target, clause, _object_score(clause) + penalty))
+            if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
-            name = place.words[0]
-            score = 4.0 if name in {"to", "towards", "onto", "into"} else 3.5 if name in lx.GOALS else 1.0
-            if verb in lx.LOOK or target is not None:
-                score = min(score, 2.2)
-            if name in {"away from", "far from", "farther from"}:
-                score = 1.8
-            if name in {"instead of", "without", "like", "about"}:
-                score = 0.1
             child = place.children[0]
-            if child.noun in lx.DIRECTIONS | {"you"} and not child.children:
+            if child.noun in SETS["directions"] | {"you"} and not child.children:
                 continue
-            found.append(Choice(child, clause, score - penalty, place))
+            score = _place_score(place.words[0], clause.action, target is not None)
+            found.append(Mention(child, clause, score + penalty, place))
     return found
 
 
-def root(clauses: Sequence[Clause]) -> ParseTree | None:
+def _object_score(clause: Clause) -> float:
+    verb = clause.action
+    if clause.acting:
+        return TARGETS["acting"]
+    if verb in VERBS["shun"]:
+        return TARGETS["shun"]
+    if clause.statement or not verb:
+        return TARGETS["statement"]
+    for name in ("look", "put", "take", "reach"):
+        if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
+            return TARGETS[name]
+    return TARGETS["reach"] if verb in VERBS["reach"] else TARGETS["other"]
+
+
+def _place_score(name: str, verb: str, beside_object: bool) -> float:
+    if name in PLACING["aside"]:
+        return TARGETS["aside_place"]
+    if name in PLACING["away"]:
+        return TARGETS["away_place"]
+    score = TARGETS["strong_place" if name in PLACING["toward"] else "goal_place"]
+    score = score if name in PLACING["goals"] else TARGETS["place"]
+    return min(score, TARGETS["beside_object"]) if verb in VERBS["look"] or beside_object else score
+
+
+def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     """The tree of the clause that names the object meant, or None if none does.
 
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
@@ -66,19 +76,11 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
     found = choices(clauses)
     if not found:
         return None
-    best = max(choice.score for choice in found)
-    top = [choice for choice in found if choice.score == best]
-    chosen = top[0] if best == 5.0 else top[-1]
-    empty = chosen.noun.color is None and not chosen.noun.words and not chosen.noun.children
-    if chosen.noun.pronoun and (empty or chosen.noun.text in {"it", "they", "them"}):
-        earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
-        if earlier:
-            chosen = max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+    chosen = _resolved(_choose(found, decisions), found)
     verb = chosen.clause.verb
     children: list[Item]
     if chosen.place is not None:
-        others = [place for place in chosen.clause.places if place is not chosen.place]
-        children = [chosen.place, *others]
+        children = [chosen.place, *(place for place in chosen.clause.places if place is not chosen.place)]
     else:
         children = [chosen.noun, *_beside(chosen), *chosen.clause.places]
         if not chosen.clause.places:
@@ -91,27 +93,53 @@ def root(clauses: Sequence[Clause]) -> ParseTree | None:
     return ParseTree(phrase, tuple(freeze(child) for child in children))
 
 
-def _beside(chosen: Choice) -> list[Item]:
+def _choose(found: list[Mention], decisions: Decisions) -> Mention:
+    best = max(choice.score for choice in found)
+    top = [k for k, choice in enumerate(found) if choice.score == best]
+    first = top[0] if best >= TARGETS["take"] else top[-1]
+    step = CHOICES["target_step"]
+    options = {f"likeliest {first}": 0.0}
+    for k, choice in enumerate(found):
+        if k != first and not choice.noun.pronoun:
+            options[f"other {k}"] = step * (choice.score - best - 1.0)
+    return found[int(decisions.choose("target", options).split()[1])]
+
+
+def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
+    """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
+    noun = chosen.noun
+    empty = noun.color is None and not noun.words and not noun.children
+    if noun.pronoun and (empty or noun.text in SETS["stands_for"]):
+        earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
+        handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
+        if handled and chosen.place is None:
+            return handled[-1]
+        if earlier:
+            return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+    return chosen
+
+
+def _beside(chosen: Mention) -> list[Item]:
+    """The noun phrases that are meant beside the chosen one."""
     objects = chosen.clause.objects
     at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
     later = objects[at + 1 :]
     if chosen.clause.verb is None:
         later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
     named = [noun for noun in later if not noun.pronoun or noun.color is not None or noun.words]
-    return [noun for noun in named if noun.noun not in lx.DIRECTIONS or noun.children]
+    return [noun for noun in named if noun.noun not in SETS["directions"] or noun.children]
 
 
-def _later_destination(chosen: Choice, clauses: Sequence[Clause]) -> list[Item]:
+def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:
     """ "pick up the cube and put it on the block": where a later clause puts "it"."""
     at = next(k for k, clause in enumerate(clauses) if clause is chosen.clause)
     for clause in clauses[at + 1 :]:
-        verb = clause.verb.words[0].split()[0] if clause.verb else ""
-        if verb in lx.PUT and clause.places and all(noun.pronoun for noun in clause.objects):
+        if clause.action in VERBS["put"] and clause.places and all(noun.pronoun for noun in clause.objects):
             return clause.places
     return []
 
 
-def _describe_later(chosen: Choice, clauses: Sequence[Clause]) -> None:
+def _describe_later(chosen: Mention, clauses: Sequence[Clause]) -> None:
     """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
     for clause in clauses:
         if clause is chosen.clause or not clause.objects or clause.verb is not None:
@@ -129,25 +157,19 @@ def _one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     places = [child for clause in clauses for place in clause.places for child in place.children]
     named = [noun for clause in clauses for noun in clause.objects] + places
+    named += [child for noun in named for place in noun.children for child in place.children]
     several = [noun for noun in named if noun.plural and noun.noun is not None and noun.start < one.start]
-    several = [noun for noun in several if all(node is not one for node in _below(noun))]
+    several = [noun for noun in several if all(node is not one for node in noun.walk())]
+    several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
     if not several:
         return
     group = max(several, key=lambda noun: noun.start)
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
-    if lx.GROUPS.isdisjoint(group.words):
+    if SETS["groups"].isdisjoint(group.words):
         one.children += group.children
     else:
-        one.children.append(
-            Item(Kind.PREPOSITION, group.start, group.stop, group.head, "in", ("in",), children=[group])
-        )
-
-
-def _below(item: Item) -> Iterator[Item]:
-    yield item
-    for child in item.children:
-        yield from _below(child)
+        one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
 
 
 def freeze(item: Item) -> ParseTree:

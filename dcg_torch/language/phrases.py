@@ -1,0 +1,139 @@
+"""Tagged tokens -> verbs, prepositions, base noun phrases and the words between them, from left to right."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import PLACING, PRONOUNS, SETS, VERBS
+from dcg_torch.language.morphology import verb
+from dcg_torch.language.noun_phrases import NounPhrase
+from dcg_torch.language.tagging import Reader, Token
+
+_SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
+NOMINAL = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE", "ONE"})
+_VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
+
+
+def items(tokens: Sequence[Token]) -> list[Item]:
+    """The phrases of a command. Tokens without a part in any are left out."""
+    reader = _Phrases(tokens)
+    i = 0
+    while i < len(tokens):
+        i = reader.step(i)
+    return reader.out
+
+
+class _Phrases(Reader):
+    def __init__(self, tokens: Sequence[Token]) -> None:
+        super().__init__(tokens)
+        self.out: list[Item] = []
+        self.first = True  # no noun phrase stands before in the sentence
+
+    def step(self, i: int) -> int:
+        token = self.tokens[i]
+        if token.tag in _SIMPLE:
+            self.add(_SIMPLE[token.tag], i, i + 1)
+        elif token.tag == "P":
+            return self.preposition(i)
+        elif token.tag in _VERBAL:
+            return self.verb(i)
+        elif token.tag in {"ADV", "FACE"}:
+            self.adverb(i)
+        elif token.tag == "PRO":
+            self.pronoun(i)
+        elif token.tag in NOMINAL:
+            return self.nominal(i)
+        return i + 1
+
+    def add(self, kind: Kind, i: int, j: int, words: tuple[str, ...] = ()) -> Item:
+        """Append the item of tokens `i` to `j`."""
+        part = self.tokens[i:j]
+        item = Item(kind, part[0].start, part[-1].stop, " ".join(token.text for token in part), words)
+        self.out.append(item)
+        self.first = kind is Kind.STOP or (self.first and kind is not Kind.NOUN)
+        return item
+
+    def previous(self) -> Kind | None:
+        """The last item's kind."""
+        return self.out[-1].kind if self.out else None
+
+    def preposition(self, i: int) -> int:
+        token = self.tokens[i]
+        if token.text in SETS["filler_words"] and self.previous() in {Kind.PREPOSITION, Kind.VERB, None}:
+            return i + 1  # "go to like the cone"
+        normal = token.value[0]
+        if token.text.startswith("from the") and normal in PLACING["beside"] and self.ordered():
+            normal = "from"  # "the second from the left of the row"
+            self.add(Kind.PREPOSITION, i, i + 1, (normal,))
+            side = self.add(Kind.NOUN, i, i + 1)
+            side.noun, side.determined = token.value[0].split()[0], True
+            self.add(Kind.PREPOSITION, i, i + 1, ("of",))
+            return i + 1
+        if token.text.startswith("the ") and self.previous() in {Kind.PREPOSITION, None}:
+            bare = self.add(Kind.NOUN, i, i + 1)  # "go to the closest to you"
+            bare.pronoun = bare.determined = True
+        self.add(Kind.PREPOSITION, i, i + 1, (normal,))
+        return i + 1
+
+    def ordered(self) -> bool:
+        """Whether the last phrase counts along something: "the second cone (from ...)"."""
+        return self.previous() is Kind.NOUN and not SETS["ordinals"].isdisjoint(self.out[-1].words)
+
+    def verb(self, i: int) -> int:
+        token = self.tokens[i]
+        base = verb(token.text) if token.tag != "HAVE" else "have"
+        item = self.add(Kind.VERB, i, i + 1, (base,))
+        item.finite = token.tag == "VG" and token.text.endswith("s")
+        item.participle = token.tag == "VG" and not item.finite
+        after = self.text(i + 1)
+        stop = i + 1
+        if after in SETS["verb_particles"] and base in VERBS["lift"]:
+            item.words, stop = (f"{base} {after}",), i + 2
+        elif after == "for" and base in VERBS["seek"]:
+            item.words, stop = (f"{base} for",), i + 2
+        elif after == "at" and base in VERBS["look"]:
+            item.words, stop = (f"{base} at",), i + 2
+        elif after == "for" and base in VERBS["head"]:
+            self.add(Kind.PREPOSITION, i + 1, i + 2, ("to",))
+            return i + 2
+        item.stop = self.tokens[stop - 1].stop
+        item.text = " ".join(t.text for t in self.tokens[i:stop])
+        return stop
+
+    def adverb(self, i: int) -> None:
+        value = self.tokens[i].value
+        if not value[0]:
+            return  # "right" of "right behind"
+        if value[0] == "view":  # "(on the left) from my point of view" is on my left
+            if self.previous() is Kind.NOUN:
+                self.out[-1].words += value[1:]
+                self.out[-1].stop = self.tokens[i].stop
+            return
+        self.add(Kind.ADVERB, i, i + 1, value)
+
+    def pronoun(self, i: int) -> None:
+        if self.text(i) in SETS["questions_as_things"]:
+            item = self.add(Kind.NOUN, i, i + 1)  # "(drop) what you are holding"
+            item.pronoun = item.determined = True
+            self.add(Kind.RELATIVE, i, i + 1)
+            return
+        noun = PRONOUNS[self.text(i)]
+        item = self.add(Kind.NOUN, i, i + 1)
+        item.noun, item.pronoun = noun, noun is None
+
+    def nominal(self, i: int) -> int:
+        """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
+        if self.text(i) in SETS["reciprocal_starts"] and self.text(i + 1) in SETS["reciprocal_ends"]:
+            item = self.add(Kind.NOUN, i, i + 2, ("each other",))
+            item.pronoun = True
+            return i + 2
+        phrase = NounPhrase(self.tokens, i, self.first)
+        if phrase.is_measure:
+            return phrase.at
+        if phrase.named:
+            self.out.append(phrase.item())
+            self.first = False
+            return phrase.at
+        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.text(i),))
+        return i + 1

@@ -1,0 +1,74 @@
+"""What is no order about a thing: speech, counting, questions, greetings, following, waiting, bare motion."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dcg_torch.language.clauses import Clause
+from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import GREETING, MEETING, REFUSALS, SETS, TALK, VERBS
+
+_BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
+NO_THING = "it names no thing"
+MOTION = "it says how to move and names no thing to go to"
+
+
+def talk(words: Sequence[str]) -> list[tuple[int, int, str]]:
+    """The parts of a command that order nothing about a thing: first word, index behind the last, the reason."""
+    out: list[tuple[int, int, str]] = []
+    for start, stop in sentences(words):
+        said = " ".join(words[start:stop])
+        reason = next((reason for pattern, reason in REFUSALS if pattern.search(said)), None)
+        if MEETING[0].search(said):
+            reason = MEETING[1]
+        if reason is not None:
+            out.append((start, stop, reason))
+    return out
+
+
+def sentences(words: Sequence[str]) -> list[tuple[int, int]]:
+    """Where sentences begin and end; an address ("robot, ...") and politeness are no part of them."""
+    out: list[tuple[int, int]] = []
+    start = 0
+    for i, word in enumerate([*words, "."]):
+        if word in SETS["stops"]:
+            first = start
+            while first < i and words[first] in SETS["before_sentences"]:
+                first += 1
+            last = i
+            while last > first and words[last - 1] in SETS["before_sentences"]:
+                last -= 1
+            if first < last:
+                out.append((first, last))
+            start = i + 1
+    return out
+
+
+def greeted(words: Sequence[str]) -> int:
+    """How many words greet somebody: "say hello to (the person)" is about the person."""
+    match = GREETING.match(" ".join(words))
+    return 0 if match is None else match.group().count(" ") + 1
+
+
+def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]], words: Sequence[str]) -> None:
+    """Mark a clause that orders nothing about a thing.
+
+    A clause is within one of the `parts`, unless an order begins in it; or it is talk by itself.
+    """
+    first = next((item for item in items if item.kind not in _BEFORE), items[0])
+    for start, stop, reason in parts:
+        if start <= first.start < stop:
+            acts = clause.verb is not None and not clause.verb.participle
+            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
+            own = words[first.start - 1] not in SETS["subordinates"]
+            later = first.start > start and own and ordered and reason is not MEETING[1]
+            clause.refused = None if later else reason
+    own = not first.start or words[first.start - 1] not in SETS["subordinates"]
+    if clause.verb is first and clause.refused is None and own:
+        said = " ".join(words[first.start : items[-1].stop])
+        clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)
+
+
+def moves(clauses: Sequence[Clause]) -> bool:
+    """Whether a command without a thing is bare motion: "turn around"."""
+    return any(clause.action in VERBS["go"] | VERBS["look"] for clause in clauses)

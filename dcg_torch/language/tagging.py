@@ -1,0 +1,200 @@
+"""Words -> tagged tokens, in several ways: the likeliest paths through what each word and phrase may be.
+
+A path's log-weight is the sum of the weights of its tokens and of each tag after the one before (`data/grammar.yaml`).
+The best paths are found exactly: weights of the best beginnings first, then a search from the end.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Collection, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from dcg_torch.language import lexicon as lx
+from dcg_torch.language.candidates import candidates, is_plain_noun
+from dcg_torch.language.colors import match_color, normal_color
+from dcg_torch.language.morphology import singular
+
+_NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
+_DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer
+START, END = "START", "END"
+_TAGS: Final = tuple(lx.GRAMMAR["tags"])
+_AFTER: Final = {
+    before: {tag: float(row.get(tag, row["default"])) for tag in (*_TAGS, END)}
+    for before, row in lx.GRAMMAR["transitions"].items()
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """Words `start` to `stop` of a command as one: their tag, their text and what they mean in normal form."""
+
+    start: int
+    stop: int
+    tag: str
+    text: str
+    value: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """Tokens that cover a command, and their log-weight."""
+
+    tokens: tuple[Token, ...]
+    weight: float
+
+
+def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[str], k: int) -> list[Path]:
+    """The `k` likeliest ways to tag a command, the likeliest first.
+
+    `vocabulary` holds nouns that are known, `names` words that are written like names, which have no plural.
+    """
+    edges = _Lattice(words, vocabulary, names).edges()
+    n = len(words)
+    # best[i][tag]: the weight of the best beginning that ends before word i with that tag.
+    best: list[dict[str, float]] = [{} for _ in range(n + 1)]
+    into: list[list[tuple[Token, float]]] = [[] for _ in range(n + 1)]
+    best[0][START] = 0.0
+    for i in range(n):
+        if not best[i]:
+            continue
+        for token, weight in edges[i]:
+            into[token.stop].append((token, weight))
+            here, tag = best[token.stop], token.tag
+            score = weight + max(w + _AFTER[before][tag] for before, w in best[i].items())
+            if score > here.get(tag, -1e9):
+                here[tag] = score
+    return _backwards(best, into, n, k)
+
+
+def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]]], n: int, k: int) -> list[Path]:
+    """Search from the end: a partial path's bound is exact, so that complete paths come out in order."""
+    heap: list[tuple[float, int, int, str, float, tuple[Token, ...]]] = []
+    for tag, weight in best[n].items():
+        behind = _AFTER[tag][END]
+        heapq.heappush(heap, (-(weight + behind), n, len(heap), tag, behind, ()))
+    found: list[Path] = []
+    number = len(heap)
+    while heap and len(found) < k:
+        bound, at, _, tag, behind, tokens = heapq.heappop(heap)
+        if at == 0:
+            found.append(Path(tokens, -bound))
+            continue
+        for token, weight in into[at]:
+            if token.tag != tag:
+                continue
+            for before, start in best[token.start].items():
+                after = behind + weight + _AFTER[before][tag]
+                if found and start + after < found[0].weight - _NEGLIGIBLE:
+                    continue
+                number += 1
+                heapq.heappush(heap, (-(start + after), token.start, number, before, after, (token, *tokens)))
+    return found
+
+
+class Reader:
+    """Reads tokens from left to right."""
+
+    def __init__(self, tokens: Sequence[Token]) -> None:
+        self.tokens = tokens
+
+    def tag(self, i: int) -> str:
+        """The tag of token `i`, empty outside the command."""
+        return self.tokens[i].tag if 0 <= i < len(self.tokens) else ""
+
+    def text(self, i: int) -> str:
+        """The text of token `i`, empty outside the command."""
+        return self.tokens[i].text if 0 <= i < len(self.tokens) else ""
+
+
+class _Lattice:
+    """Every token that may begin at each word."""
+
+    def __init__(self, words: Sequence[str], vocabulary: Collection[str], names: Collection[str]) -> None:
+        self.words, self.names = words, names
+        self.known = {noun for noun in vocabulary if " " not in noun}
+        self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | lx.compounds()
+        self.starts = {name[0] for name in self.compounds}
+        self.joined = " ".join(words)
+        self.offsets = [0]
+        for word in words:
+            self.offsets.append(self.offsets[-1] + len(word) + 1)
+
+    def edges(self) -> list[list[tuple[Token, float]]]:
+        """For each word, the tokens that begin there with their log-weights."""
+        return [self._at(i) for i in range(len(self.words))]
+
+    def _at(self, i: int) -> list[tuple[Token, float]]:
+        word = self.words[i]
+        out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
+        doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
+        if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
+            out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
+        for part in (self._prepositions, self._phrases, self._colors, self._compounds, self._names):
+            out += part(i)
+        return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
+
+    def _value(self, tag: str, word: str) -> tuple[str, ...]:
+        if tag == "N":
+            return (word if word in self.names else singular(word),)
+        return (normal_color(word),) if tag == "COL" else (lx.NORMAL.get(word, word),)
+
+    def _new(
+        self, i: int, stop: int, tag: str, rule: str, value: tuple[str, ...] | None = None, more: float = 0.0
+    ) -> tuple[Token, float]:
+        text = " ".join(self.words[i:stop])
+        return Token(i, stop, tag, text, (text,) if value is None else value), float(lx.GRAMMAR[rule][tag]) + more
+
+    def _prepositions(self, i: int) -> list[tuple[Token, float]]:
+        out: list[tuple[Token, float]] = []
+        match = lx.match_preposition(self.joined, self.offsets[i])
+        word = self.words[i]
+        if match is not None:
+            stop = i + match.length
+            if not match.normal:  # "all the way" of "all the way to"
+                out.append((Token(i, stop, "ADV", match.raw, ("",)), 0.5))
+            else:
+                rule = "long_preposition" if match.length > 1 else "preposition"
+                out.append(self._new(i, stop, "P", rule, (match.normal,), match.weight))
+            if match.length > 1 and word in lx.PLACING["single"]:
+                out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
+        if word == "to":
+            out.append(self._new(i, i + 1, "INF", "infinitive"))
+        return out
+
+    def _phrases(self, i: int) -> list[tuple[Token, float]]:
+        """How a thing stands, and ordinals of several words."""
+        out = []
+        for pattern, tag, value, weight in lx.PHRASES:
+            match = pattern.match(self.joined, self.offsets[i])
+            if match is not None:
+                way = match.groupdict().get("way", "")
+                words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
+                out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
+        return out
+
+    def _colors(self, i: int) -> list[tuple[Token, float]]:
+        found = match_color(self.words, i)
+        if found is None or found[1] == i + 1:
+            return []
+        return [self._new(i, found[1], "COL", "color", (found[0],), 0.6)]
+
+    def _compounds(self, i: int) -> list[tuple[Token, float]]:
+        if self.words[i] not in self.starts:
+            return []
+        for length in (4, 3, 2):
+            name = (*self.words[i : i + length - 1], *map(singular, self.words[i + length - 1 : i + length]))
+            spoken = tuple(self.words[i : i + length])
+            if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
+                return [self._new(i, i + length, "N", "compound", name)]
+        return []
+
+    def _names(self, i: int) -> list[tuple[Token, float]]:
+        """ "(cube) number 3"."""
+        if self.words[i] not in lx.SETS["names"] or i + 1 >= len(self.words):
+            return []
+        number = self.words[i + 1]
+        if not (number.isdecimal() or number in lx.NUMBERS):
+            return []
+        return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(lx.NUMBERS.get(number, number)),)), 1.0)]

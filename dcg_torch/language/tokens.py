@@ -1,0 +1,99 @@
+"""Text -> words: one spelling for quotes, dashes and letters, fillers left out, misspelt words mended."""
+
+from __future__ import annotations
+
+import functools
+import re
+import unicodedata
+from collections.abc import Collection, Sequence
+
+from dcg_torch.language.candidates import is_plain_noun
+from dcg_torch.language.colors import color_names, single_colors
+from dcg_torch.language.lexicon import MISSPELT, PLACING, REWRITES, SETS, WORD
+from dcg_torch.language.morphology import is_english
+from dcg_torch.language.spelling import Speller
+
+# Typographic quotes, dashes and the ellipsis, by code point.
+_QUOTES = str.maketrans(
+    {0x2018: "'", 0x2019: "'", 0x60: "'", 0xB4: "'", 0x201C: '"', 0x201D: '"', 0x2013: "-", 0x2014: ",", 0x2026: "."}
+)
+_HYPHENATED = re.compile(r"\b([a-z]+)-([a-z]+)\b")
+_NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+\b")
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
+_LONG_ENOUGH, _LONG_COLOR = 3, 5
+_STRANGE = 12  # words at most that are mended: more are no English, and each costs time
+
+
+def tokens(text: str) -> list[str]:
+    """The words and stops of a command.
+
+    >>> tokens("Um, go to the red_cube, please!")
+    ['go', 'to', 'the', 'red', 'cube', ',', 'please', '!']
+    """
+    text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
+    text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
+    text = _HYPHENATED.sub(_swap, text)
+    for old, new in REWRITES:
+        text = old.sub(new, text)
+    found: list[str] = []
+    for token in WORD.findall(text):
+        if token in SETS["size_nouns"] and found and found[-1] in SETS["sizes"]:
+            found[-1] += "-sized"
+        elif token not in SETS["fillers"] and (found or not (token in SETS["openings"] or token == ",")):
+            found += MISSPELT.get(token, token).split()
+    return found
+
+
+def names(text: str) -> frozenset[str]:
+    """Words that are written like names: with a capital, inside a sentence of small letters.
+
+    >>> sorted(names("Follow Jules to the TV."))
+    ['jules']
+    """
+    return frozenset(match.group().lower() for match in _NAME.finditer(text))
+
+
+def _swap(match: re.Match[str]) -> str:
+    """ "blue-sky" is "sky blue"."""
+    swapped = f"{match.group(2)} {match.group(1)}"
+    listed = color_names()
+    return swapped if swapped in listed and f"{match.group(1)} {match.group(2)}" not in listed else match.group()
+
+
+def normal_noun(name: str) -> str:
+    """A noun as it is looked for in commands.
+
+    >>> normal_noun("CoffeeTable"), normal_noun("traffic_cone")
+    ('coffee table', 'traffic cone')
+    """
+    return " ".join(_CAMEL.sub(" ", name).replace("_", " ").replace("-", " ").lower().split())
+
+
+def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
+    """Words with what is misspelt mended; what is English or among the `known` nouns stays as it is."""
+    speller = _speller(frozenset(part for noun in known for part in noun.split()))
+    single = {noun for noun in known if " " not in noun}
+    mended: list[str] = []
+    strange = 0
+    for word in words:
+        if mended and mended[-1] + word in single and word not in single and is_plain_noun(mended[-1]):
+            mended[-1] += word  # "mail box" where "mailbox" is known
+        elif strange < _STRANGE and not is_english(word):
+            strange += 1
+            mended.append(speller.correct(word))
+        else:
+            mended.append(word)
+    return mended
+
+
+@functools.lru_cache(16)
+def _speller(known: frozenset[str]) -> Speller:
+    return Speller([known, SETS["basic_colors"], _command_words()], is_english)
+
+
+@functools.cache
+def _command_words() -> frozenset[str]:
+    words = SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"]
+    single = {name for names in PLACING.values() for name in names if " " not in name}
+    colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
+    return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors
