@@ -69,6 +69,13 @@ class LearnerKind(enum.StrEnum):
     word_posterior = "word_posterior"
 
 
+class Names(enum.StrEnum):
+    """What the names of classes say of what people call them."""
+
+    opaque = "opaque"
+    words = "words"
+
+
 class Asking(enum.StrEnum):
     """When the robot asks back."""
 
@@ -141,6 +148,7 @@ class Settings:
     name: str = _setting("run", "of the run folder and in the tables")
     model: ModelSettings = field(default_factory=ModelSettings)
     simulator: SimulatorSettings = field(default_factory=SimulatorSettings)
+    names: Names = _setting(Names.opaque, "whether class names are evidence for what nouns mean")
     training: str | None = _setting(None, "YAML file of initial examples, instead of the 53 that come along")
     seed: int = _setting(0, "of all that is drawn", Bounds(0, 1e15))
     trials: int = _setting(30, "each starts with the initial examples alone", _COUNT)
@@ -172,6 +180,7 @@ class EvaluateSettings:
     train: Any = _setting(None, "episode file (JSON lines) to train on, or a list of them; none: the model as it is")
     test: Any = _setting(None, "episode file to ground, or a list of them")
     model: ModelSettings = field(default_factory=ModelSettings)
+    names: Names = _setting(Names.words, "whether class names are evidence for what nouns mean")
     training: str | None = _setting(None, "YAML file of initial examples, instead of the 53 that come along")
     known_types: list[str] | None = _setting(None, "leave the training rows about other types out")
     known_colors: list[str] | None = _setting(None, "leave the training rows about objects of other colours out")

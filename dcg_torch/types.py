@@ -29,6 +29,9 @@ class PhraseKind(enum.StrEnum):
     MODIFIER = "modifier"  # a preposition that describes a noun phrase: "(the cone) behind (the cube)"
 
 
+OPAQUE = "opaque: "
+"""Begins the name of a type that is to say nothing of what people call it."""
+
 NOT = "not"
 """Word of a modifier that is negated ("not on the cube"): it says how the factor is read, and is no feature of it."""
 
@@ -51,7 +54,7 @@ class Phrase:
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
     `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
     of its meaning ("object of take"), and `among` what "the closest" is the closest of: things of one "kind", "type"
-    or "color", or "all".
+    or "color", or "all". `look` holds the words of the command, where the colours of objects as they are seen are known.
     """
 
     kind: PhraseKind
@@ -63,6 +66,7 @@ class Phrase:
     count: int | None = None
     context: tuple[str, ...] = ()
     among: str | None = None
+    look: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +110,7 @@ class Percept:
     """One recognised object: what the camera and the recogniser say of it.
 
     `position` is the foot of the object, `size` its extents, both (x, y, z) in metres in the world frame.
-    `attributes` are further binary facts ("held").
+    `attributes` are further binary facts ("held"), `rgb` is what it looks like, each 0 to 255.
     """
 
     id: str
@@ -115,6 +119,7 @@ class Percept:
     position: tuple[float, float, float]
     size: tuple[float, float, float] | None = None
     attributes: frozenset[str] = frozenset()
+    rgb: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -133,6 +138,7 @@ class Object:
     size: tuple[float, float, float] | None = None
     attributes: frozenset[str] = frozenset()
     members: tuple[str, ...] = ()
+    rgb: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, slots=True)

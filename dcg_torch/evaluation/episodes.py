@@ -104,6 +104,7 @@ class Episode(_Record):
                 (*o.position[:2], o.position[2] if len(o.position) == 3 else 0.0),
                 o.extents,
                 o.attributes | {"held"} if o.id == self.holding else o.attributes,
+                o.rgb,
             )
             for o in self.objects
         ]

@@ -177,7 +177,7 @@ def answers(
         noun, solution = reading.noun, None
         kind = "known" if noun in first_words else "learned" if noun in words else "unknown"
         if reading.tree is not None:
-            solution = model.ground(reading.tree, test_world(model, episode, where))
+            solution = model.ground(reading, test_world(model, episode, where))
         grounded = time.perf_counter()
         if learn and solution is not None:
             model.learn(solution)

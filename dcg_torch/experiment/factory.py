@@ -7,6 +7,7 @@ import dataclasses
 import functools
 import json
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -16,8 +17,8 @@ from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.grounding.features import Group
 from dcg_torch.lessons import training_set
 from dcg_torch.model import GroundingModel, Variant
-from dcg_torch.model.pretrain import LESSONS, VARIANT, pretrained, train_open_world
-from dcg_torch.settings import Asking, LearnerKind, ModelSettings, RobotKind, Settings, SettingsError, SimulatorSettings
+from dcg_torch.model.pretrain import LESSONS, VARIANT, pretrained, train_open_world, without_names
+from dcg_torch.settings import Asking, LearnerKind, ModelSettings, Names, RobotKind, Settings, SettingsError, SimulatorSettings
 from dcg_torch.simulator.fake import FakeRobot
 from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.world.names import MORE_TYPES
@@ -44,27 +45,31 @@ def variant(settings: ModelSettings) -> Variant:
     )
 
 
-def make_model(settings: ModelSettings, training: str | None = None) -> GroundingModel:
+def make_model(settings: ModelSettings, names: Names, training: str | None = None) -> GroundingModel:
     """A model of one's own, after the initial examples and the generated lessons, before the first command.
 
     Args:
+        names: whether class names are evidence; of use to a learner that keeps a posterior.
         training: a YAML file of initial examples; None: those that come along.
 
     Raises:
         SettingsError: a feature group that does not exist.
         TrainingFileError: the file is missing or not valid.
     """
-    return copy.deepcopy(_made(variant(settings), settings.lessons, settings.learner, training))
+    return copy.deepcopy(_made(variant(settings), settings.lessons, settings.learner, names, training))
 
 
 @functools.cache
-def _made(chosen: Variant, lessons: int, learner: LearnerKind, training: str | None) -> GroundingModel:
+def _made(
+    chosen: Variant, lessons: int, learner: LearnerKind, names: Names, training: str | None
+) -> GroundingModel:
     """The model of a configuration, which is the same for every trial: the shipped one, where that is what is asked."""
     if learner is LearnerKind.commit_first:
         return GroundingModel.trained(training_set(training), chosen)
-    if (chosen, lessons, training) == (VARIANT, LESSONS, None):
-        return pretrained()
-    return train_open_world(training_set(training), chosen, lessons)
+    chosen = replace(chosen, groups=chosen.groups | {Group.NAMES})
+    shipped = (chosen, lessons, training) == (VARIANT, LESSONS, None)
+    model = pretrained() if shipped else train_open_world(training_set(training), chosen, lessons)
+    return model if names is Names.words else without_names(model)
 
 
 def make_robot(settings: SimulatorSettings, types: int) -> SimulationRobot:

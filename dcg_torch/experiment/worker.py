@@ -35,7 +35,7 @@ def run_one(settings: Settings, trial: int, directory: Path, tick: Callable[[], 
         tick: called as each command ends.
     """
     torch.set_num_threads(1)
-    model = make_model(settings.model, settings.training)
+    model = make_model(settings.model, settings.names, settings.training)
     robot = make_robot(settings.simulator, settings.types)
     recorder = Recorder(robot) if trial in settings.animate else None
     _observe(robot, recorder)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import DesignMatrix, merge, stack_bags
-from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Ranking, ranking
+from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Ranking, Said, ranking
 from dcg_torch.grounding.psi import Bag
 from dcg_torch.scene import Layout, layout
 from dcg_torch.types import Correspondence, Example, GroundingKind, Phrase, WorldModel
@@ -27,7 +27,7 @@ class WorldEncoder:
     def __init__(self, features: FeatureSet, world: WorldModel) -> None:
         self.features = features
         self.world = world
-        self._things: dict[Ranking | None, Bag] = {}
+        self._said: dict[Said, Bag] = {}
         self._placed: dict[tuple[tuple[int, ...], Ranking | None], NDArray[np.int16]] = {}
 
     @cached_property
@@ -40,11 +40,29 @@ class WorldEncoder:
         """Id of a thing -> its number."""
         return {thing.id: j for j, thing in enumerate(self.world.things)}
 
-    def things(self, counted: Ranking | None) -> Bag:
-        """(things, k) bag of a noun phrase's factors."""
-        if counted not in self._things:
-            self._things[counted] = self.features.encode_things(self.world, self.layout, counted)
-        return self._things[counted]
+    @cached_property
+    def _objects(self) -> Bag:
+        return self.features.encode_things(self.world, self.layout)
+
+    def things(self, phrase: Phrase) -> Bag:
+        """(things, k) bag of a noun phrase's factors, but for the ranks that it speaks of."""
+        if Group.NAMES not in self.features.groups:
+            return self._objects
+        said = Said.of(phrase)
+        if said not in self._said:
+            self._said[said] = self.features.encode_said(self.world, said)
+        return np.hstack([self._objects, self._said[said]])
+
+    def ranked(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Bag:
+        """(things, k) bag of a noun phrase's factors.
+
+        Args:
+            members: (things,) those among which it ranks; None: all.
+        """
+        counted = ranking(phrase)
+        if counted is None or Group.RELATION not in self.features.groups:
+            return self.things(phrase)
+        return np.hstack([self.things(phrase), self.features.encode_ranks(self.layout, counted, members)])
 
     def placed(self, landmarks: Sequence[tuple[int, ...]], counted: Ranking | None) -> Bag:
         """(landmarks, things, k) bag of a modifier's factors, to each tuple of numbers of landmarks."""
@@ -58,7 +76,7 @@ class WorldEncoder:
         """(groundings, k) bag of the factors of an example in this world."""
         kind = GROUNDING_OF[example.phrase.kind]
         if kind is GroundingKind.OBJECT:
-            return self.things(ranking(example.phrase))
+            return self.ranked(example.phrase)
         if kind is GroundingKind.PLACED:
             landmarks = tuple(self.number[c.grounding.object.id] for c in example.children)
             rows = self.placed([landmarks], ranking(example.phrase))

@@ -9,11 +9,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from dcg_torch.grounding.encode import example_bag
+from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Hypothesis, Solution
-from dcg_torch.types import Correspondence, Example, Object, WorldModel
+from dcg_torch.types import Correspondence, Example, Object
 
 
 class Weighted(Protocol):
@@ -65,7 +65,7 @@ def explain(model: Weighted, solution: Solution) -> list[Reason]:
     return [
         reason
         for hypothesis in walk
-        for reason in sorted(_reasons(model, hypothesis, solution.world), key=lambda r: -abs(r.log_odds))
+        for reason in sorted(_reasons(model, hypothesis, solution), key=lambda r: -abs(r.log_odds))
     ]
 
 
@@ -79,23 +79,28 @@ def rivalry(model: Weighted, solution: Solution) -> Rivalry | None:
         return None
     found: list[Reason] = []
     for ours, theirs in zip(solution.best.walk(), second.walk(), strict=True):
-        for_us = {(r.language, r.feature): r for r in _reasons(model, ours, solution.world)}
-        for_them = {(r.language, r.feature): r for r in _reasons(model, theirs, solution.world)}
+        for_us = {(r.language, r.feature): r for r in _reasons(model, ours, solution)}
+        for_them = {(r.language, r.feature): r for r in _reasons(model, theirs, solution)}
         found += [r for key, r in for_us.items() if key not in for_them]
         found += [replace(r, log_odds=-r.log_odds) for key, r in for_them.items() if key not in for_us]
     found.sort(key=lambda r: -abs(r.log_odds))
     return Rivalry(second.child.grounding.object, solution.best.log_score - second.log_score, tuple(found))
 
 
-def _reasons(model: Weighted, hypothesis: Hypothesis, world: WorldModel) -> Iterator[Reason]:
+def _reasons(model: Weighted, hypothesis: Hypothesis, solution: Solution) -> Iterator[Reason]:
     """The features that fire for a phrase and its grounding, but those of weight zero."""
+    world = solution.world
     languages, groundings = list(model.features.language), list(model.features.grounding)
     phrase, child = hypothesis.tree.phrase, hypothesis.child
     sign = model.factor.correspondences.index(child.correspondence)
     zero = model.factor.correspondences.index(Correspondence.INACTIVE)
     odds = model.factor.weight[sign] - model.factor.weight[zero]
     chosen = [thing.id for thing in world.things].index(child.grounding.object.id)
-    row = example_bag(Example(phrase, world, (), hypothesis.factor_children), model.features)[chosen]
+    encoder = WorldEncoder(model.features, world)
+    if phrase is solution.noun:
+        row = encoder.ranked(phrase, solution.compared)[chosen]
+    else:
+        row = encoder.bag(Example(phrase, world, (), hypothesis.factor_children))[chosen]
     for language in model.features.encode_phrases([phrase])[0]:
         for grounding in row[row >= 0]:
             if language >= 0 and odds[language, grounding] != 0.0:

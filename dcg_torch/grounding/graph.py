@@ -41,6 +41,9 @@ from dcg_torch.types import (
 
 Floats = NDArray[np.float64]
 
+_IN_THE_SET = math.log(0.5)
+"""A thing is compared where it is described at least half as well as the best."""
+
 
 @dataclass(frozen=True)
 class _Scored:
@@ -52,6 +55,7 @@ class _Scored:
         scores: (combos, groundings, meant) log-score of every configuration.
         log_odds: (groundings,) of ACTIVE against INACTIVE, modifiers included; of use for a noun phrase.
         log_fit: (groundings,) log Psi(ACTIVE) by itself, modifiers included.
+        compared: (things,) those among which the phrase ranks; None where it does not.
     """
 
     tree: ParseTree
@@ -61,6 +65,7 @@ class _Scored:
     log_odds: Floats
     log_fit: Floats
     modifiers: Sequence[ModifierFactor] = ()
+    compared: NDArray[np.bool_] | None = None
 
 
 class FactorGraph:
@@ -118,6 +123,7 @@ class FactorGraph:
             {} if noun is None else by_id(np.exp(np.clip(noun.log_odds, -700.0, 700.0))),
             self._runner_up(root, best),
             () if noun is None else tuple(noun.modifiers),
+            None if noun is None else noun.compared,
         )
 
     def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
@@ -142,13 +148,19 @@ class FactorGraph:
         for level in map(list, nx.topological_generations(self.phrases)):
             below = [list(self.phrases.predecessors(node)) for node in level]
             combos = [list(itertools.product(*(beams[c][:beam] for c in nodes if c in beams))) for nodes in below]
-            for k, table in enumerate(self._tables(level, combos, features, factor)):
+            own = [[modifiers[c] for c in nodes if c in modifiers] for nodes in below]
+            encoder = self._encoder or WorldEncoder(features, self.world)
+            sets = [
+                comparison_set(tree, of, encoder, factor) if ranks(tree) else None
+                for tree, of in zip((self.phrases.nodes[node]["tree"] for node in level), own, strict=True)
+            ]
+            for k, table in enumerate(self._tables(level, combos, sets, encoder, factor)):
                 node, tree = level[k], self.phrases.nodes[level[k]]["tree"]
                 if tree.phrase.kind is PhraseKind.MODIFIER:
                     modifiers[node] = _modifier(tree, combos[k], table, factor.correspondences)
                     continue
-                own = [modifiers[c] for c in below[k] if c in modifiers]
-                found = _picked(tree, combos[k], table, own, factor.correspondences)
+                found = _picked(tree, combos[k], table, own[k], factor.correspondences)
+                found = replace(found, compared=sets[k])
                 scored[node] = found if self._is_landmark(node) else self._only_objects(found)
                 beams[node] = self._best(scored[node], beam)
         return scored
@@ -157,17 +169,20 @@ class FactorGraph:
         self,
         level: Sequence[int],
         combos: Sequence[Sequence[tuple[Hypothesis, ...]]],
-        features: FeatureSet,
+        sets: Sequence[NDArray[np.bool_] | None],
+        encoder: WorldEncoder,
         factor: LogLinearFactor,
     ) -> list[Floats]:
         """For each phrase of a level (combos, groundings, correspondences) log Psi, from one evaluation of all."""
         trees: list[ParseTree] = [self.phrases.nodes[node]["tree"] for node in level]
-        encoder = self._encoder or WorldEncoder(features, self.world)
-        bags = [self._encode(tree, of_node, encoder) for tree, of_node in zip(trees, combos, strict=True)]
+        bags = [
+            self._encode(tree, of_node, members, encoder)
+            for tree, of_node, members in zip(trees, combos, sets, strict=True)
+        ]
         width = max(bag.shape[2] for bag in bags)
         rows = [np.pad(b, ((0, 0), (0, 0), (0, width - b.shape[2])), constant_values=-1) for b in bags]
         phrase = np.repeat(np.arange(len(level)), [r.shape[0] * r.shape[1] for r in rows])
-        language = features.encode_phrases([tree.phrase for tree in trees])
+        language = encoder.features.encode_phrases([tree.phrase for tree in trees])
         flat = np.concatenate([r.reshape(-1, width) for r in rows])
         log_psi = factor.log_psi(language, flat, phrase).numpy()
         return [log_psi[phrase == k].reshape(*r.shape[:2], -1) for k, r in enumerate(rows)]
@@ -188,12 +203,16 @@ class FactorGraph:
         return replace(found, scores=scores, log_odds=odds, log_fit=fit)
 
     def _encode(
-        self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder
+        self,
+        tree: ParseTree,
+        combos: Sequence[tuple[Hypothesis, ...]],
+        members: NDArray[np.bool_] | None,
+        encoder: WorldEncoder,
     ) -> NDArray[np.int64]:
         """(len(combos), groundings, k) bag of a phrase's factors."""
         kind = GROUNDING_OF[tree.phrase.kind]
         if kind is GroundingKind.OBJECT:
-            return encoder.things(ranking(tree.phrase))[None]
+            return encoder.ranked(tree.phrase, members)[None]
         if kind is GroundingKind.PLACED:
             number = encoder.number
             landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
@@ -211,6 +230,31 @@ class FactorGraph:
             below = (*scored.combos[c], *(m.hypothesis(int(j), thing) for m in scored.modifiers))
             found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
         return found
+
+
+def ranks(tree: ParseTree) -> bool:
+    """Is it a noun phrase with words that may rank?"""
+    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None
+
+
+def comparison_set(
+    tree: ParseTree, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, factor: LogLinearFactor
+) -> NDArray[np.bool_]:
+    """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best.
+
+    Args:
+        modifiers: the factors of its modifiers.
+    """
+    phrase = replace(tree.phrase, words=())
+    language, bag = encoder.features.encode_phrases([phrase]), encoder.things(phrase)
+    log_psi = factor.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
+    fit: Floats = log_psi[:, factor.correspondences.index(Correspondence.ACTIVE)]
+    for modifier in modifiers:
+        fit = fit + modifier.log_psi
+    objects = np.array([not o.hypothetical for o in encoder.world.things])
+    fit = np.where(objects, fit, -np.inf)
+    found: NDArray[np.bool_] = fit >= fit.max() + _IN_THE_SET
+    return found
 
 
 def _modifier(

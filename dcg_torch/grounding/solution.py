@@ -98,6 +98,7 @@ class Solution:
         odds: object or group id -> odds, by the noun phrase alone, that it is the one described.
         runner_up: the best configuration whose noun phrase means another object than the best one's.
         modifiers: the factors of the modifiers of the noun phrase meant.
+        compared: (things,) those among which the noun phrase ranks; None where it does not.
         further: of the other noun phrases that the command joins to the first ("the cube and the cone").
         problem: why nothing was grounded, one sentence; None where something was.
     """
@@ -110,6 +111,7 @@ class Solution:
     odds: Mapping[str, float] = field(default_factory=dict)
     runner_up: Hypothesis | None = None
     modifiers: tuple[ModifierFactor, ...] = field(default=(), compare=False)
+    compared: NDArray[np.bool_] | None = field(default=None, compare=False)
     further: tuple[Solution, ...] = ()
     problem: str | None = None
 

@@ -28,6 +28,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.learning.assignment import marginals
+from dcg_torch.names.weights import log_odds
+from dcg_torch.types import OPAQUE
 
 UNMET = "(unmet)"
 """Stands for all types that no object met so far was of."""
@@ -44,11 +46,13 @@ class Prior:
         synonym: factor for a word that names a type which has a name already ("ball" for a sphere).
         unmet: weight of all types not met yet, where each met one has weight 1.
         slip: share of commands whose word is not the one for the type reported.
+        names: are the names of types evidence for what words name? If not, they are opaque.
     """
 
     synonym: float = 0.05
     unmet: float = 1.0
     slip: float = 0.02
+    names: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 < self.synonym <= 1.0:
@@ -201,6 +205,9 @@ class Beliefs:
         for row, heard in zip(scores, self.heard.values(), strict=True):
             for t, value in heard.more.items():
                 row[column[t]] = value
+        if prior.names:
+            for row, word in zip(scores, self.heard, strict=True):
+                row[:-1] += [0.0 if t.startswith(OPAQUE) else log_odds(word, t) for t in self.types]
         psi = np.exp(scores - scores.max(axis=1, initial=0.0, keepdims=True)) * weight
         found = marginals(psi, prior.synonym, free)
         fixed = np.zeros((len(self.settled), len(types)))

@@ -163,7 +163,7 @@ def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Itera
         # What the modifiers, or the other noun phrases, tell apart is no example.
         kept = ~((alike & bool(noun.children)) | (targets & (not part.alone)))
         kept[meant] = True
-        bag = encoder.things(ranking(noun.phrase))[: len(targets)][kept]
+        bag = encoder.ranked(noun.phrase, solution.compared)[: len(targets)][kept]
         yield Rows(noun.phrase, bag, label[kept], np.full(len(bag), share))
         for modifier in solution.modifiers:
             yield from _placed(modifier, noun.phrase, encoder, share, meant, targets)
@@ -227,7 +227,7 @@ def _landmark(landmark: Hypothesis, encoder: WorldEncoder, weight: float) -> Ite
     at = encoder.number[chosen.id]
     label = np.zeros(len(world.things), dtype=np.int64)
     label[at] = Correspondence.ACTIVE
-    yield Rows(landmark.tree.phrase, encoder.things(ranking(landmark.tree.phrase)), label, np.full(len(label), weight))
+    yield Rows(landmark.tree.phrase, encoder.ranked(landmark.tree.phrase), label, np.full(len(label), weight))
     kept = np.zeros(len(label), dtype=np.bool_)
     kept[: len(world.meanable)] = _alike(landmark.tree.phrase, world.meanable, [chosen])
     kept[at] = True

@@ -17,6 +17,8 @@ Mask = NDArray[np.bool_]
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})
 _TAUGHT_GROUNDING = frozenset({"relation", "state", "part", "rank", "stack color", "group color"})
+_GIVEN = frozenset({"said name", "said kind", "said color", "said attribute", "said look"})
+"""What names of classes say is known from the start."""
 _PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *GROUP_WORDS)}
 _OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group"}
 
@@ -37,7 +39,7 @@ def taught_mask(features: FeatureSet) -> Mask:
     names = list(features.grounding)
     of_context = np.array([name in {"kind: placed", "kind: place", "kind: group"} for name in names])
     of_any = np.array([name in {"kind: place", "kind: group"} for name in names])
-    of_word = np.ones(len(names), dtype=np.bool_)
+    of_word = np.array([name.partition(":")[0] not in _GIVEN for name in names])
     rows = [
         of_context if name.startswith(("context:", "landmark:")) else of_word if _is_taught_language(name) else of_any
         for name in features.language
@@ -57,4 +59,4 @@ def _is_taught_language(name: str) -> bool:
 
 
 def _is_taught_grounding(name: str) -> bool:
-    return name.partition(":")[0] in _TAUGHT_GROUNDING or name in _OF_PLACES
+    return name.partition(":")[0] in _TAUGHT_GROUNDING | _GIVEN or name in _OF_PLACES

@@ -206,6 +206,12 @@ class WordPosterior:
         """With a noun settled on a type."""
         return replace(self, nouns=self.nouns.correct(word, type_))
 
+    def with_names(self, *, evident: bool) -> WordPosterior:
+        """With the names of types as evidence for nouns, or without."""
+        prior = replace(self.nouns.prior, names=evident)
+        assumed = replace(self.assumed, nouns=prior)
+        return replace(self, nouns=replace(self.nouns, prior=prior), assumed=assumed)
+
     def forget(self, word: str) -> WordPosterior:
         """As if a noun had never been heard."""
         return replace(self, nouns=self.nouns.forget(word))

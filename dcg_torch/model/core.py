@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import Rows, WorldEncoder, design_matrices, encode, firing, rows_of
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
-from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet, Group
+from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet, Group, fact_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
+from dcg_torch.grounding.readings import NEGLIGIBLE, looking, sum_over
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
@@ -25,11 +26,13 @@ from dcg_torch.learning.learner import Experience, Learned, Learner, Taught, Tra
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
 from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.spoken import ReadCommand
 from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import Workspace, with_groups, with_places
 from dcg_torch.types import (
+    Correspondence,
     Example,
     ParseTree,
     Percept,
@@ -89,6 +92,7 @@ class GroundingModel:
             features = features.include(nouns=group_nouns())
         features = learner.columns(features)
         model = cls(variant, features, LogLinearFactor(features.pairs, TERNARY if variant.ternary else BINARY), learner)
+        model._know_names()
         model.train()
         if relations:
             model._fit(model._encoded(place_examples()), free=taught_mask(features), l2=_RELATION_L2)
@@ -133,25 +137,34 @@ class GroundingModel:
         )
         return with_places(world, workspace) if Group.RELATION in self.variant.groups else world
 
-    def ground(self, command: str | ParseTree, world: WorldModel) -> Solution:
+    def ground(self, command: str | ParseTree | ReadCommand, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11).
 
         Args:
-            command: what was said, or its parse tree.
+            command: what was said, its parse tree, or what a parser made of it: of several readings the world decides.
             world: of `world_model`.
         """
+        if isinstance(command, ParseTree):
+            return self._ground(command, world)
         if isinstance(command, str):
-            from dcg_torch.language import parse_command  # loads spaCy: only who gives text pays for it
+            from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
-            parse = parse_command(command, self.symbols.keys())
-            if parse.tree is None:
-                return Solution(None, world, problem=parse.problem)
-            command = parse.tree
+            command = parse_command(command, self.symbols.keys())
+        readings = command.readings if Group.RELATION in self.variant.groups else command.readings[:1]
+        if not readings:
+            return Solution(None, world, problem=command.problem)
+        kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
+        seen = any(o.rgb is not None for o in world.objects)
+        trees = [looking(r.tree, command.text) if seen else r.tree for r in kept]
+        return sum_over([self._ground(tree, world) for tree in trees], [r.log_weight for r in kept])
+
+    def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+        """Of one reading."""
         if Group.RELATION not in self.variant.groups:
-            return self._solve(path_to_object(command), world)
+            return self._solve(path_to_object(tree), world)
         first, *others = (
             self._solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
-            for part in coordinated(command)
+            for part in coordinated(tree)
         )
         return replace(first, further=tuple(others))
 
@@ -266,6 +279,18 @@ class GroundingModel:
         if not relations_only:
             self.prior = self.factor.weight.numpy().copy()
             self._hear_lessons(parts)
+
+    def _know_names(self) -> None:
+        """Give the facts between words and the names of classes, colours and attributes their odds."""
+        if Group.NAMES not in self.variant.groups:
+            return
+        weight = self.factor.weight.numpy().copy()
+        sign = np.array([0.5 if c is Correspondence.ACTIVE else -0.5 for c in self.factor.correspondences])
+        for fact, odds in fact_odds().items():
+            column = self.features.grounding[fact]
+            rows = np.flatnonzero(self.features.pairs[:, column])
+            weight[:, rows, column] = (sign * odds)[:, None]
+        self.factor.set_weight(weight)
 
     def _make_room(self, parts: Sequence[Part], said: Taught, *, relations_only: bool) -> None:
         """Columns for the words of lessons, and what they settle."""

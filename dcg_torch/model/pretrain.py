@@ -7,25 +7,45 @@ mean. No human corpus enters it.
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 
-from dcg_torch.grounding.features import PAPER, Group
+from dcg_torch.grounding.features import PAPER, FeatureSet, Group
+from dcg_torch.learning.beliefs import Prior
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.model.checkpoint import load, save
 
-VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, beam=12)
+VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam=12)
+_ASSUMED = Assumptions(nouns=Prior(names=True))
 LESSONS = 1000
 _ROUNDS = 2
 _SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
 
-def pretrained() -> GroundingModel:
-    """The shipped model: it knows cube, sphere and cylinder, colours, relations, and learns everything else."""
-    return load(_SHIPPED)
+def pretrained(*, opaque: bool = False) -> GroundingModel:
+    """The shipped model: it knows cube, sphere and cylinder, colours, relations, and learns everything else.
+
+    Args:
+        opaque: the names of classes say nothing of what people call them, as in the paper's experiments.
+    """
+    model = load(_SHIPPED)
+    return without_names(model) if opaque else model
+
+
+def without_names(model: GroundingModel) -> GroundingModel:
+    """The model to which names of classes say nothing, with its words trained anew."""
+    groups = model.variant.groups - {Group.NAMES}
+    features = FeatureSet(groups, model.features.language, model.features.grounding)
+    learner = model.learner
+    if isinstance(learner, WordPosterior):
+        learner = learner.with_names(evident=False)
+    bare = GroundingModel(replace(model.variant, groups=groups), features, model.factor, learner)
+    bare.train()
+    return bare
 
 
 def train_open_world(
@@ -40,7 +60,7 @@ def train_open_world(
     """
     from dcg_torch.language import default_parser
 
-    model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed))
+    model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed or _ASSUMED))
     if lessons and Group.RELATION in variant.groups:
         model.teach(generated_lessons(default_parser().parse, lessons), relations_only=True, rounds=_ROUNDS)
     return model

@@ -57,23 +57,27 @@ def _colors(where: Layout, of: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> li
     return sorted({c for j in np.flatnonzero(of) if (c := where.things[j].color) is not None})
 
 
-def ranks(where: Layout, among: str, *, ordinal: int | None = None, count: int | None = None) -> Ints:
-    """The rank features of every thing: its place along every axis among those alike.
+def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = None, count: int | None = None) -> Ints:
+    """The rank features of every thing: its place along every axis among those that it is compared with.
 
     Args:
-        among: which of `SETS` it is compared with.
+        members: (n,) the things compared, objects and groups each with their like; None: all.
         ordinal: what the phrase counts to: 2 for "the second cone".
         count: how many the phrase means: 2 for "the two cones on the right".
 
     Returns:
         (n, k) bag of indices into `RANKS`, padded with -1.
     """
-    values, alike = _values(where), where.alike[among]
+    compared = np.ones(len(where.things), dtype=np.bool_) if members is None else members
+    solid = where.solid
+    alike = (solid[:, None] & solid[None]) | (where.group[:, None] & where.group[None])
+    alike = alike & np.outer(compared, compared)
+    values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
     with np.errstate(invalid="ignore"):
         less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
     before = (less & alike[None]).sum(axis=2)  # (axes, n)
-    there = np.isfinite(values) & alike.any(axis=1, keepdims=True).T
+    there = np.isfinite(values) & alike.any(axis=1)[None]
     first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
     out = [np.where(there & (before < NEAREST), first + before, -1)]
     if ordinal is not None:

@@ -25,6 +25,7 @@ def perceive_objects(
             position=p.position,
             size=p.size,
             attributes=p.attributes,
+            rgb=p.rgb,
         )
         for p in percepts
     )

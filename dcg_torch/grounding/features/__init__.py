@@ -28,6 +28,7 @@ from dcg_torch.grounding.features.names import (
     child_feature,
     ranking,
 )
+from dcg_torch.grounding.features.said import Said, fact_odds
 
 __all__ = [
     "GROUNDING_OF",
@@ -38,6 +39,8 @@ __all__ = [
     "FeatureSet",
     "Group",
     "Ranking",
+    "Said",
     "child_feature",
+    "fact_odds",
     "ranking",
 ]

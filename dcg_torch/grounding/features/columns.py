@@ -22,6 +22,7 @@ from dcg_torch.grounding.features.names import (
     fixed_languages,
     word_features,
 )
+from dcg_torch.grounding.features.said import Said, facts
 from dcg_torch.grounding.psi import Bag
 from dcg_torch.types import (
     Child,
@@ -29,6 +30,7 @@ from dcg_torch.types import (
     GroundingKind,
     Object,
     Phrase,
+    PhraseKind,
     Symbol,
     WorldModel,
 )
@@ -152,6 +154,9 @@ class FeatureSet:
                 names += [f"noun: {phrase.noun}", "noun known: yes"]
             else:
                 names += ["noun: (unheard)", "noun known: no"]
+        if Group.NAMES in self.groups and phrase.kind is PhraseKind.NOUN:
+            says = {"noun": phrase.noun is not None, "words": bool(phrase.words), "look": bool(phrase.look)}
+            names += [f"{name} stated: yes" for name, is_said in says.items() if is_said]
         if phrase.color is not None:
             stated = f"color: {phrase.color}"
             names += ["color stated: yes", stated if stated in self.language else "color: unknown"]
@@ -212,12 +217,11 @@ class FeatureSet:
                 bag[c, index[child.grounding.object.id], column] = same
         return bag
 
-    def encode_things(self, world: WorldModel, where: scene.Layout, ranking: Ranking | None) -> Bag:
-        """Grounding columns of a noun phrase's groundings, groups and places included.
+    def encode_things(self, world: WorldModel, where: scene.Layout) -> Bag:
+        """Grounding columns of a noun phrase's groundings, groups and places included, whatever the phrase says.
 
         Args:
             where: the layout of `world`.
-            ranking: what the phrase counts, if it has words that a rank could be meant by.
 
         Returns:
             (len(world.things), k) bag.
@@ -233,11 +237,22 @@ class FeatureSet:
                 own += more
             for own, thing in zip(names[len(world.objects) :], world.things[len(world.objects) :], strict=True):
                 own.append("kind: group" if thing.members else "kind: place")
-        bag = _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
-        if ranking is None or Group.RELATION not in self.groups:
-            return bag
-        found = scene.ranks(where, ranking.among, ordinal=ranking.ordinal, count=ranking.count)
-        return np.hstack([bag, self._ranks[found]])
+        return self._bag(names)
+
+    def encode_said(self, world: WorldModel, said: Said) -> Bag:
+        """(len(world.things), k) bag: what the names of things say about a phrase."""
+        return self._bag(facts(said, world.things))
+
+    def encode_ranks(self, where: scene.Layout, ranking: Ranking, members: NDArray[np.bool_] | None) -> Bag:
+        """(things, k) bag: the rank of every thing among those that are compared.
+
+        Args:
+            members: (things,) those that all the rest of the phrase describes; None: all that there are.
+        """
+        return self._ranks[scene.ranks(where, members, ordinal=ranking.ordinal, count=ranking.count)]
+
+    def _bag(self, names: Iterable[Iterable[str]]) -> Bag:
+        return _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
 
     def encode_placed(
         self, where: scene.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dcg_torch import scene
+from dcg_torch.grounding.features.said import said_features
 from dcg_torch.types import (
     NOT,
     Correspondence,
@@ -24,6 +25,7 @@ class Group(enum.StrEnum):
     HYPOTHETICAL = "hypothetical"
     COLOR = "color"
     RELATION = "relation"
+    NAMES = "names"  # the names of classes, colours and attributes are evidence for words
     OPEN = "open"  # what has never been heard or met has columns too, and so has a look all round
 
 
@@ -42,9 +44,12 @@ PAIRS: dict[str, frozenset[str]] = {
     "context": frozenset({"kind", "state", "relation"}),
     "landmark": frozenset({"kind"}),  # what states landmarks are in is chance, which a corpus has plenty of
     "noun": frozenset({"type", "part"}),
+    "noun stated": frozenset({"said name", "said kind"}),
     "noun known": frozenset({"known", "hypothetical"}),
     "color": frozenset({"color", "group color"}),
-    "color stated": frozenset({"kind", "known", "hypothetical", "color"}),
+    "color stated": frozenset({"kind", "known", "hypothetical", "color", "said color"}),
+    "words stated": frozenset({"said attribute"}),
+    "look stated": frozenset({"said look"}),
 }
 
 FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
@@ -85,6 +90,8 @@ def fixed_groundings() -> Iterator[Feature]:
     yield Group.HYPOTHETICAL, "hypothetical: yes"
     for name in (*scene.RELATION_NAMES, *FEW.values(), *scene.STATES, *scene.RANKS):
         yield Group.RELATION, name
+    for name in said_features():
+        yield Group.NAMES, name
     yield Group.RELATION, "kind: place"
     yield Group.RELATION, "kind: group"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
@@ -100,6 +107,8 @@ def fixed_languages() -> Iterator[Feature]:
     yield Group.COLOR, "color: unknown"
     yield Group.COLOR, "color stated: yes"
     yield Group.OPEN, "noun: (unheard)"
+    for name in ("noun", "words", "look"):
+        yield Group.NAMES, f"{name} stated: yes"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,101 @@
+"""What the name of a class, of a colour or of an attribute says about a phrase: facts as grounding features.
+
+They depend on the phrase as well as on the object: "lamp" holds of a floor lamp as its head. Which facts hold, `names`
+says. Their weights are known from the start (`fact_odds`), so that a class name is evidence before anything is learned;
+what is learned of a word comes on top.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, color_evidence
+from dcg_torch.names.colors import color_scores
+from dcg_torch.names.evidence import evidence
+from dcg_torch.names.weights import FACTS, fact_weights
+from dcg_torch.types import OPAQUE, Object, Phrase
+
+_TRUST = 0.6
+"""Share of the facts' log-odds that is believed: a parser's noun is wrong more often than a list of nouns is."""
+_COLOR_ODDS = {"equal": 4.0, "same hue": 2.0, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
+_ATTRIBUTE_ODDS = {"equal": 4.0, "alike": 4.0, "contrary": -4.0, "silent": -0.5}
+_LOOKS = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)
+"""Bounds of how far a colour's score stays behind the best in view."""
+LOOK_FACTS = tuple(f"look: {k}" for k in range(len(_LOOKS) + 1))
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """What a noun phrase says of an object's class, colour and attributes.
+
+    Attributes:
+        look: the words by which the object's colour as it is seen is to be judged.
+    """
+
+    noun: str | None
+    color: str | None
+    words: tuple[str, ...]
+    look: tuple[str, ...] = ()
+
+    @classmethod
+    def of(cls, phrase: Phrase) -> Said:
+        """By a phrase."""
+        return cls(phrase.noun, phrase.color, phrase.words, phrase.look)
+
+
+def fact_odds() -> dict[str, float]:
+    """Name of a grounding feature -> its log-odds before anything is learned."""
+    weights = fact_weights()
+    odds = {f"said {fact}": _TRUST * weights.get(fact, 0.0) for fact in FACTS}
+    odds |= {f"said color: {name}": value for name, value in _COLOR_ODDS.items()}
+    odds |= {f"said attribute: {name}": value for name, value in _ATTRIBUTE_ODDS.items()}
+    return odds | {f"said {fact}": -_behind(k) for k, fact in enumerate(LOOK_FACTS)}
+
+
+def _behind(k: int) -> float:
+    """About how far behind the best a colour in the k-th class of scores is."""
+    if k == 0:
+        return 0.0
+    return (_LOOKS[k - 1] + _LOOKS[min(k, len(_LOOKS) - 1)]) / 2.0
+
+
+def said_features() -> list[str]:
+    """The names of all such features."""
+    names = [*FACTS, *(f"color: {name}" for name in _COLOR_ODDS), *ATTRIBUTE_FACTS, *LOOK_FACTS]
+    return [f"said {name}" for name in names]
+
+
+def facts(said: Said, things: Sequence[Object]) -> list[list[str]]:
+    """The names of the features that fire for each thing."""
+    looks = _look_facts(said.look, things)
+    return [_facts(said, thing, look) for thing, look in zip(things, looks, strict=True)]
+
+
+def _facts(said: Said, thing: Object, look: str | None) -> list[str]:
+    found: list[str] = []
+    if said.noun is not None and thing.type is not None and not thing.type.startswith(OPAQUE):
+        found += evidence(said.noun, thing.type)
+    if look is not None:
+        found.append(look)
+    elif said.color is not None and thing.color is not None:
+        found += color_evidence(said.color, thing.color)
+    if said.words and thing.attributes:
+        found += attribute_evidence(said.words, thing.attributes)
+    return [f"said {name}" for name in found]
+
+
+def _look_facts(words: tuple[str, ...], things: Sequence[Object]) -> list[str | None]:
+    """How far each thing that shows its colour stays behind the one that the words fit best."""
+    shown = [j for j, thing in enumerate(things) if thing.rgb is not None]
+    found: list[str | None] = [None] * len(things)
+    if not words or not shown:
+        return found
+    scores = color_scores(words, np.array([things[j].rgb for j in shown], dtype=np.float64))
+    if np.ptp(scores) <= 1e-9:  # the words say nothing of colours
+        return found
+    for j, behind in zip(shown, (scores.max() - scores).tolist(), strict=True):
+        found[j] = LOOK_FACTS[int(np.searchsorted(_LOOKS, behind, side="left"))]
+    return found

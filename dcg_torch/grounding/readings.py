@@ -1,0 +1,62 @@
+"""Several readings of one command: the world decides between them, and the factor graph sums over them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import defaultdict
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.types import ParseTree, PhraseKind
+
+NEGLIGIBLE = 3.0
+"""Readings whose log-weight is so far below the best one's are not grounded."""
+_SENSELESS = math.log(1e-6)
+
+
+def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Solution:
+    """p(object) = sum over readings t of p(t | command, world) p(object | t).
+
+    A reading is as probable as it was before the world has spoken, times how well it describes the best thing there.
+
+    Args:
+        solutions: one for each reading, the likeliest first; at least one.
+        log_weights: of the readings, up to a constant.
+
+    Returns:
+        The solution of the likeliest reading that means the likeliest object, with the probabilities of all.
+    """
+    if len(solutions) == 1:
+        return solutions[0]
+    scores = [w + _sense(s) for w, s in zip(log_weights, solutions, strict=True)]
+    most = max(scores)
+    shares = [math.exp(s - most) for s in scores]
+    total: defaultdict[str, float] = defaultdict(float)
+    for share, solution in zip(shares, solutions, strict=True):
+        for id_, p in solution.probabilities.items():
+            total[id_] += share * p / sum(shares)
+    meant = [s.object.id if s.object is not None else None for s in solutions]
+    grounded = [k for k, id_ in enumerate(meant) if id_ is not None]
+    if not grounded:
+        return solutions[0]
+    best = max(grounded, key=lambda k: (total[meant[k] or ""], shares[k]))
+    own = {id_: total[id_] for id_ in solutions[best].probabilities}
+    return replace(solutions[best], probabilities=own)
+
+
+def _sense(solution: Solution) -> float:
+    """Logarithm of how well a reading describes what it describes best."""
+    if solution.best is None:
+        return _SENSELESS
+    fits = [fit for o in solution.world.objects if not o.hypothetical and (fit := solution.fits.get(o.id)) is not None]
+    return math.log(max(1e-6, *fits)) if fits else 0.0
+
+
+def looking(tree: ParseTree, text: str) -> ParseTree:
+    """The tree whose first noun phrase is also told the words of the command, to judge colours that are seen by."""
+    words = tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
+    if tree.phrase.kind is PhraseKind.NOUN:
+        return replace(tree, phrase=replace(tree.phrase, look=words))
+    return replace(tree, children=(*(looking(c, text) for c in tree.children[:1]), *tree.children[1:]))
