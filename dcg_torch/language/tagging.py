@@ -141,7 +141,10 @@ class _Lattice:
         doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
         if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
             out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
-        for part in (self._prepositions, self._phrases, self._colors, self._compounds, self._names):
+        found = match_color(self.words, i)
+        if found is not None and found[1] > i + 1:
+            out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
+        for part in (self._prepositions, self._phrases, self._compounds, self._names):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
@@ -183,12 +186,6 @@ class _Lattice:
                 words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
                 out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
         return out
-
-    def _colors(self, i: int) -> list[tuple[Token, float]]:
-        found = match_color(self.words, i)
-        if found is None or found[1] == i + 1:
-            return []
-        return [self._new(i, found[1], "COL", "color", (found[0],), 0.6)]
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:
         if self.words[i] not in self.starts:
