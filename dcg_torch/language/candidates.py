@@ -88,7 +88,8 @@ def _add_open(found: dict[str, float], word: str) -> None:
     if "n" in known or (base != word and stem == word and not known):
         less = step * (most - known.get("n", 0)) + _noun_penalty(word)
         less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
-        _add(found, _OPEN["plural" if is_plural(word) else "noun"], less)
+        rule = "plural" if is_plural(word) else "color_noun" if normal_color(word) in SETS["basic_colors"] else "noun"
+        _add(found, _OPEN[rule], less)
     if "v" in known and stem == word and word not in SETS["commands"]:
         _add(found, _OPEN["verb"], step * (most - known["v"]))
     if "a" in known and not found.keys() & {"COL", "MOD"}:
@@ -124,6 +125,4 @@ def _noun_penalty(word: str) -> float:
         return float(_OPEN["ordinal_noun"])
     if any(word in SETS[name] for name in _CLOSED):
         return float(_OPEN["closed_noun"])
-    if normal_color(word) in SETS["basic_colors"]:
-        return float(GRAMMAR["color_noun"])
     return float(_OPEN["unused_noun"]) if singular(word) in SETS["commands"] else 0.0

@@ -60,7 +60,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = True
         elif item.kind is Kind.COMMA and relative:
             relative = False
-        elif item.kind is Kind.VERB and _begins(clauses[-1], items, k, relative):
+        elif item.kind is Kind.VERB and _is_main(items, k, relative, clauses[-1]):
             relative = False
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
@@ -72,11 +72,6 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = True  # "the block you are holding"
         clauses[-1].append(item)
     return [clause for clause in clauses if clause]
-
-
-def _begins(clause: Sequence[Item], items: Sequence[Item], k: int, relative: bool) -> bool:
-    """Whether a clause begins with the verb at `k`."""
-    return _is_main(items, k, relative) and not _is_statement(clause, items, k) and not _is_inverted(clause, items[k])
 
 
 def _is_fragment(after: Sequence[Item]) -> bool:
@@ -119,8 +114,11 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     return items[k].noun in SETS["someone"] and items[k - 1].noun not in SETS["robot"]
 
 
-def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
+def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
+    """Whether a clause begins with the verb at `k`."""
     item = items[k]
+    if _is_statement(clause, items, k) or _is_inverted(clause, item):
+        return False
     before = items[k - 1] if k else None
     lemma = item.words[0].split()[0]
     if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
@@ -136,8 +134,8 @@ def _is_main(items: Sequence[Item], k: int, relative: bool) -> bool:
         before = items[k - 2]
     if lemma == "be" and before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]:
         # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
-        clause = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
-        if any(other.kind is Kind.VERB for other in clause):
+        since = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
+        if any(other.kind is Kind.VERB for other in since):
             return False
     after_noun = before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]
     return not (after_noun and (item.participle or item.finite or lemma == "have"))

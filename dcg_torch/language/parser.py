@@ -16,7 +16,7 @@ from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, VERBS, english
 from dcg_torch.language.phrases import items
-from dcg_torch.language.refusals import MOTION, NO_THING, greeted, moves, refuse, talk
+from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
 from dcg_torch.language.tokens import mend, names, normal_noun, tokens
@@ -182,7 +182,8 @@ class _Command:
         """Why there is no tree."""
         if self.parts:
             return self.parts[0][2]
-        return MOTION if moves(self.clauses) else NO_THING
+        motion = VERBS["go"] | VERBS["look"]
+        return MOTION if any(clause.action in motion for clause in self.clauses) else NO_THING
 
 
 def _named(found: Sequence[Path]) -> dict[str, Path]:

@@ -67,8 +67,3 @@ def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int
     if clause.verb is first and clause.refused is None and own:
         said = " ".join(words[first.start : items[-1].stop])
         clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)
-
-
-def moves(clauses: Sequence[Clause]) -> bool:
-    """Whether a command without a thing is bare motion: "turn around"."""
-    return any(clause.action in VERBS["go"] | VERBS["look"] for clause in clauses)

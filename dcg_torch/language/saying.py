@@ -56,8 +56,8 @@ class NounPhrases:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
             self.merge(self.nouns[-1], item)
-        elif self.nouns and is_side(item) and not self.joins_sides():
-            self.side(item)
+        elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
+            self.side(item)  # but "on the left and right"
         elif self.nouns and self.is_bare_place(item):
             where = Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("in",), children=[item])
             last_thing(self.nouns).children.append(where)
@@ -113,10 +113,6 @@ class NounPhrases:
         landmarks = [child for pending in self.pending for child in pending.item.children]
         starts = bool(landmarks) and not self.clause.objects and all(noun in landmarks for noun in self.nouns)
         return starts and self.copula and not self.relative and item.noun is not None
-
-    def joins_sides(self) -> bool:
-        """ "on the left and right"."""
-        return self.joined and self.and_joined and self.nouns[-1].noun in SETS["sides"]
 
     def leading_place(self, item: Item) -> None:
         """ "Top left corner, red cube": the place named first is where the thing is."""

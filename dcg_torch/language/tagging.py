@@ -7,9 +7,9 @@ The best paths are found exactly: weights of the best beginnings first, then a s
 from __future__ import annotations
 
 import heapq
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Final, TypeAlias
 
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import candidates, is_plain_noun
@@ -45,6 +45,10 @@ class Path:
     weight: float
 
 
+_Chain: TypeAlias = "tuple[Token, _Chain] | None"
+"""Tokens from the first to the last, each with those behind it: partial paths share their ends."""
+
+
 def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[str], k: int) -> list[Path]:
     """The `k` likeliest ways to tag a command, the likeliest first.
 
@@ -70,16 +74,16 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
 
 def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]]], n: int, k: int) -> list[Path]:
     """Search from the end: a partial path's bound is exact, so that complete paths come out in order."""
-    heap: list[tuple[float, int, int, str, float, tuple[Token, ...]]] = []
+    heap: list[tuple[float, int, int, str, float, _Chain]] = []
     for tag, weight in best[n].items():
         behind = _AFTER[tag][END]
-        heapq.heappush(heap, (-(weight + behind), n, len(heap), tag, behind, ()))
+        heapq.heappush(heap, (-(weight + behind), n, len(heap), tag, behind, None))
     found: list[Path] = []
     number = len(heap)
     while heap and len(found) < k:
-        bound, at, _, tag, behind, tokens = heapq.heappop(heap)
+        bound, at, _, tag, behind, chain = heapq.heappop(heap)
         if at == 0:
-            found.append(Path(tokens, -bound))
+            found.append(Path(tuple(_unrolled(chain)), -bound))
             continue
         for token, weight in into[at]:
             if token.tag != tag:
@@ -89,8 +93,14 @@ def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]
                 if found and start + after < found[0].weight - _NEGLIGIBLE:
                     continue
                 number += 1
-                heapq.heappush(heap, (-(start + after), token.start, number, before, after, (token, *tokens)))
+                heapq.heappush(heap, (-(start + after), token.start, number, before, after, (token, chain)))
     return found
+
+
+def _unrolled(chain: _Chain) -> Iterator[Token]:
+    while chain is not None:
+        token, chain = chain
+        yield token
 
 
 class Reader:
@@ -131,7 +141,10 @@ class _Lattice:
         doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
         if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
             out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
-        for part in (self._prepositions, self._phrases, self._colors, self._compounds, self._names):
+        found = match_color(self.words, i)
+        if found is not None and found[1] > i + 1:
+            out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
+        for part in (self._prepositions, self._phrases, self._compounds, self._names):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
@@ -173,12 +186,6 @@ class _Lattice:
                 words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
                 out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
         return out
-
-    def _colors(self, i: int) -> list[tuple[Token, float]]:
-        found = match_color(self.words, i)
-        if found is None or found[1] == i + 1:
-            return []
-        return [self._new(i, found[1], "COL", "color", (found[0],), 0.6)]
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:
         if self.words[i] not in self.starts:
