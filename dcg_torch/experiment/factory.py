@@ -18,7 +18,16 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.lessons import training_set
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.model.pretrain import LESSONS, VARIANT, pretrained, train_open_world, without_names
-from dcg_torch.settings import Asking, LearnerKind, ModelSettings, Names, RobotKind, Settings, SettingsError, SimulatorSettings
+from dcg_torch.settings import (
+    Asking,
+    LearnerKind,
+    ModelSettings,
+    Names,
+    RobotKind,
+    Settings,
+    SettingsError,
+    SimulatorSettings,
+)
 from dcg_torch.simulator.fake import FakeRobot
 from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.world.names import MORE_TYPES
@@ -60,9 +69,7 @@ def make_model(settings: ModelSettings, names: Names, training: str | None = Non
 
 
 @functools.cache
-def _made(
-    chosen: Variant, lessons: int, learner: LearnerKind, names: Names, training: str | None
-) -> GroundingModel:
+def _made(chosen: Variant, lessons: int, learner: LearnerKind, names: Names, training: str | None) -> GroundingModel:
     """The model of a configuration, which is the same for every trial: the shipped one, where that is what is asked."""
     if learner is LearnerKind.commit_first:
         return GroundingModel.trained(training_set(training), chosen)
