@@ -21,7 +21,7 @@ from making import typed
 from dcg_torch.experiment.folder import ITERATIONS, MODEL, SETTINGS, TIMINGS, RunFolderError, lexicon_of, part_of
 from dcg_torch.experiment.runner import run
 from dcg_torch.cli.run import main
-from dcg_torch.settings import ModelSettings, RobotKind, Settings, SimulatorSettings, Speaker
+from dcg_torch.settings import LearnerKind, ModelSettings, RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.storage.claim import claim
 
 PLAIN = ("simulator=fake", "workers=1", "trials=2", "iterations=2", "speaker=canonical", "figures=false")
@@ -98,7 +98,9 @@ def test_damage_is_found_said_and_mended(
 
 def test_a_lexicon_cut_short_is_made_again(tmp_path: Path) -> None:
     groups = ["dcg", "unknown", "hypothetical", "color", "open"]
-    settings = Settings(**{**vars(SETTINGS_OF_PLAIN), "model": ModelSettings(groups=groups, posterior=True)})
+    settings = Settings(
+        **{**vars(SETTINGS_OF_PLAIN), "model": ModelSettings(groups=groups, learner=LearnerKind.word_posterior)}
+    )
     go_on(tmp_path / "run", settings)
     before = whole(tmp_path / "run")
     lexicon = lexicon_of(tmp_path / "run", 0)

@@ -13,10 +13,9 @@ from hypothesis import strategies as st
 from making import typed
 
 from dcg_torch import evaluate
-from dcg_torch import run as experiment
+from dcg_torch.cli import run as experiment
 from dcg_torch.cli.completion import script
 from dcg_torch.cli.config import register
-from dcg_torch.storage.resources import resource
 from dcg_torch.settings import (
     Bounds,
     EvaluateSettings,
@@ -28,6 +27,7 @@ from dcg_torch.settings import (
     check_bounds,
     described,
 )
+from dcg_torch.storage.resources import resource
 
 FAKE = SimulatorSettings(kind=RobotKind.fake)
 SCHEMAS: list[type[Any]] = [Settings, EvaluateSettings]

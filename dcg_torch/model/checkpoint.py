@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from pathlib import Path
 from typing import Literal
 
@@ -19,7 +18,7 @@ from pydantic import TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass
 from safetensors import SafetensorError
 from safetensors.numpy import load as load_bytes
-from safetensors.numpy import save_file
+from safetensors.numpy import save as to_bytes
 
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
@@ -27,6 +26,7 @@ from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
@@ -72,11 +72,8 @@ def save(model: GroundingModel, directory: Path | str) -> None:
     tensors |= {"held": np.flatnonzero(model.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
     text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
-    weights, described = directory / WEIGHTS, directory / DESCRIPTION
-    save_file(tensors, f"{weights}.part")
-    Path(f"{described}.part").write_text(text, encoding="utf-8")
-    os.replace(f"{weights}.part", weights)
-    os.replace(f"{described}.part", described)
+    write_whole(directory / WEIGHTS, to_bytes(tensors))
+    write_whole(directory / DESCRIPTION, text)
 
 
 def load(directory: Path | str) -> GroundingModel:

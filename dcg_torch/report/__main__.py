@@ -12,8 +12,9 @@ from rich.console import Console
 from dcg_torch.report.export import to_csv
 from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.show import print_run, print_several, save_run_figures, save_several_figure
-from dcg_torch.report.summary import ReportError, write_whole
+from dcg_torch.report.summary import ReportError
 from dcg_torch.report.text import printable
+from dcg_torch.storage.whole import write_whole
 
 _FORMATS = ("png", "pdf", "svg")  # canvas.FORMATS: matplotlib is imported only where figures are asked for
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from dcg_torch.report.measures import Measures
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.whole import write_whole
 
 SUMMARY = "summary.json"
 
@@ -45,21 +45,6 @@ def write_summary(
     values = {"run": run, "config": dict(config), "measures": measures.to_dict(), "seconds": dict(seconds)}
     text = json.dumps(values, indent=1, allow_nan=False, ensure_ascii=False) + "\n"
     write_whole(path, text)
-
-
-def write_whole(path: Path, content: bytes | str) -> None:
-    """Write a file in a single step, making its folder, so that no reader meets half of it. Text becomes UTF-8.
-
-    Raises:
-        OSError: if it can't be written.
-    """
-    path.parent.mkdir(parents=True, exist_ok=True)
-    temporary = path.with_name(f".{path.name}.{os.getpid()}.tmp")
-    try:
-        temporary.write_bytes(content if isinstance(content, bytes) else content.encode())
-        os.replace(temporary, path)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def read_summary(path: Path) -> Summary:

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from programs import PLAIN, Program, finish, whole
 
-from dcg_torch import run
+from dcg_torch.cli import run
 
 POINTS = 10
 _PROGRAM = Program("experiment", run.main, (*PLAIN[:-2], "workers=1"))  # with figures and curves

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from programs import Program, start
 
-from dcg_torch import run
+from dcg_torch.cli import run
 
 COMMANDS, SETTLED = 10_000, 2_000
 _FLAT = 1.10
