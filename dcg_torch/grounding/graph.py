@@ -56,6 +56,7 @@ class _Scored:
         log_odds: (groundings,) of ACTIVE against INACTIVE, modifiers included; of use for a noun phrase.
         log_fit: (groundings,) log Psi(ACTIVE) by itself, modifiers included.
         compared: (things,) those among which the phrase ranks; None where it does not.
+        named: (groundings,) log Psi(ACTIVE) without the modifiers.
     """
 
     tree: ParseTree
@@ -64,6 +65,7 @@ class _Scored:
     scores: Floats
     log_odds: Floats
     log_fit: Floats
+    named: Floats
     modifiers: Sequence[ModifierFactor] = ()
     compared: NDArray[np.bool_] | None = None
 
@@ -124,7 +126,13 @@ class FactorGraph:
             self._runner_up(root, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,
+            1.0 if noun is None else self._named(noun),
         )
+
+    def _named(self, noun: _Scored) -> float:
+        """How well the noun phrase names what it names best of all that is there."""
+        seen = [j for j, o in enumerate(self.world.meanable) if not o.hypothetical]
+        return float(np.exp(noun.named[seen].max())) if seen else 0.0
 
     def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
         """The best configuration about another object; None if there is none."""
@@ -298,5 +306,6 @@ def _picked(
         np.stack(log_odds, axis=2),
         active - inactive[0] + placed,
         active + placed,
+        active,
         modifiers,
     )

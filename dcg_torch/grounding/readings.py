@@ -19,7 +19,7 @@ _SENSELESS = math.log(1e-6)
 def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Solution:
     """p(object) = sum over readings t of p(t | command, world) p(object | t).
 
-    A reading is as probable as it was before the world has spoken, times how well it describes the best thing there.
+    A reading is as probable as it was before the world has spoken, times how well its noun phrase names something that is there.
 
     Args:
         solutions: one for each reading, the likeliest first; at least one.
@@ -47,11 +47,8 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
 
 
 def _sense(solution: Solution) -> float:
-    """Logarithm of how well a reading describes what it describes best."""
-    if solution.best is None:
-        return _SENSELESS
-    fits = [fit for o in solution.world.objects if not o.hypothetical and (fit := solution.fits.get(o.id)) is not None]
-    return math.log(max(1e-6, *fits)) if fits else 0.0
+    """Logarithm of how well a reading names something that is there."""
+    return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
 
 
 def looking(tree: ParseTree, text: str) -> ParseTree:

@@ -41,6 +41,10 @@ class Hypothesis:
         return [self, *(h for child in self.children for h in child.walk())]
 
 
+_SLIP = 0.02
+"""Share of modifiers that say nothing."""
+
+
 @dataclass(frozen=True)
 class ModifierFactor:
     """A modifier's factors, for every thing that its noun phrase may mean.
@@ -52,6 +56,9 @@ class ModifierFactor:
 
     with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
 
+    People differ about what "beside" is, and some words are not known, so that no modifier says all: with a
+    probability `_SLIP` it says nothing.
+
     Attributes:
         combos: hypotheses of the landmarks; one for each child.
         mixture: (combos, things) the logarithm of the summands.
@@ -62,15 +69,19 @@ class ModifierFactor:
     mixture: NDArray[np.float64]
 
     @cached_property
-    def log_psi(self) -> NDArray[np.float64]:
-        """(things,) log Psi(thing)."""
+    def _log_sum(self) -> NDArray[np.float64]:
         total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
         return total
+
+    @cached_property
+    def log_psi(self) -> NDArray[np.float64]:
+        """(things,) log Psi(thing)."""
+        return np.logaddexp(math.log1p(-_SLIP) + self._log_sum, math.log(_SLIP))
 
     @property
     def posterior(self) -> NDArray[np.float64]:
         """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
-        return np.exp(self.mixture - self.log_psi)
+        return np.exp(self.mixture - self._log_sum)
 
     def landmarks(self, combo: int, number: Mapping[str, int]) -> tuple[int, ...]:
         """The numbers of the landmarks of a combo."""
@@ -99,6 +110,7 @@ class Solution:
         runner_up: the best configuration whose noun phrase means another object than the best one's.
         modifiers: the factors of the modifiers of the noun phrase meant.
         compared: (things,) those among which the noun phrase ranks; None where it does not.
+        named: how well the noun phrase, without its modifiers, names what it names best of what is there: from 0 to 1.
         further: of the other noun phrases that the command joins to the first ("the cube and the cone").
         problem: why nothing was grounded, one sentence; None where something was.
     """
@@ -112,6 +124,7 @@ class Solution:
     runner_up: Hypothesis | None = None
     modifiers: tuple[ModifierFactor, ...] = field(default=(), compare=False)
     compared: NDArray[np.bool_] | None = field(default=None, compare=False)
+    named: float = 0.0
     further: tuple[Solution, ...] = ()
     problem: str | None = None
 
