@@ -54,7 +54,7 @@ class Phrase:
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
     `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
     of its meaning ("object of take"), and `among` what "the closest" is the closest of: things of one "kind", "type"
-    or "color", or "all". `look` holds the words of the command, where the colours of objects as they are seen are known.
+    or "color", or "all". `look` holds the words of the command, where the colours that objects show are known.
     """
 
     kind: PhraseKind

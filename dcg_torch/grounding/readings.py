@@ -19,7 +19,8 @@ _SENSELESS = math.log(1e-6)
 def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Solution:
     """p(object) = sum over readings t of p(t | command, world) p(object | t).
 
-    A reading is as probable as it was before the world has spoken, times how well its noun phrase names something that is there.
+    A reading is as probable as it was before the world has spoken, times how well its noun phrase names something that
+    is there.
 
     Args:
         solutions: one for each reading, the likeliest first; at least one.

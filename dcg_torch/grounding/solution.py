@@ -154,8 +154,10 @@ class Solution:
         ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
         if noun.count is not None:
             return tuple(ranked[: noun.count])
-        least = _AS_WELL * self.fits[ranked[0].id]
-        return tuple(o for o in ranked if self.fits[o.id] >= least)
+        # What nothing fits well is told apart by the odds.
+        fits = self.fits if self.fits[ranked[0].id] >= _AS_WELL else self.odds
+        least = _AS_WELL * fits[ranked[0].id]
+        return tuple(o for o in ranked if fits[o.id] >= least)
 
     @property
     def noun(self) -> Phrase | None:

@@ -1,4 +1,4 @@
-"""The paper's learner, Algorithm 1, lines 16 to 25: the first unknown thing that an unknown noun met is what it names."""
+"""The paper's learner, Algorithm 1, lines 16 to 25: an unknown noun names the first unknown thing that it met."""
 
 from __future__ import annotations
 

@@ -50,15 +50,19 @@ class Scene:
 
 
 def arranged_lessons(
-    parse: Callable[[str, Collection[str]], Reading], count: int = 300, seed: int = 0
+    parse: Callable[[str, Collection[str]], Reading],
+    count: int = 300,
+    seed: int = 0,
+    makers: Sequence[Callable[[np.random.Generator], Scene]] | None = None,
 ) -> tuple[Lesson, ...]:
     """Lessons, the same for the same arguments: one command of each scene.
 
     Args:
         parse: reads commands.
+        makers: of scenes, taken in turn; by default rows, tables and clusters.
     """
     rng = np.random.default_rng(seed)
-    makers = (row_scene, table_scene, table_scene, cluster_scene)
+    makers = makers or (row_scene, table_scene, table_scene, cluster_scene)
     lessons: list[Lesson] = []
     while len(lessons) < count:
         scene = makers[len(lessons) % len(makers)](rng)

@@ -8,13 +8,15 @@ from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.lessons.rooms import room_lessons
+from dcg_torch.lessons.selections import half_scene, size_scene
 
 
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
-    """So many lessons on relations, and a third as many in arranged scenes and in rooms; the same for the same arguments.
+    """So many lessons on relations, and a third as many in each other kind of scene; the same for the same arguments.
 
     Args:
         parse: reads commands.
     """
     third = count // 3
-    return (*relational_lessons(count), *arranged_lessons(parse, third), *room_lessons(parse, third))
+    picks = arranged_lessons(parse, third, makers=(half_scene, size_scene))
+    return (*relational_lessons(count), *arranged_lessons(parse, third), *picks, *room_lessons(parse, third))

@@ -19,8 +19,10 @@ Bounds = tuple[float, float, float, float]
 """(near, far, right, left) of a workspace, seen from the robot, metres."""
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"
-_UNEVEN = 0.3
+_UNEVEN = 0.6
 """How far the next of a row may stand from where it is due, as a share of the step."""
+_STEP = 2.0
+"""Neighbours in a row are at most so many times as far apart as the nearest ones."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
 _MOST = 12
@@ -126,7 +128,7 @@ def _rows(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
     apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
     nearest = apart.min(axis=1)
     follow = np.full((len(points), len(points)), -1, dtype=np.int64)  # (i, j) -> the one after j
-    steps = np.argwhere(apart < 1.5 * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
+    steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
     for i, j in steps:
         miss = np.linalg.norm(points - (points[j] + offset[i, j]), axis=1)
         best = int(miss.argmin())

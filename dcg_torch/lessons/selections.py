@@ -1,0 +1,120 @@
+"""Generated lessons on picking from a set: ordinals and superlatives among what all the rest of a phrase describes.
+
+"The leftmost cone in front of you" picks among the cones in front, however far to a side they are, and not among
+those behind; "the second biggest red one" among the red ones. Definitions by this project, no human data.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
+from dcg_torch.types import Percept, Pose
+
+_ORDINALS = ("first", "second", "third", "fourth", "fifth")
+_NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
+_CLEAR = 0.35  # metres by which a rank must be told apart
+_WHO = ("you", "the robot")
+
+
+def half_scene(rng: np.random.Generator) -> Scene:
+    """Things of one kind in front of the robot and behind it, scattered or in uneven rows."""
+    kind, other = map(str, rng.permutation(KINDS)[:2])
+    in_rows = bool(rng.random() < 0.5)
+    front = _half(kind, "front", rng, 1.0, in_rows)
+    behind = _half(kind, "behind", rng, -1.0, in_rows)
+    others = [
+        _thing(f"other {k}", other, rng, (float(rng.uniform(-5.0, 6.0)), float(rng.uniform(-4.0, 4.0))))
+        for k in range(int(rng.integers(1, 4)))
+    ]
+    said = [*_of_half(kind, front, "in front of", rng), *_of_half(kind, behind, "behind", rng)]
+    if in_rows:
+        for half, where in ((front, "in front of"), (behind, "behind")):
+            if len(half) >= 3:
+                ids = frozenset(o.id for o in half)
+                who = str(rng.choice(_WHO))
+                said += [(f"go to the row of {kind}s {where} {who}", ids)] * 2
+                said.append((f"go to the row of {_NUMBERS[len(half)]} {kind}s {where} {who}", ids))
+    return Scene((*front, *behind, *others), Pose(0.0, 0.0), None, tuple(said))
+
+
+def size_scene(rng: np.random.Generator) -> Scene:
+    """Things of several sizes and colours, of two kinds."""
+    kind, other = map(str, rng.permutation(KINDS)[:2])
+    sizes = rng.permutation(np.linspace(0.15, 0.8, 8))
+    objects = []
+    for k, size in enumerate(sizes[: int(rng.integers(4, 9))].tolist()):
+        at = (float(rng.uniform(1.5, 6.0)), float(rng.uniform(-4.0, 4.0)))
+        of = kind if k < 3 or rng.random() < 0.6 else other
+        objects.append(_thing(f"o{k}", of, rng, at, size))
+    said = [told for color in (None, *COLORS) for told in _by_size(kind, color, objects)]
+    return Scene(tuple(objects), Pose(0.0, 0.0), None, tuple(said))
+
+
+def _half(kind: str, name: str, rng: np.random.Generator, sign: float, in_rows: bool) -> list[Percept]:
+    number = int(rng.integers(3, 8)) if sign > 0 or in_rows else int(rng.integers(1, 4))
+    if in_rows:
+        x, steps = float(rng.uniform(1.5, 5.0)), rng.uniform(0.7, 1.3, number) * rng.uniform(0.5, 1.4)
+        ys = np.cumsum(steps) - steps.sum() / 2
+        points = [(sign * x + float(rng.uniform(-0.12, 0.12)), float(y)) for y in ys]
+    else:
+        points = [(sign * float(rng.uniform(1.2, 6.0)), float(rng.uniform(-4.5, 4.5))) for _ in range(number)]
+    return [_thing(f"{name} {k}", kind, rng, point) for k, point in enumerate(points)]
+
+
+def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Generator) -> Iterator[Told]:
+    """What picks one or some of a half of the scene; left and right are the robot's as it faces that half."""
+    who = str(rng.choice(_WHO))
+    yield f"go to the {kind}s {where} {who}", frozenset(o.id for o in half)
+    by_side = _ranked(half, lambda o: -o.position[1])
+    if by_side is not None and where == "in front of":
+        for side, order in (("left", by_side), ("right", by_side[::-1])):
+            yield from ((f"go to the {text} {where} {who}", frozenset({i})) for text, i in _counted(kind, side, order))
+        if len(by_side) % 2 and len(by_side) > 2:
+            yield f"go to the middle {kind} {where} {who}", frozenset({by_side[len(by_side) // 2]})
+    by_way = _ranked(half, lambda o: float(np.hypot(*o.position[:2])))
+    if by_way is not None:
+        for near, far in (("nearest", "farthest"), ("closest", "furthest")):
+            yield f"go to the {near} {kind} {where} {who}", frozenset({by_way[0]})
+            yield f"go to the {far} {kind} {where} {who}", frozenset({by_way[-1]})
+        if len(by_way) > 2:
+            yield f"go to the two nearest {kind}s {where} {who}", frozenset(by_way[:2])
+
+
+def _counted(kind: str, side: str, order: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Ways to count from one side, each with the id of the one meant."""
+    yield f"{side}most {kind}", order[0]
+    for k, ordinal in enumerate(_ORDINALS[: len(order)]):
+        yield f"{ordinal} {kind} from the {side}", order[k]
+    if len(order) > 1:
+        yield f"second {side}most {kind}", order[1]
+
+
+def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterator[Told]:
+    alike = [o for o in objects if o.type == kind and color in (None, o.color)]
+    if len(alike) < 2:
+        return
+    ranked = sorted(alike, key=lambda o: -o.size[0] if o.size is not None else 0.0)
+    head = " ".join(filter(None, (color, kind)))
+    for big, small in (("biggest", "smallest"), ("largest", "smallest"), ("big", "small"), ("large", "little")):
+        yield f"go to the {big} {head}", frozenset({ranked[0].id})
+        yield f"go to the {small} {head}", frozenset({ranked[-1].id})
+    if len(ranked) > 2:
+        yield f"go to the second biggest {head}", frozenset({ranked[1].id})
+        yield f"go to the second smallest {head}", frozenset({ranked[-2].id})
+
+
+def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> list[str] | None:
+    """The ids in the order of a value; None where two can hardly be told apart."""
+    ranked = sorted(things, key=value)
+    apart = np.diff([value(o) for o in ranked])
+    return [o.id for o in ranked] if len(ranked) > 1 and (apart > _CLEAR).all() else None
+
+
+def _thing(
+    id_: str, kind: str, rng: np.random.Generator, at: tuple[float, float], size: float | None = None
+) -> Percept:
+    extents = None if size is None else (size, size, size)
+    return Percept(id_, kind, str(rng.choice(COLORS)), (*at, 0.0), extents)
