@@ -49,6 +49,12 @@ GROUP_WORDS = {
 """What people call groups."""
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
+RANKING = frozenset({"closest to", "farthest from", "farthest to"})
+"""Prepositions by which things are ranked from a landmark."""
+ORDINALS = {
+    **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
+    **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
+}
 ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
-from dcg_torch.vocabulary import ANYTHING, GROUP_WORDS, INSIDE, PLACE_WORDS
+from dcg_torch.vocabulary import ANYTHING, GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:
@@ -82,8 +82,20 @@ def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
 def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in ANYTHING else tree.phrase
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
+    phrase, described = _counted_from(phrase, described)
     phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
     return ParseTree(phrase, tuple(_modifier(child, phrase) for child in described))
+
+
+def _counted_from(phrase: Phrase, described: list[ParseTree]) -> tuple[Phrase, list[ParseTree]]:
+    """An ordinal that counts from a landmark is told to what names it: "second" of "second closest to the sphere"."""
+    at = next((k for k, c in enumerate(described) if c.phrase.words[0] in RANKING), None)
+    if at is None or len(phrase.words) != 1 or phrase.words[0] not in ORDINALS:
+        return phrase, described
+    below = described[at]
+    counted = replace(below.phrase, words=(f"{phrase.words[0]} {below.phrase.words[0]}", *below.phrase.words[1:]))
+    changed = [*described[:at], replace(below, phrase=counted), *described[at + 1 :]]
+    return replace(phrase, words=()), changed
 
 
 def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:

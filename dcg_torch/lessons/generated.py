@@ -18,5 +18,5 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
         parse: reads commands.
     """
     third = count // 3
-    picks = arranged_lessons(parse, third, makers=(half_scene, size_scene))
+    picks = arranged_lessons(parse, 2 * third, makers=(half_scene, size_scene))
     return (*relational_lessons(count), *arranged_lessons(parse, third), *picks, *room_lessons(parse, third))

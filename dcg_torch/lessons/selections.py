@@ -30,6 +30,10 @@ def half_scene(rng: np.random.Generator) -> Scene:
         for k in range(int(rng.integers(1, 4)))
     ]
     said = [*_of_half(kind, front, "in front of", rng), *_of_half(kind, behind, "behind", rng)]
+    marks = {"the robot": (0.0, 0.0), "you": (0.0, 0.0)}
+    if len(others) == 1:
+        marks[f"the {other}"] = others[0].position[:2]
+    said += [told for name, at in marks.items() for told in _from_mark(kind, (*front, *behind), name, at)]
     if in_rows:
         for half, where in ((front, "in front of"), (behind, "behind")):
             if len(half) >= 3:
@@ -83,13 +87,28 @@ def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Gene
             yield f"go to the two nearest {kind}s {where} {who}", frozenset(by_way[:2])
 
 
+def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float, float]) -> Iterator[Told]:
+    """Ways to count by the distance from something."""
+    order = _ranked(things, lambda o: float(np.hypot(o.position[0] - at[0], o.position[1] - at[1])))
+    if order is None:
+        return
+    for k, ordinal in enumerate(_ORDINALS[1 : min(3, len(order))], start=1):
+        yield f"go to the {ordinal} closest {kind} to {name}", frozenset({order[k]})
+        yield f"go to the {ordinal} farthest {kind} from {name}", frozenset({order[-1 - k]})
+    yield f"go to the {kind} closest to {name}", frozenset({order[0]})
+    yield f"go to the {kind} farthest from {name}", frozenset({order[-1]})
+
+
 def _counted(kind: str, side: str, order: Sequence[str]) -> Iterator[tuple[str, str]]:
     """Ways to count from one side, each with the id of the one meant."""
     yield f"{side}most {kind}", order[0]
+    yield f"{kind} farthest to the {side}", order[0]
+    yield f"{kind} farthest to your {side}", order[0]
     for k, ordinal in enumerate(_ORDINALS[: len(order)]):
         yield f"{ordinal} {kind} from the {side}", order[k]
     if len(order) > 1:
         yield f"second {side}most {kind}", order[1]
+        yield f"second {kind} farthest to the {side}", order[1]
 
 
 def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterator[Told]:

@@ -19,7 +19,7 @@ VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "abo
 SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
 FRAMES = ("side", "side seen", "side spoken")
 """Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = {"closest": NEAREST, "farthest": 1}
+_ORDERS = {"closest": NEAREST, "farthest": NEAREST}
 """Order by distance -> how many ranks of it are features."""
 
 

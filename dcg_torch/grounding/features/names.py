@@ -15,6 +15,7 @@ from dcg_torch.types import (
     Phrase,
     PhraseKind,
 )
+from dcg_torch.vocabulary import ORDINALS
 
 
 class Group(enum.StrEnum):
@@ -54,10 +55,6 @@ PAIRS: dict[str, frozenset[str]] = {
 
 FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
 """Family of ranks by distance -> the name of the feature of the first few, as many as the phrase counts."""
-_ORDINALS = {
-    **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
-    **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
-}
 
 PAPER = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
 """The feature groups of the paper's fullest model, DCG-UPUP-Away with colour."""
@@ -124,7 +121,7 @@ def ranking(phrase: Phrase) -> Ranking | None:
     """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
     if phrase.kind is PhraseKind.NOUN and not phrase.words:
         return None
-    ordinal = next((_ORDINALS[word] for word in phrase.words if word in _ORDINALS), None)
+    ordinal = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
     return Ranking(phrase.among or "all", ordinal, phrase.count)
 
 
