@@ -279,6 +279,6 @@ def test_a_clear_command_is_answered_with_the_probability_of_its_noun_phrase(
     assert answer.solution is not None
     (verb,) = [answer.solution.tree]
     noun = FactorGraph(verb.children[0], answer.solution.world)
-    alone = noun.solve(evaluation.model.features, evaluation.model.loglinear).probabilities["o0"]
+    alone = noun.solve(evaluation.model.features, evaluation.model.factor).probabilities["o0"]
     assert answer.correct
     assert answer.probability == pytest.approx(alone, abs=0.05)

@@ -155,7 +155,7 @@ def test_no_lesson_rests_on_itself(pupil_of: Callable[[], LexicalModel]) -> None
     solution = model.ground(take("pyramid", "green"), world)
     told = []
     for strength in (1.0, -3.0):
-        model.loglinear.weight[:, model.features.language["noun: pyramid"]] *= strength
+        model.factor.weight[:, model.features.language["noun: pyramid"]] *= strength
         model.words = replace(model.words, nouns=model.words.nouns.forget("pyramid"))
         model._hear(solution)
         told.append(dict(model.words.nouns.heard["pyramid"].more))
@@ -203,7 +203,7 @@ def test_growth_leaves_every_probability_as_it_was(schooled: LexicalModel) -> No
     features = model.features.grow(Symbol("pyramid", "prism")).name_color("mauve", "c9")
     assert features.shape > model.features.shape
     model.features = features
-    model.loglinear.grow(features.pairs)
+    model.factor.grow(features.pairs)
     assert [model.ground(tree, world).probabilities for tree in trees] == before
 
 
@@ -272,7 +272,7 @@ def test_learning_follows_the_optimum(pupil_of: Callable[[], LexicalModel]) -> N
     trees = [take(n, c) for n in ("pyramid", "cube", "brick", None) for c in (None, "red", "crimson", "beige")]
     world = seen(model, ("cube", "red"), ("prism", "c7"), ("prism", "c8"), ("cube", "c7"), ("prism", "red"))
     followed = [model.ground(tree, world).probabilities for tree in trees]
-    model.loglinear = LogLinearFactor(model.features.pairs, BINARY)
+    model.factor = LogLinearFactor(model.features.pairs, BINARY)
     assert model.train(max_steps=3000).status == "converged"
     for tree, was in zip(trees, followed, strict=True):
         assert model.ground(tree, world).probabilities == pytest.approx(was, abs=0.005)
@@ -305,7 +305,7 @@ def test_the_second_best_is_told_apart_by_what_differs(schooled: LexicalModel) -
     world = seen(schooled, ("cube", "red"), ("cube", "blue"), ("prism", "c7"))
     noun = take("cube", "red").children[0]
     noun = schooled.readable(noun)
-    solution = FactorGraph(noun, world).solve(schooled.features, schooled.loglinear)
+    solution = FactorGraph(noun, world).solve(schooled.features, schooled.factor)
     second = rivalry(schooled, solution)
     assert second is not None
     assert second.object.color == "blue"

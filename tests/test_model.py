@@ -85,7 +85,7 @@ class TestVariants:
                 assert any(e.correspondences)
 
     def test_binary_leaves_inverted_out(self, binary: GroundingModel, trained: GroundingModel) -> None:
-        assert (binary.loglinear.correspondences, trained.loglinear.correspondences) == (BINARY, TERNARY)
+        assert (binary.factor.correspondences, trained.factor.correspondences) == (BINARY, TERNARY)
         labels = {c for e in binary.examples for c in e.correspondences}
         assert Correspondence.INVERTED not in labels
         assert Correspondence.INVERTED in {c for e in trained.examples for c in e.correspondences}
@@ -99,10 +99,10 @@ class TestVariants:
 
     def test_a_lesson_of_nothing_changes_nothing(self, training: TrainingSet) -> None:
         model = GroundingModel.trained(training, SETTINGS["dcg_upup"])
-        before, weight = list(model.examples), model.loglinear.weight.clone()
+        before, weight = list(model.examples), model.factor.weight.clone()
         assert model.learn(model.ground(command_tree("cube"), saw(model))) is None
         assert model.examples == before
-        assert model.loglinear.weight.numpy() == pytest.approx(weight.numpy(), abs=1e-3)
+        assert model.factor.weight.numpy() == pytest.approx(weight.numpy(), abs=1e-3)
 
 
 class TestTraining:
@@ -110,10 +110,10 @@ class TestTraining:
         """Training anew from zero ends where the warm start of a retraining does."""
         model = pupil()
         model.learn(model.ground(command_tree("drill"), saw(model, *SEEN)))
-        warm = model.loglinear.weight.clone()
-        model.loglinear.set_weight(torch.zeros_like(warm))
+        warm = model.factor.weight.clone()
+        model.factor.set_weight(torch.zeros_like(warm))
         model.train()
-        assert model.loglinear.weight.numpy() == pytest.approx(warm.numpy(), abs=0.02)
+        assert model.factor.weight.numpy() == pytest.approx(warm.numpy(), abs=0.02)
 
     def test_table_rows_are_the_labelled_factors(self, trained: GroundingModel) -> None:
         tables = encode(trained.examples, trained.features, TERNARY)
@@ -126,10 +126,10 @@ class TestTraining:
         ends = []
         for examples in ([replace(one, weight=3.0)], [one] * 3):
             model = GroundingModel(
-                trained.variant, (), (), trained.features, type(trained.loglinear)(trained.features.pairs)
+                trained.variant, (), (), trained.features, type(trained.factor)(trained.features.pairs)
             )
-            fit(model.loglinear, encode(examples, model.features, TERNARY), l2=0.1)
-            ends.append(model.loglinear.weight)
+            fit(model.factor, encode(examples, model.features, TERNARY), l2=0.1)
+            ends.append(model.factor.weight)
         assert torch.equal(*ends)
 
     def test_nothing_to_train_on(self, trained: GroundingModel) -> None:

@@ -151,10 +151,10 @@ def test_a_thing_without_a_noun_may_be_anything(taught: OpenWorldModel) -> None:
 
 def test_the_posterior_leaves_what_was_taught_as_it_is(model: OpenWorldModel) -> None:
     """Bit by bit, and the taught block is not in the fit."""
-    before, rows = model.loglinear.weight.clone(), model.loglinear.weight.shape[1:]
+    before, rows = model.factor.weight.clone(), model.factor.weight.shape[1:]
     taught = torch.from_numpy(Blocks.of(model.features).taught)
     hear(model, noun("zorp", "red"), ROW)
-    after = model.loglinear.weight[:, : rows[0], : rows[1]]
+    after = model.factor.weight[:, : rows[0], : rows[1]]
     assert torch.equal(after[:, taught], before[:, taught])
     assert not torch.equal(after, before)
 

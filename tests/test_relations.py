@@ -78,7 +78,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     for node in (noun, landmark):
         bag = taught.features.encode_things(world, scene.layout(world), None)
         language = taught.features.encode_phrases([node.phrase])
-        psi[node.phrase] = taught.loglinear.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
+        psi[node.phrase] = taught.factor.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
     n = len(world.things)
     odds = {phrase: table[:, 2] - table[:, 1] for phrase, table in psi.items()}  # ternary: ACTIVE over INACTIVE
     total = sum(math.exp(odds[landmark.phrase][k]) for k in range(n))
@@ -88,11 +88,11 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
         mixture = 0.0
         for k in range(n):
             row = taught.features.encode_placed(scene.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
-            active = float(taught.loglinear.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
+            active = float(taught.factor.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
         score.append(math.exp(odds[noun.phrase][j]) * mixture)
     expected = [s / sum(score) for s in score]
-    solution = FactorGraph(noun, world).solve(taught.features, taught.loglinear, beam=n)
+    solution = FactorGraph(noun, world).solve(taught.features, taught.factor, beam=n)
     assert [solution.probabilities[o.id] for o in world.objects] == pytest.approx(expected, rel=1e-9)
 
 
@@ -132,7 +132,7 @@ def test_the_landmark_is_inferred_from_the_object_meant(taught: GroundingModel) 
     """Two spheres: the lesson does not say which is spoken of, the relation learned elsewhere does."""
     world = cubes(("red", "cube", 2, 0), ("red", "cube", 6, 3), ("blue", "sphere", 2.8, 0), ("green", "sphere", 6, 3.8))
     noun = relational(go_to(np_("cube", "red", pp("next to", np_("sphere"))))).children[0].children[0]
-    (modifier,) = FactorGraph(noun, world).modifiers(taught.features, taught.loglinear)
+    (modifier,) = FactorGraph(noun, world).modifiers(taught.features, taught.factor)
     posterior = modifier.posterior
     assert posterior.sum(axis=0) == pytest.approx(np.ones(len(world.things)))
     best = modifier.combos[int(posterior[:, 0].argmax())]
@@ -146,7 +146,7 @@ def test_explanations_add_up(taught: GroundingModel) -> None:
     hypothesis = next(h for h in solution.best.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
     bag = taught.features.encode_things(world, scene.layout(world), None)[:1]
     language = taught.features.encode_phrases([hypothesis.tree.phrase])
-    table = taught.loglinear.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
+    table = taught.factor.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
     moved = sum(r.log_odds for r in explain(taught, solution) if r.phrase == hypothesis.tree.phrase.text)
     assert moved == pytest.approx(float(table[2] - table[1]), abs=1e-9)
 
@@ -216,7 +216,7 @@ def test_an_unlabelled_tail_teaches_nothing(taught: GroundingModel) -> None:
     phrase = Phrase(PhraseKind.NOUN, "cube", noun="cube")
     short = Example(phrase, world, (Correspondence.ACTIVE,))
     long = Example(phrase, world, (Correspondence.ACTIVE, *(None for _ in world.things[1:])))
-    a, b = (encode([e], taught.features, taught.loglinear) for e in (short, long))
+    a, b = (encode([e], taught.features, taught.factor) for e in (short, long))
     assert a[0].count.tolist() == b[0].count.tolist()
 
 

@@ -35,9 +35,9 @@ def folder(taught: GroundingModel, tmp_path: Path) -> Path:
 
 def test_round_trip_to_the_bit(taught: GroundingModel, folder: Path) -> None:
     restored = load(folder)
-    assert torch.equal(restored.loglinear.weight, taught.loglinear.weight)
-    assert torch.equal(restored.loglinear.pairs, taught.loglinear.pairs)
-    assert restored.loglinear.correspondences == taught.loglinear.correspondences
+    assert torch.equal(restored.factor.weight, taught.factor.weight)
+    assert torch.equal(restored.factor.pairs, taught.factor.pairs)
+    assert restored.factor.correspondences == taught.factor.correspondences
     assert list(restored.features.language.items()) == list(taught.features.language.items())
     assert list(restored.features.grounding.items()) == list(taught.features.grounding.items())
     assert restored.features.groups == taught.features.groups
@@ -67,7 +67,7 @@ def test_both_go_on_learning_alike(taught: GroundingModel, folder: Path, tmp_pat
         assert symbol is not None
         assert symbol.type == "drill"
         ends.append(model)
-    assert torch.equal(ends[0].loglinear.weight, ends[1].loglinear.weight)
+    assert torch.equal(ends[0].factor.weight, ends[1].factor.weight)
     assert list(ends[0].symbols) == ["cube", "sphere", "cylinder", "fire hydrant", "drill"]
     solution = ends[0].ground(command_tree("drill"), saw(ends[0], "red mailbox", "blue drill"))
     assert solution.object is not None
@@ -82,7 +82,7 @@ def test_what_was_trained_on_beside_the_lessons_is_kept(training: TrainingSet, t
     assert restored.corpus == model.corpus != []
     model.train()
     restored.train()
-    assert torch.equal(model.loglinear.weight, restored.loglinear.weight)
+    assert torch.equal(model.factor.weight, restored.factor.weight)
 
 
 def test_saving_again_replaces(folder: Path, trained: GroundingModel) -> None:
