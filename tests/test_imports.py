@@ -80,6 +80,8 @@ def imports_of(module: str, source: str, rooms: frozenset[str]) -> list[Import]:
                 parts = [ROOT, *module.split(".")]
                 base = ".".join([*parts[: len(parts) - node.level], *([base] if base else [])])
             names = [f"{base}.{a.name}" if base == ROOT and a.name in rooms else base for a in node.names]
+            if base == ROOT and [a.name for a in node.names] == ["__version__"]:
+                continue  # a number, and no public name that draws in a room
         else:
             continue
         found += [Import(name, node.lineno) for name in dict.fromkeys(names)]
