@@ -211,7 +211,7 @@ def test_lengths_are_measured_in_the_units_of_the_world() -> None:
 
 
 coordinate = st.floats(-5, 5, allow_nan=False).map(lambda v: round(v, 2))
-scene = st.lists(
+cubes_at = st.lists(
     st.tuples(coordinate, coordinate, st.sampled_from(["cube", "cone"]), st.sampled_from(["red", "blue"])),
     min_size=2,
     max_size=6,
@@ -219,7 +219,7 @@ scene = st.lists(
 )
 
 
-@given(scene, st.integers(0, 3))
+@given(cubes_at, st.integers(0, 3))
 def test_turning_and_moving_the_whole_world_changes_nothing(
     rows: list[tuple[float, float, str, str]], quarter: int
 ) -> None:
@@ -233,7 +233,7 @@ def test_turning_and_moving_the_whole_world_changes_nothing(
     assert scene.states(a) == scene.states(b)
 
 
-@given(scene)
+@given(cubes_at)
 def test_every_family_fires_at_most_one_value_and_never_for_the_landmark(
     rows: list[tuple[float, float, str, str]],
 ) -> None:
