@@ -27,7 +27,6 @@ from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import plain
 from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
@@ -96,8 +95,8 @@ def load(directory: Path | str) -> GroundingModel:
     try:
         factor = LogLinearFactor(features.pairs, described.correspondences)
     except KeyError as error:
-        name = plain(str(error.args[0]), 80)
-        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {name!r}") from None
+        name = repr(error.args[0])[:80]
+        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {name}") from None
     learner = described.commit_first or described.word_posterior
     if learner is None or (described.commit_first and described.word_posterior):
         raise CheckpointError(f"{directory}: {DESCRIPTION} holds no learner, or two")
