@@ -19,7 +19,7 @@ from dcg_torch.language import Parser
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 
-RELATIONS = Variant(groups=PAPER | {Group.RELATION}, hypothetical=False, l2=0.2)
+RELATIONS = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, hypothetical=False, l2=0.2)
 
 
 def made(k: int, rng: np.random.Generator, noun: str, type_: str, color: str, word: str | None = None) -> Episode:
