@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 
-from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.language import Parser
 from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
-from dcg_torch.supervised import teach
 
 
 @pytest.mark.parametrize("seed", range(25))
@@ -49,9 +50,9 @@ def test_lessons_are_reproducible(parser: Parser) -> None:
 
 def test_groups_and_their_members_are_learned(parser: Parser, training: TrainingSet) -> None:
     """Other scenes than those of the lessons; what is meant is a set, and has to be right to the last object."""
-    groups = frozenset(Group) - {Group.OPEN}
-    model = GroundingModel.trained(training, Variant(groups=groups, hypothetical=False, ternary=False))
-    teach(model, arranged_lessons(parser.parse, 240), rounds=2)
+    variant = Variant(groups=PAPER | {Group.RELATION}, hypothetical=False, ternary=False)
+    model = GroundingModel.trained(training, variant)
+    model.teach(arranged_lessons(parser.parse, 240), rounds=2)
     rng = np.random.default_rng(77)
     right = {"row": 0, "cluster": 0, "table": 0}
     for name, make in (("row", row_scene), ("cluster", cluster_scene), ("table", table_scene)):
@@ -62,9 +63,9 @@ def test_groups_and_their_members_are_learned(parser: Parser, training: Training
     assert right["table"] >= 22
 
 
-def _spoken(make: object, rng: np.random.Generator) -> Scene:
+def _spoken(make: Callable[[np.random.Generator], Scene], rng: np.random.Generator) -> Scene:
     while True:
-        scene: Scene = make(rng)  # type: ignore[operator]
+        scene = make(rng)
         if scene.commands:
             return scene
 
@@ -73,6 +74,5 @@ def _is_right(model: GroundingModel, parser: Parser, scene: Scene, rng: np.rando
     text, meant = scene.commands[int(rng.integers(len(scene.commands)))]
     tree = parser.parse(text, KINDS).tree
     assert tree is not None
-    model.workspace = scene.workspace
-    world = model.world_model(scene.objects, scene.robot)
+    world = model.world_model(scene.objects, scene.robot, workspace=scene.workspace)
     return {o.id for o in model.ground(tree, world).objects} == meant

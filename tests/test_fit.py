@@ -132,7 +132,9 @@ class TestFit:
 
     @every_solver
     def test_two_starts_on_the_initial_training_set(self, trained: GroundingModel, solver: Solver) -> None:
-        designs = encode(trained.examples, trained.features, trained.loglinear.correspondences)
+        designs = encode(
+            trained.learner.training_examples(trained.features), trained.features, trained.factor.correspondences
+        )
         ends = []
         for seed in (1, 2):
             model = LogLinearFactor(trained.features.pairs)

@@ -1,36 +1,31 @@
-"""Relations as features of the log-linear model: inference against enumeration, learning, episode files, evaluate."""
+"""Relations as features of the log-linear model: inference against enumeration, and what lessons teach of them."""
 
 from __future__ import annotations
 
-import json
 import math
-import subprocess
-import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from dcg_torch import scene
-from dcg_torch.evaluation.episodes import Episode, EpisodeError, read_episodes, split_folds
-from dcg_torch.evaluation.protocol import Evaluation, summarise
-from dcg_torch.explanation import explain
-from dcg_torch.grounding.features import Group, ranking
+from dcg_torch.grounding.encode import WorldEncoder, encode
+from dcg_torch.grounding.explanation import explain
+from dcg_torch.grounding.factor_tree import to_factor_tree
+from dcg_torch.grounding.features import PAPER, Group, ranking
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.language import Parser
+from dcg_torch.grounding.psi import TERNARY
+from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.relations import relational_lessons
-from dcg_torch.model import GroundingModel, TrainingSet, Variant, encode
-from dcg_torch.relational import relational
-from dcg_torch.supervised import Lesson, teach
+from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.types import Correspondence, Example, Object, ParseTree, Phrase, PhraseKind, Pose, WorldModel
 
-CORPUS = Path(__file__).parents[2] / "shared" / "data" / "train_robots.jsonl"
+RELATIONS = PAPER | {Group.RELATION}
 
 
 @pytest.fixture(scope="module")
 def taught(training: TrainingSet) -> GroundingModel:
-    model = GroundingModel.trained(training, Variant(groups=frozenset(Group), hypothetical=False, l2=0.2))
-    teach(model, relational_lessons(800), rounds=2)
+    model = GroundingModel.trained(training, Variant(groups=RELATIONS, hypothetical=False, l2=0.2))
+    model.teach(relational_lessons(800), relations_only=True, rounds=2)
     return model
 
 
@@ -55,13 +50,13 @@ def cubes(*places: tuple[str, str, float, float]) -> WorldModel:
 
 
 def test_contexts_say_what_is_done_and_what_is_compared() -> None:
-    tree = relational(go_to(np_("cube", "red", pp("near", np_("sphere")))))
+    tree = to_factor_tree(go_to(np_("cube", "red", pp("near", np_("sphere")))))
     nodes = {node.phrase.kind: node for node in tree.walk()}
     assert nodes[PhraseKind.MODIFIER].phrase.context == ("to a thing",)
     assert nodes[PhraseKind.MODIFIER].phrase.among == "kind"
     contexts = [n.phrase.context for n in tree.walk() if n.phrase.kind is PhraseKind.NOUN]
     assert contexts == [("object of go", "object"), ("landmark: of near", "landmark: of any")]
-    anything = relational(go_to(np_("thing", None, pp("in", np_("corner")))))
+    anything = to_factor_tree(go_to(np_("thing", None, pp("in", np_("corner")))))
     noun = next(n for n in anything.walk() if n.phrase.kind is PhraseKind.NOUN)
     assert noun.phrase.noun is None
     assert noun.children[0].phrase.context == ("to a place", "to corner")
@@ -71,14 +66,14 @@ def test_contexts_say_what_is_done_and_what_is_compared() -> None:
 def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> None:
     """Psi(object) = sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark), by plain sums."""
     world = cubes(("red", "cube", 2, 0), ("red", "cube", 2, 2), ("blue", "sphere", 3, 2), ("blue", "cylinder", 5, -1))
-    tree = relational(go_to(np_("cube", "red", pp("next to", np_("sphere")))))
+    tree = to_factor_tree(go_to(np_("cube", "red", pp("next to", np_("sphere")))))
     noun = tree.children[0].children[0]
     modifier, landmark = noun.children[0], noun.children[0].children[0]
     psi = {}
     for node in (noun, landmark):
-        bag = taught.features.encode_things(world, scene.layout(world), None)
+        bag = WorldEncoder(taught.features, world).ranked(node.phrase)
         language = taught.features.encode_phrases([node.phrase])
-        psi[node.phrase] = taught.loglinear.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
+        psi[node.phrase] = taught.factor.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64)).numpy()
     n = len(world.things)
     odds = {phrase: table[:, 2] - table[:, 1] for phrase, table in psi.items()}  # ternary: ACTIVE over INACTIVE
     total = sum(math.exp(odds[landmark.phrase][k]) for k in range(n))
@@ -88,11 +83,11 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
         mixture = 0.0
         for k in range(n):
             row = taught.features.encode_placed(scene.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
-            active = float(taught.loglinear.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
+            active = float(taught.factor.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
         score.append(math.exp(odds[noun.phrase][j]) * mixture)
     expected = [s / sum(score) for s in score]
-    solution = FactorGraph(noun, world).solve(taught.features, taught.loglinear, beam=n)
+    solution = FactorGraph(noun, world).solve(taught.features, taught.factor, beam=n)
     assert [solution.probabilities[o.id] for o in world.objects] == pytest.approx(expected, rel=1e-9)
 
 
@@ -105,34 +100,11 @@ def test_held_out_lessons_are_grounded_far_above_chance(taught: GroundingModel) 
     assert right / len(lessons) > 0.75  # guessing among those that noun and colour allow: below 0.5
 
 
-def test_lessons_are_reproducible_and_cover_every_relation() -> None:
-    words = {
-        word
-        for lesson in relational_lessons(60)
-        for node in lesson.tree.walk()
-        if node.phrase.kind in (PhraseKind.NOUN, PhraseKind.PREPOSITION)
-        for word in node.phrase.words
-    }
-    assert {"behind", "in front of", "left of", "right of", "next to", "closest to", "leftmost", "farthest"} <= words
-    assert relational_lessons(5, 1) == relational_lessons.__wrapped__(5, 1)
-
-
-def test_nothing_is_taught_by_reading_the_target_of_a_test(parser: Parser, training: TrainingSet) -> None:
-    """With the target exchanged, learning on goes the same way."""
-    train = [_episode("t", "take the red cube", "a"), _episode("u", "take the blue cube", "b")]
-    answers = []
-    for target in ("a", "b"):
-        evaluation = Evaluation(train, training, Variant(groups=frozenset(Group)), parser.parse, rounds=1)
-        test = [_episode("1", "take the red cube", target), _episode("2", "take the blue cube", "b")]
-        answers.append([a.solution and a.solution.probabilities for a in evaluation.answers(test, learn=True)])
-    assert answers[0] == answers[1]
-
-
 def test_the_landmark_is_inferred_from_the_object_meant(taught: GroundingModel) -> None:
     """Two spheres: the lesson does not say which is spoken of, the relation learned elsewhere does."""
     world = cubes(("red", "cube", 2, 0), ("red", "cube", 6, 3), ("blue", "sphere", 2.8, 0), ("green", "sphere", 6, 3.8))
-    noun = relational(go_to(np_("cube", "red", pp("next to", np_("sphere"))))).children[0].children[0]
-    (modifier,) = FactorGraph(noun, world).modifiers(taught.features, taught.loglinear)
+    noun = to_factor_tree(go_to(np_("cube", "red", pp("next to", np_("sphere"))))).children[0].children[0]
+    (modifier,) = FactorGraph(noun, world).solve(taught.features, taught.factor).modifiers
     posterior = modifier.posterior
     assert posterior.sum(axis=0) == pytest.approx(np.ones(len(world.things)))
     best = modifier.combos[int(posterior[:, 0].argmax())]
@@ -144,9 +116,9 @@ def test_explanations_add_up(taught: GroundingModel) -> None:
     solution = taught.ground(go_to(np_("cube", "red")), world)
     assert solution.best is not None
     hypothesis = next(h for h in solution.best.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
-    bag = taught.features.encode_things(world, scene.layout(world), None)[:1]
+    bag = WorldEncoder(taught.features, world).ranked(hypothesis.tree.phrase)[:1]
     language = taught.features.encode_phrases([hypothesis.tree.phrase])
-    table = taught.loglinear.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
+    table = taught.factor.log_psi(language, bag, np.zeros(1, dtype=np.int64))[0]
     moved = sum(r.log_odds for r in explain(taught, solution) if r.phrase == hypothesis.tree.phrase.text)
     assert moved == pytest.approx(float(table[2] - table[1]), abs=1e-9)
 
@@ -191,14 +163,14 @@ def test_a_negated_modifier_is_the_others(taught: GroundingModel) -> None:
 
 def test_between_two_of_one_kind_has_two_landmarks() -> None:
     spheres = ParseTree(Phrase(PhraseKind.NOUN, "the two spheres", noun="sphere", plural=True, count=2))
-    tree = relational(go_to(np_("cube", None, pp("between", spheres))))
+    tree = to_factor_tree(go_to(np_("cube", None, pp("between", spheres))))
     modifier = next(n for n in tree.walk() if n.phrase.kind is PhraseKind.MODIFIER)
     assert [n.phrase.noun for n in modifier.children] == ["sphere", "sphere"]
 
 
 def test_relations_can_be_taught_from_scratch(training: TrainingSet) -> None:
     """A made-up preposition, defined by examples alone: "zib" is what the lessons show."""
-    model = GroundingModel.trained(training, Variant(groups=frozenset(Group), hypothetical=False, l2=0.1))
+    model = GroundingModel.trained(training, Variant(groups=RELATIONS, hypothetical=False, l2=0.1))
     rng = np.random.default_rng(3)
     lessons = []
     for _ in range(40):
@@ -206,7 +178,7 @@ def test_relations_can_be_taught_from_scratch(training: TrainingSet) -> None:
         world = cubes(("red", "cube", x + 1, y), ("red", "cube", x - 1, y), ("blue", "sphere", x, y))
         tree = go_to(np_("cube", "red", pp("zib", np_("sphere", "blue"))))
         lessons.append(Lesson(tree, world, frozenset({"red cube 0"})))
-    teach(model, lessons[:30], rounds=2)
+    model.teach(lessons[:30], rounds=2)
     right = [model.ground(le.tree, le.world).object for le in lessons[30:]]
     assert all(o is not None and o.id == "red cube 0" for o in right)
 
@@ -216,98 +188,6 @@ def test_an_unlabelled_tail_teaches_nothing(taught: GroundingModel) -> None:
     phrase = Phrase(PhraseKind.NOUN, "cube", noun="cube")
     short = Example(phrase, world, (Correspondence.ACTIVE,))
     long = Example(phrase, world, (Correspondence.ACTIVE, *(None for _ in world.things[1:])))
-    a, b = (encode([e], taught.features, taught.loglinear) for e in (short, long))
+    a, b = (encode([e], taught.features, TERNARY) for e in (short, long))
     assert a[0].count.tolist() == b[0].count.tolist()
-
-
-def _episode(name: str, text: str, target: str) -> Episode:
-    return Episode.model_validate(
-        {
-            "id": name,
-            "text": text,
-            "objects": [
-                {"id": "a", "type": "cube", "color": "red", "position": [1, 0, 0]},
-                {"id": "b", "type": "cube", "color": "blue", "position": [1, 1, 0]},
-            ],
-            "target": [target],
-        }
-    )
-
-
-BROKEN = [
-    pytest.param("{", "line 2", id="not JSON"),
-    pytest.param('{"id": "x"}', "line 2: text", id="field missing"),
-    pytest.param('{"id":"x","text":"t","objects":[],"target":["a"]}', "line 2: objects", id="no objects"),
-    pytest.param(
-        '{"id":"x","text":"t","objects":[{"id":"a","type":"c","position":[0,0,0]}],"target":["b"]}',
-        "line 2: target: 'b' is no object",
-        id="target absent",
-    ),
-    pytest.param(
-        '{"id":"x","text":"t","objects":[{"id":"a","type":"c","position":[0,0,0]},'
-        '{"id":"a","type":"c","position":[1,0,0]}],"target":["a"]}',
-        "line 2: objects: the id 'a' is there twice",
-        id="id twice",
-    ),
-]
-
-
-@pytest.mark.parametrize(("line", "says"), BROKEN)
-def test_a_broken_episode_is_named_by_its_line(tmp_path: Path, line: str, says: str) -> None:
-    path = tmp_path / "e.jsonl"
-    path.write_text(_episode("1", "take the cube", "a").model_dump_json() + "\n" + line + "\n", encoding="utf-8")
-    with pytest.raises(EpisodeError) as error:
-        read_episodes(path)
-    assert says in str(error.value)
-    assert "\n" not in str(error.value)
-
-
-def test_no_group_is_in_two_folds() -> None:
-    episodes = [_episode(str(k), "take the cube", "a").model_copy(update={"group": str(k % 7)}) for k in range(30)]
-    parts = split_folds(episodes, 3, np.random.default_rng(0))
-    groups = [{e.group for e in part} for part in parts]
-    assert sum(map(len, parts)) == 30
-    assert sum(map(len, groups)) == len(set().union(*groups))
-    with pytest.raises(EpisodeError, match="ask for fewer"):
-        split_folds(episodes, 8, np.random.default_rng(0))
-
-
-@pytest.mark.slow
-def test_evaluate_as_a_user_types_it(tmp_path: Path) -> None:
-    train, test = tmp_path / "train.jsonl", tmp_path / "test.jsonl"
-    rows = [_episode("1", "take the red cube", "a"), _episode("2", "pick up the blue cube", "b")]
-    train.write_text("".join(r.model_dump_json() + "\n" for r in rows), encoding="utf-8")
-    test.write_text(_episode("3", "take the blue cube", "b").model_dump_json() + "\n", encoding="utf-8")
-    run = tmp_path / "run"
-    done = subprocess.run(
-        [
-            *(sys.executable, "-m", "dcg_torch.evaluate", f"train={train}", f"test={test}", "rounds=1", "explain='3'"),
-            f"hydra.run.dir={run}",
-        ],
-        capture_output=True,
-        text=True,
-        check=False,
-        cwd=tmp_path,
-    )
-    assert done.returncode == 0, done.stderr
-    last = json.loads(done.stdout.splitlines()[-1])
-    assert {"n", "accuracy", "ci95", "no_answer", "train_seconds", "seconds_per_command", "by_kind"} <= set(last)
-    assert last["accuracy"] == 1.0
-    assert last["run_dir"] == str(run)
-    (row,) = [json.loads(line) for line in (run / "predictions.jsonl").read_text("utf-8").splitlines()]
-    assert row["predicted"] == row["target"] == ["b"]
-    assert (row["noun"], row["color"], row["correct"]) == ("cube", "blue", True)
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not CORPUS.exists(), reason="the corpus of human commands is not here")
-def test_human_commands_are_grounded_better_than_by_type_and_colour(parser: Parser, training: TrainingSet) -> None:
-    """A small part of the corpus: 300 commands teach, 80 from other boards are asked."""
-    parts = split_folds(read_episodes(CORPUS), 10, np.random.default_rng(1))
-    variant = Variant(groups=frozenset(Group), hypothetical=False, ternary=False, l2=0.2)
-    evaluation = Evaluation([*parts[0], *parts[2]][:300], training, variant, parser.parse, rounds=2)
-    answers = list(evaluation.answers(parts[1][:80]))
-    figures = summarise(answers, evaluation.train_seconds)
-    guessed = sum(1 / a.shared for a in answers) / len(answers)  # the true type and colour, ties guessed
-    assert figures["no_answer"] == 0
-    assert figures["accuracy"] > guessed + 0.05
+    assert a[0].count.sum() == 1

@@ -12,7 +12,7 @@ from types import FrameType
 
 from hydra._internal.utils import get_args_parser
 
-import dcg_torch
+from dcg_torch import __version__
 from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
 from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
@@ -84,7 +84,7 @@ def run_application(application: Callable[[], None], program: str = "run") -> in
             signal.signal(number, _stop)
     with one_line_errors(program=program):
         if "--version" in sys.argv[1:]:
-            print(f"dcg_torch {dcg_torch.__version__}")
+            print(f"dcg_torch {__version__}")
             return 0
         # Hydra would answer an option that it doesn't have with ten lines of usage.
         given, strange = get_args_parser().parse_known_args()

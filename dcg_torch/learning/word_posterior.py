@@ -57,6 +57,10 @@ class Census:
     again: float = 0.25
     found: float = 10.0
 
+    def __post_init__(self) -> None:
+        if not all(0.0 <= n < math.inf for n in (self.objects, self.again)) or not self.cells * self.found > 0.0:
+            raise ValueError("census: what is counted is not negative, and cells and found are positive")
+
     @property
     def rate(self) -> float:
         """Expected objects of one type and colour."""
@@ -89,6 +93,10 @@ class Assumptions:
     colors: Prior = field(default_factory=lambda: Prior(slip=0.005))
     hidden: float = 0.01
     strength: float = 5.0
+
+    def __post_init__(self) -> None:
+        if not (0.0 <= self.hidden < math.inf and 0.0 < self.strength < math.inf):
+            raise ValueError("hidden must not be negative, strength must be positive, and both finite")
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,8 @@ def load(directory: Path | str) -> GroundingModel:
     try:
         factor = LogLinearFactor(features.pairs, described.correspondences)
     except KeyError as error:
-        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {error}") from None
+        name = repr(error.args[0])[:80]
+        raise CheckpointError(f"{directory}: {DESCRIPTION} names a feature of no family: {name}") from None
     learner = described.commit_first or described.word_posterior
     if learner is None or (described.commit_first and described.word_posterior):
         raise CheckpointError(f"{directory}: {DESCRIPTION} holds no learner, or two")

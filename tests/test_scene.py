@@ -34,9 +34,12 @@ def fired(world: WorldModel, landmarks: Sequence[int], among: str = "all") -> li
     return [dict(name.split(", ") for name in row) for row in names]
 
 
-def ranked(world: WorldModel, among: str, **counted: int) -> list[set[str]]:
-    """For every thing, the rank features that fire."""
-    bag = scene.ranks(scene.layout(world), among, **counted)
+def ranked(world: WorldModel, compared: Sequence[int] | None = None, **counted: int) -> list[set[str]]:
+    """For every thing, the rank features that fire; `compared`: the numbers of those it is compared with."""
+    members = None
+    if compared is not None:
+        members = np.isin(np.arange(len(world.things)), compared)
+    bag = scene.ranks(scene.layout(world), members, **counted)
     return [{scene.RANKS[k].removeprefix("rank: ") for k in row if k >= 0} for row in bag]
 
 
@@ -96,26 +99,28 @@ def test_between_two_landmarks() -> None:
 def test_ranks_name_the_leftmost_and_the_nearest() -> None:
     objects = (thing("left", (2, 1, 0)), thing("right", (1, -1, 0)), thing("blue", (3, 3, 0), color="blue"))
     world = WorldModel(objects, Pose(0, 0, 0))
-    assert "left 1" in ranked(world, "kind")[0]
-    of_type = ranked(world, "type")
-    assert "left 2" in of_type[0]
-    assert {"near 1", "robot 1"} <= of_type[1]
-    assert "left 1" in of_type[2]
+    of_red = ranked(world, [0, 1])
+    assert "left 1" in of_red[0]
+    assert of_red[2] == set()  # what is not compared has no rank
+    of_all = ranked(world)
+    assert "left 2" in of_all[0]
+    assert {"near 1", "robot 1"} <= of_all[1]
+    assert "left 1" in of_all[2]
 
 
 def test_ranks_count_as_far_as_the_phrase_does() -> None:
     world = WorldModel(tuple(thing(str(y), (2, y, 0)) for y in (5, 4, 3, 2, 1)), Pose(0, 0, 0))
-    fourth = ranked(world, "type", ordinal=4)
+    fourth = ranked(world, ordinal=4)
     assert [j for j, names in enumerate(fourth) if "left nth" in names] == [3]
     assert [j for j, names in enumerate(fourth) if "right nth" in names] == [1]
-    two = ranked(world, "type", count=2)
+    two = ranked(world, count=2)
     assert [j for j, names in enumerate(two) if "right first" in names] == [3, 4]
 
 
 def test_big_and_tall_are_measured() -> None:
     sizes = {"wide": (2.0, 2.0, 0.5), "tall": (0.5, 0.5, 3.0), "small": (0.5, 0.5, 0.5)}
     objects = tuple(Object(n, "cube", True, position=(2, k, 0), size=s) for k, (n, s) in enumerate(sizes.items()))
-    wide, tall, small = ranked(WorldModel(objects, Pose(0, 0, 0)), "type")
+    wide, tall, small = ranked(WorldModel(objects, Pose(0, 0, 0)))
     assert "big 1" in wide
     assert "tall 1" in tall
     assert {"small 1", "short 1"} <= small
@@ -193,7 +198,7 @@ def test_members_of_a_row_are_ranked_within_it() -> None:
     objects = (*row, thing("apart", (3, 20, 0), "cone"))
     groups = scene.groups(row)
     world = WorldModel(objects, Pose(0, 0, 0), groups=groups)
-    in_row, of_all = ranked(world, "row", ordinal=2), ranked(world, "type", ordinal=2)
+    in_row, of_all = ranked(world, [0, 1, 2], ordinal=2), ranked(world, ordinal=2)
     assert [j for j, names in enumerate(in_row) if "left nth" in names] == [1]
     assert next(j for j, names in enumerate(of_all) if "left nth" in names) == 2  # of all cones it is another
     inside = fired(world, [len(objects)])
@@ -211,7 +216,7 @@ def test_lengths_are_measured_in_the_units_of_the_world() -> None:
 
 
 coordinate = st.floats(-5, 5, allow_nan=False).map(lambda v: round(v, 2))
-scene = st.lists(
+cubes_at = st.lists(
     st.tuples(coordinate, coordinate, st.sampled_from(["cube", "cone"]), st.sampled_from(["red", "blue"])),
     min_size=2,
     max_size=6,
@@ -219,7 +224,7 @@ scene = st.lists(
 )
 
 
-@given(scene, st.integers(0, 3))
+@given(cubes_at, st.integers(0, 3))
 def test_turning_and_moving_the_whole_world_changes_nothing(
     rows: list[tuple[float, float, str, str]], quarter: int
 ) -> None:
@@ -233,7 +238,7 @@ def test_turning_and_moving_the_whole_world_changes_nothing(
     assert scene.states(a) == scene.states(b)
 
 
-@given(scene)
+@given(cubes_at)
 def test_every_family_fires_at_most_one_value_and_never_for_the_landmark(
     rows: list[tuple[float, float, str, str]],
 ) -> None:
@@ -249,6 +254,6 @@ def test_a_hypothetical_object_fires_nothing() -> None:
     unseen = Object("unseen", "cube", known=True, hypothetical=True)
     objects = (thing("landmark", (0, 0, 0)), unseen)
     world = WorldModel(objects)
-    assert scene.states(scene.layout(world))[1] == ()
-    assert ranked(world, "type")[1] == set()
+    assert list(scene.states(scene.layout(world))[1]) == []
+    assert ranked(world)[1] == set()
     assert values(objects, 0)[1] == {}
