@@ -11,7 +11,7 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from dcg_torch.resources import resource
+from dcg_torch.storage.resources import resource
 from dcg_torch.simulator.bodies import TYPES
 from dcg_torch.simulator.screenshot import close_up, world_screenshot
 from dcg_torch.watch.paint import INK, PAPER, font
