@@ -14,7 +14,8 @@ things = [  # id, class name, colour, position in metres: x is ahead of the robo
 ]
 
 
-def look() -> dcg_torch.WorldModel:  # anew after each lesson, because a world says what is known
+def look() -> dcg_torch.WorldModel:
+    """The things as the model knows them now: a world says what is known, so look again after each lesson."""
     return model.world_model(things, robot=Pose(0.0, 0.0, 0.0))
 
 

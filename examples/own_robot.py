@@ -68,7 +68,7 @@ def main() -> None:
         if learned.symbol is not None:
             print(f"  learns that {learned.symbol.word!r} names a {learned.symbol.type}")
         else:
-            print(f"  learns nothing: {learned.reason}")
+            print(f"  nothing new: {learned.reason}")
 
 
 if __name__ == "__main__":

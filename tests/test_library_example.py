@@ -24,7 +24,7 @@ def test_the_example_teaches_grounds_learns_and_saves(tmp_path: Path) -> None:
     assert grounded.startswith("['m1']")  # the one to the left, though both are blue mugs
     assert "word='mug', type='mug'" in learned
     assert len(reasons) == 5
-    assert problem and "[" not in problem
+    assert problem not in ("", "None")
     # what was saved knows both words
     model = dcg_torch.load(tmp_path / "my_model")
     things = [Percept("x", "mug", "blue", (1.0, 0.4, 0.0)), Percept("y", "desk lamp", "red", (1.0, -0.6, 0.0))]
@@ -35,5 +35,5 @@ def test_the_example_teaches_grounds_learns_and_saves(tmp_path: Path) -> None:
 
 def test_the_readme_shows_the_example() -> None:
     blocks = re.findall(r"```python\n(.*?)```", (ROOT / "README.md").read_text(encoding="utf-8"), re.DOTALL)
-    code = EXAMPLE.read_text(encoding="utf-8").split('"""\n', 2)[-1].lstrip("\n")
-    assert code in blocks
+    text = EXAMPLE.read_text(encoding="utf-8")
+    assert text[text.index("import dcg_torch") :] in blocks
