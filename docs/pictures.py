@@ -11,9 +11,9 @@ from pathlib import Path
 
 from PIL import Image, ImageDraw
 
-from dcg_torch.storage.resources import resource
 from dcg_torch.simulator.bodies import TYPES
 from dcg_torch.simulator.screenshot import close_up, world_screenshot
+from dcg_torch.storage.resources import resource
 from dcg_torch.watch.paint import INK, PAPER, font
 from dcg_torch.world.files import load_worlds
 
@@ -40,7 +40,7 @@ def save(image: Image.Image, name: str) -> None:
 
 
 def main() -> None:
-    """Types, worlds, a pair of world and object, and the laboratory demonstration."""
+    """Types, worlds, a pair of world and object, the laboratory, and a figure of the paper's experiment."""
     PICTURES.mkdir(exist_ok=True)
     types = [(t, Image.fromarray(close_up(t, COLORS[k % 3], 220))) for k, t in enumerate(TYPES)]
     save(contact_sheet(types, columns=4), "types.png")
@@ -49,9 +49,14 @@ def main() -> None:
     save(contact_sheet(pictures, columns=5), "worlds.png")
     save(Image.fromarray(world_screenshot(worlds[4], "red_traffic_cone")), "pair.png")
     with tempfile.TemporaryDirectory() as directory:
-        command = [sys.executable, "-m", "dcg_torch", "experiment=hardware", f"hydra.run.dir={directory}/run"]
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-        shutil.copy(Path(directory) / "run/animations/trial_0000.gif", PICTURES / "hardware.gif")
+        for experiment, made, name in (
+            ("hardware", "animations/trial_0000.gif", "hardware.gif"),
+            ("paper", "figures/accuracy.png", "paper.png"),
+        ):
+            run = f"{directory}/{experiment}"
+            command = [sys.executable, "-m", "dcg_torch", f"experiment={experiment}", f"hydra.run.dir={run}"]
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
+            shutil.copy(Path(run) / made, PICTURES / name)
 
 
 if __name__ == "__main__":

@@ -64,9 +64,11 @@ def main() -> None:
             print(f"  {outcome.parse.problem or 'nothing here is meant'}")
             continue
         print(f"  means {outcome.solution.object.id} with {outcome.solution.probability:.0%}")
-        learned = model.learn(outcome.solution, outcome.scene(text))
-        if learned is not None:
-            print(f"  learns that {learned.word!r} names a {learned.type}")
+        learned = model.learn(outcome.solution, outcome.experience(text))
+        if learned.symbol is not None:
+            print(f"  learns that {learned.symbol.word!r} names a {learned.symbol.type}")
+        else:
+            print(f"  nothing new: {learned.reason}")
 
 
 if __name__ == "__main__":

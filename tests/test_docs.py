@@ -1,0 +1,73 @@
+"""What the documentation names is there: files, modules, names, links, rooms, settings."""
+
+from __future__ import annotations
+
+import importlib
+import re
+from pathlib import Path
+
+import pytest
+
+from dcg_torch.settings import EvaluateSettings, Settings, described
+
+ROOT = Path(__file__).parent.parent
+PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
+HISTORY = ROOT / "docs" / "results.md"
+"""Its figures of version 0.1.0 name settings of that version."""
+
+
+def prose(page: Path) -> str:
+    """A page, without what it says of earlier versions."""
+    text = page.read_text(encoding="utf-8")
+    return text.partition("## Version 0.1.0")[0] if page == HISTORY else text
+
+
+def exists(dotted: str) -> bool:
+    """Whether a dotted name of the package leads to a module or to something in one."""
+    parts = dotted.split(".")
+    for k in range(len(parts), 0, -1):
+        try:
+            found: object = importlib.import_module(".".join(parts[:k]))
+        except ModuleNotFoundError:
+            continue
+        try:
+            for part in parts[k:]:
+                found = getattr(found, part)
+        except AttributeError:
+            return False
+        return True
+    return False
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_files_links_and_names_are_there(page: Path) -> None:
+    text = prose(page)
+    links = [link.partition("#")[0] for link in re.findall(r"\]\(([^)\s]+)\)", text) if "://" not in link]
+    assert [link for link in links if link and not (page.parent / link).exists()] == []
+    files = re.findall(r"`((?:dcg_torch|docs|examples|tests|conf|worlds)/[\w./]*)`", text)
+    assert [name for name in files if not (ROOT / name).exists()] == []
+    names = re.findall(r"(?:`|::: |from |import )(dcg_torch(?:\.[A-Za-z_]\w*)+)", text)
+    assert [name for name in names if not exists(name)] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_settings_in_commands_are_settings(page: Path) -> None:
+    keys = {name for schema in (Settings, EvaluateSettings) for name, *_ in described(schema)}
+    keys |= {"experiment", "model", "simulator"}
+    commands = re.findall(r"^(?:python -m dcg_torch|dcg-torch)\b.*$", prose(page), re.MULTILINE)
+    given = [word for command in commands for word in re.findall(r" '?([a-z_.]+)=", command.partition("#")[0])]
+    assert [key for key in given if key not in keys and not key.startswith("hydra")] == []
+
+
+def test_every_room_has_its_line_in_the_architecture() -> None:
+    package = ROOT / "dcg_torch"
+    there = {p.stem for p in package.iterdir() if p.suffix == ".py" or (p / "__init__.py").exists()} - {"__init__"}
+    lines = re.findall(r"^\| \d+ \| (.*?) \|", (ROOT / "docs" / "architecture.md").read_text("utf-8"), re.MULTILINE)
+    assert {room for line in lines for room in re.findall(r"`(\w+)`", line)} == there
+
+
+@pytest.mark.parametrize(
+    "name", ["dcg_torch.nothing", "dcg_torch.model.core.Nothing", "dcg_torch.types.Object.nothing"]
+)
+def test_a_name_that_is_not_there_is_found(name: str) -> None:
+    assert not exists(name)
