@@ -119,7 +119,6 @@ class ModelSettings:
     ternary: bool = _setting(True, "correspondences -1, 0, 1 (eq. 4); false: 0 and 1 (eq. 6)")
     l2: float = _setting(0.05, "penalty on the weights", Bounds(0, 1e6, open=True))
     beam: int = _setting(8, "configurations kept a phrase", Bounds(1, 1_000))
-    synonyms: float | None = _setting(None, "of a corpus: take a new word for a known type from this on", _SHARE)
     lessons: int = _setting(0, "generated lessons on relations before the first command", Bounds(0, MOST))
     learner: LearnerKind = _setting(
         LearnerKind.commit_first, "commit at once, as the paper does, or keep a posterior over what words mean"

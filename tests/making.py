@@ -6,6 +6,7 @@ import random
 import sys
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
@@ -96,6 +97,12 @@ class Read:
 
     tree: ParseTree | None
     problem: str | None = None
+    text: str = ""
+    log_weight: float = 0.0
+
+    @property
+    def readings(self) -> Sequence[Any]:
+        return () if self.tree is None else (self,)
 
     @property
     def noun(self) -> str | None:

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from dcg_torch.agent.asking import AskingPolicy, Question, Reply, candidates, describe, question, truthful
 from dcg_torch.geometry import NEXT_TO
-from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
 
 START = Pose(0.0, 0.0, 0.0)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -160,6 +161,6 @@ def test_the_lexicon_names_sources() -> None:
 
 
 @pytest.mark.parametrize("wrong", [{"synonym": 0.0}, {"unmet": 0.0}, {"slip": 0.0}, {"slip": 1.0}])
-def test_a_prior_that_forbids_learning_is_refused(wrong: dict[str, float]) -> None:
+def test_a_prior_that_forbids_learning_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=next(iter(wrong))):
         Prior(**wrong)

@@ -12,8 +12,8 @@ from pathlib import Path
 import pytest
 from making import typed
 
-from dcg_torch.cli.run import main
 from dcg_torch.cli.console import make_console
+from dcg_torch.cli.run import main
 from dcg_torch.experiment.folder import ITERATIONS, PARTS, TIMINGS, part_of
 from dcg_torch.experiment.pool import WorkerKilledError
 from dcg_torch.report.__main__ import main as report

@@ -9,7 +9,7 @@ import pytest
 
 from dcg_torch.agent.explore import LookBefore, Worth, in_sight, meanings_out_of_view, missing, next_place
 from dcg_torch.geometry import FIELD_OF_VIEW
-from dcg_torch.grounding.graph import Solution
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, WorldModel
 from dcg_torch.world.files import World, WorldObject
@@ -95,9 +95,10 @@ def settle(probabilities: dict[str, float], meanings: dict[str, float], worth: W
 
 
 def _about_zorp(of: Solution) -> Solution:
-    from dcg_torch.grounding.graph import Hypothesis
+    from dcg_torch.grounding.solution import Hypothesis
     from dcg_torch.types import Child, Grounding, GroundingKind
 
+    assert of.tree is not None
     best = max(of.world.objects, key=lambda o: of.probabilities[o.id])
     child = Child(Grounding(GroundingKind.OBJECT, best))
     return Solution(of.tree, of.world, Hypothesis(of.tree, child, (), 0.0), of.probabilities)

@@ -15,9 +15,9 @@ from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.records import Iteration
-from dcg_torch.storage.resources import resource
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
+from dcg_torch.storage.resources import resource
 from dcg_torch.types import Object
 from dcg_torch.watch.recording import Recorder
 
@@ -58,8 +58,8 @@ def demonstrate(settings: Settings, model: GroundingModel, parser: Parser, *, wa
         )
         for command, (row, _) in zip(commands, rows, strict=True):
             recorder.end(command, row)
-    objects = [[look.solution.object for look in episode.looks] for episode in recorder.episodes]
-    return Demonstration([e.row for e in recorder.episodes], [[o for o in of if o is not None] for of in objects])
+    objects = [[look.solution.object for look in episode.looks] for episode in recorder.commands]
+    return Demonstration([e.row for e in recorder.commands], [[o for o in of if o is not None] for of in objects])
 
 
 @pytest.fixture(scope="module")

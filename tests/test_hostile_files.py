@@ -15,9 +15,9 @@ from hostile import EPISODE, SCALARS, TRAINING, WORLD, json_lines, yaml_files
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.storage.errors import UserError
 from dcg_torch.evaluation.episodes import read_episodes, unused_keys
 from dcg_torch.lessons import read_training
+from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import load_world
 
 READERS: dict[str, tuple[Callable[[Path], Any], dict[str, Any]]] = {

@@ -15,7 +15,7 @@ import yaml
 from language_descriptions import DEVELOPMENT as DESCRIPTIONS
 from language_sentences import DEVELOPMENT as SENTENCES
 
-from dcg_torch.bench import hostile
+from dcg_torch.bench.__main__ import hostile
 from dcg_torch.language import Parse, Parser, Reading, default_parser, target_phrase
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.lexicon import read

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from dcg_torch.storage.errors import UserError
 from dcg_torch.experiment.pool import WorkerKilledError, work_off
+from dcg_torch.storage.errors import UserError
 
 
 def note(directory: Path, task: int) -> None:
@@ -55,6 +55,6 @@ def test_a_worker_that_is_killed_is_noticed() -> None:
 def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
     results = work_off(functools.partial(note, tmp_path), range(100), 2)
     next(results)
-    results.close()
+    results.close()  # type: ignore[attr-defined]
     pids = {path.read_text() for path in tmp_path.iterdir()}
     assert not any(Path(f"/proc/{pid}").exists() for pid in pids if pid)

@@ -18,9 +18,9 @@ from typing import Any
 import pytest
 from making import typed
 
+from dcg_torch.cli.run import main
 from dcg_torch.experiment.folder import ITERATIONS, MODEL, SETTINGS, TIMINGS, RunFolderError, lexicon_of, part_of
 from dcg_torch.experiment.runner import run
-from dcg_torch.cli.run import main
 from dcg_torch.settings import LearnerKind, ModelSettings, RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.storage.claim import claim
 

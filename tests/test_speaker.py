@@ -29,7 +29,9 @@ seeds = st.integers(0, 2**32)
 
 def said(world: World, *commands: tuple[str, str]) -> World:
     return world.model_copy(
-        update={"commands": tuple(WrittenCommand(text=t, target=o, noun=t.split()[-1]) for t, o in commands)}
+        update={
+            "commands": tuple(WrittenCommand(text=t, target=o, noun=t.split()[-1], away=False) for t, o in commands)
+        }
     )
 
 

@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.storage.errors import explain_os_error
 from dcg_torch.storage.claim import LOCK, ClaimError, check_place, claim
+from dcg_torch.storage.errors import explain_os_error
 from dcg_torch.storage.foreign import misspelt, plain, shown
 from dcg_torch.storage.whole import sweep_parts, write_whole, write_whole_folder
 

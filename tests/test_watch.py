@@ -16,13 +16,13 @@ from dcg_torch.agent.command import Look
 from dcg_torch.experiment.folder import ITERATIONS, animation_of
 from dcg_torch.experiment.outcome import save_screenshots
 from dcg_torch.experiment.runner import run
-from dcg_torch.grounding.graph import Hypothesis, Solution
+from dcg_torch.grounding.solution import Hypothesis, Solution
 from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
-from dcg_torch.storage.resources import resource
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
 from dcg_torch.simulator import Camera, FakeRobot, SimulatedRobot
 from dcg_torch.simulator.stage import Stage
 from dcg_torch.speaker import Command
+from dcg_torch.storage.resources import resource
 from dcg_torch.types import (
     Child,
     Correspondence,

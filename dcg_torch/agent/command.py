@@ -15,20 +15,16 @@ from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.learner import Experience
+from dcg_torch.model.spoken import ReadCommand
 from dcg_torch.types import DriveResult, ParseTree, Percept, Pose, WorldModel
 
 
-class ParsedCommand(Protocol):
-    """What reading a command gives: a tree, or the problem in words."""
+class ParsedCommand(ReadCommand, Protocol):
+    """What reading a command gives: readings, or the problem in words."""
 
     @property
     def tree(self) -> ParseTree | None:
-        """The phrases, or None if there is a problem."""
-        ...
-
-    @property
-    def problem(self) -> str | None:
-        """Why there is no tree."""
+        """The phrases of the likeliest reading, or None if there is a problem."""
         ...
 
     @property
@@ -64,7 +60,7 @@ class Grounder(Protocol):
         """Upsilon of what was perceived from this start pose."""
         ...
 
-    def ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+    def ground(self, command: ReadCommand, world: WorldModel) -> Solution:
         """What a command means in a world."""
         ...
 
@@ -168,7 +164,7 @@ def carry_out(
     if reading.tree is None:
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
     explorer = explorer or TurnInPlace(spin_step)
-    command = _Command(reading.tree, model, robot, start, percepts, clock)
+    command = _Command(reading, model, robot, start, percepts, clock)
     solution, asked = command.ask(command.look(explorer, watch), asking, listener)
     drive = command.act(solution)
     return Outcome(reading, solution, in_view, tuple(percepts.values()), drive, looked=explorer.looked, asked=asked)
@@ -178,7 +174,7 @@ def carry_out(
 class _Command:
     """A command under way; `percepts`, by id, grow with every look."""
 
-    tree: ParseTree
+    said: ReadCommand
     model: Grounder
     robot: Robot
     start: Pose
@@ -190,7 +186,7 @@ class _Command:
         while True:
             with self.clock("ground"):
                 world = self.model.world_model(self.percepts.values(), self.start, looked=explorer.looked)
-                solution = self.model.ground(self.tree, world)
+                solution = self.model.ground(self.said, world)
             if watch is not None:
                 watch(Look(self.robot.pose, tuple(self.percepts.values()), solution))
             with self.clock("explore"):
@@ -212,7 +208,7 @@ class _Command:
             asking = question(ids, tuple(self.percepts.values()), self.start, self.model.sure_names())
             asked.append((asking, listener(asking)))
             with self.clock("ground"):
-                solution = self.model.ground(self.tree, _told(solution.world, *asked[-1]))
+                solution = self.model.ground(self.said, _told(solution.world, *asked[-1]))
         return solution, tuple(asked)
 
     def act(self, solution: Solution) -> DriveResult | None:
@@ -225,7 +221,7 @@ class _Command:
 
 
 def _default_parser() -> CommandParser:
-    from dcg_torch.language import default_parser  # here, because spaCy takes seconds to import
+    from dcg_torch.language import default_parser  # here: who brings a parser needs no words of ours
 
     return default_parser().parse
 

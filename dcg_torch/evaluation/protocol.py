@@ -187,10 +187,12 @@ def answers(
 
 
 def types_meant(episode: Episode) -> set[str]:
+    """The types of the objects meant."""
     return {o.type for o in episode.objects if o.id in episode.target}
 
 
 def colors_meant(episode: Episode) -> set[str | None]:
+    """The colours of the objects meant."""
     return {o.color for o in episode.objects if o.id in episode.target}
 
 

@@ -48,7 +48,7 @@ def _patterns() -> _Patterns:
 def read_teaching(text: str) -> Teaching | None:
     """What a sentence teaches; None if it is no teacher's sentence."""
     patterns = _patterns()
-    said = " ".join(text.lower().replace("’", "'").split()).strip(" .!?")
+    said = " ".join(text.lower().replace("\u2019", "'").split()).strip(" .!?")
     if (filler := patterns.fillers.match(said)) is not None:
         said = said[filler.end() :]
     for pattern in patterns.same:

@@ -70,8 +70,8 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     """
     compared = np.ones(len(where.things), dtype=np.bool_) if members is None else members
     solid = where.solid
-    alike = (solid[:, None] & solid[None]) | (where.group[:, None] & where.group[None])
-    alike = alike & np.outer(compared, compared)
+    alike: Bools = np.outer(solid, solid) | np.outer(where.group, where.group)
+    alike &= np.outer(compared, compared).astype(np.bool_)
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
     with np.errstate(invalid="ignore"):
