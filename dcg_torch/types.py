@@ -29,6 +29,8 @@ class PhraseKind(enum.StrEnum):
     MODIFIER = "modifier"  # a preposition that describes a noun phrase: "(the cone) behind (the cube)"
 
 
+LOOKED_ROUND = "looked round"
+"""Attribute of a hypothetical object, once the robot has seen all the ground that it can."""
 OPAQUE = "opaque: "
 """Begins the name of a type that is to say nothing of what people call it."""
 

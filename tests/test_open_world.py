@@ -48,6 +48,12 @@ class Reading:
     problem: str | None
     noun: str | None
     color: str | None
+    text: str = ""
+    log_weight: float = 0.0
+
+    @property
+    def readings(self) -> Sequence[Any]:
+        return () if self.tree is None else (self,)
 
 
 def read(text: str, vocabulary: Collection[str] = ()) -> Reading:

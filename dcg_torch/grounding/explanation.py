@@ -105,7 +105,7 @@ def _reasons(model: Weighted, hypothesis: Hypothesis, solution: Solution) -> Ite
         for grounding in row[row >= 0]:
             if language >= 0 and odds[language, grounding] != 0.0:
                 yield Reason(
-                    phrase.text or phrase.kind,
+                    phrase.text or phrase.kind.value,
                     child.grounding.object.id,
                     languages[language],
                     groundings[grounding],

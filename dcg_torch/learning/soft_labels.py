@@ -60,6 +60,7 @@ def soft_examples(
     looked: frozenset[str],
     strength: float = 5.0,
     forgotten: Collection[str] = (),
+    fixed: Collection[str] = (),
 ) -> list[Example]:
     """Equation (2) as examples.
 
@@ -69,29 +70,42 @@ def soft_examples(
         unseen: rates of what may be there unseen.
         looked: the attributes of hypothetical objects once the robot has looked round.
         strength: curvature of each pair's likelihood, in examples.
+        fixed: words whose weights are not to follow from the posterior; they are left out.
         forgotten: nouns that have columns and no meaning any more: they are as if never heard.
     """
-    pairs = [*_nouns(nouns, forgotten), *_colors(nouns, colors), *_unseen(nouns, colors, unseen, looked)]
+    pairs = [*_nouns(nouns, forgotten, fixed), *_colors(nouns, colors, fixed), *_unseen(nouns, colors, unseen, looked)]
     pairs += _unnamed(nouns, colors, unseen, looked)
     return list(pair_examples(pairs, strength))
 
 
-def _nouns(nouns: Beliefs, forgotten: Collection[str]) -> Iterator[Pair]:
-    """Every noun with a perceived object of every type, no colour said."""
+_MANY = 40
+"""Types with which every noun is shown; where there are more, names and nothing but names tell the others apart."""
+
+
+def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -> Iterator[Pair]:
+    """Every noun with a perceived object of every type, no colour said.
+
+    Of many types a noun is shown with those that it was heard among, and with the first `_MANY` of all.
+    """
     table, new = nouns.said_of()
     things = [_object(type_) for type_ in nouns.posterior.types]
     unheard = (NEVER_HEARD, *forgotten)
     for word, row in zip((*nouns.posterior.words, *unheard), (*table, *([new] * len(unheard))), strict=True):
-        phrase = _phrase(word)
-        for thing, odds in zip(things, row.tolist(), strict=True):
-            yield Pair(phrase, thing, odds)
+        if word in fixed:
+            continue
+        phrase, heard = _phrase(word), nouns.heard[word].more if word in nouns.heard else {}
+        for k, (thing, odds) in enumerate(zip(things, row.tolist(), strict=True)):
+            if k < _MANY or thing.type is None or thing.type in heard:
+                yield Pair(phrase, thing, odds)
 
 
-def _colors(nouns: Beliefs, colors: Beliefs) -> Iterator[Pair]:
+def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[Pair]:
     """Every colour word with every colour, on a known type and on one not met."""
     table, new = colors.said_of()
     for noun, type_, scale in _anchors(nouns):
         for word, row in zip((*colors.posterior.words, NEVER_HEARD), (*table, new), strict=True):
+            if word in fixed:
+                continue
             for color, odds in zip(colors.posterior.types, row, strict=True):
                 yield Pair(_phrase(noun, word), _object(type_, color), scale * float(odds))
 

@@ -19,7 +19,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet
+from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.learning.evidence import Attribute, Ground, WordEvidence, evidence
@@ -27,7 +27,7 @@ from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry, lexicon
 from dcg_torch.learning.soft_labels import Unseen, soft_examples
 from dcg_torch.learning.trainable import believed_mask
-from dcg_torch.types import Example, Object, PhraseKind, Symbol
+from dcg_torch.types import LOOKED_ROUND, Example, Object, PhraseKind, Symbol
 from dcg_torch.vocabulary import GROUP_WORDS, PLACE_WORDS
 
 OUT_OF_VIEW = 1.0 - 57.0 / 360.0
@@ -109,6 +109,7 @@ class WordPosterior:
         assumed: what it takes for granted.
         census: how many objects there are.
         examples: of verbs and prepositions, which are taught once.
+        fixed: nouns and words for colours whose weights lessons have taught, so that they follow from no posterior.
     """
 
     nouns: Beliefs
@@ -116,6 +117,7 @@ class WordPosterior:
     assumed: Assumptions = Assumptions()
     census: Census = Census()
     examples: tuple[Example, ...] = ()
+    fixed: frozenset[str] = frozenset()
 
     @classmethod
     def start(cls, training: TrainingSet, assumed: Assumptions | None = None) -> WordPosterior:
@@ -227,7 +229,8 @@ class WordPosterior:
     def taught(self, taught: Taught) -> WordPosterior:
         """With the words of lessons. One that few lessons had is not settled: it is heard, as in a command."""
         nouns, colors = self.nouns.meet(taught.types), self.colors.meet(taught.colors)
-        return replace(self, nouns=_settled(nouns, taught.nouns), colors=_settled(colors, taught.color_words))
+        nouns, colors = _settled(nouns, taught.nouns), _settled(colors, taught.color_words)
+        return replace(self, nouns=nouns, colors=colors, fixed=frozenset((*nouns.settled, *colors.settled)))
 
     def training_examples(self, features: FeatureSet) -> Sequence[Example]:
         """The examples of verbs and prepositions, and the posterior as soft examples."""
@@ -237,6 +240,7 @@ class WordPosterior:
             self._rates,
             looked=frozenset({LOOKED_ROUND}),
             strength=self.assumed.strength,
+            fixed=self.fixed,
             forgotten=sorted(features.nouns - {*self.nouns.posterior.words, *PLACE_WORDS, *GROUP_WORDS}),
         )
         return [*self.examples, *soft]

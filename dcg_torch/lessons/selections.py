@@ -106,7 +106,9 @@ def _counted(kind: str, side: str, order: Sequence[str]) -> Iterator[tuple[str, 
     yield f"{kind} farthest to your {side}", order[0]
     for k, ordinal in enumerate(_ORDINALS[: len(order)]):
         yield f"{ordinal} {kind} from the {side}", order[k]
+    yield f"last {kind} from the {side}", order[-1]
     if len(order) > 1:
+        yield f"second last {kind} from the {side}", order[-2]
         yield f"second {side}most {kind}", order[1]
         yield f"second {kind} farthest to the {side}", order[1]
 

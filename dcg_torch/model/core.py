@@ -7,31 +7,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.encode import Rows, WorldEncoder, design_matrices, encode, firing, rows_of
+from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
-from dcg_torch.grounding.features import LOOKED_ROUND, FeatureSet, Group, fact_odds
+from dcg_torch.grounding.features import FeatureSet, Group, fact_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import NEGLIGIBLE, looking, sum_over
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.commit_first import CommitFirst
-from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
-from dcg_torch.learning.learner import Experience, Learned, Learner, Taught, TrainingSet
+from dcg_torch.learning.landmarks import Lesson
+from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
 from dcg_torch.learning.trainable import rows_mask, taught_mask
 from dcg_torch.model.spoken import ReadCommand
+from dcg_torch.model.teach import RELATION_L2, teach
 from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import Workspace, with_groups, with_places
 from dcg_torch.types import (
+    LOOKED_ROUND,
     Correspondence,
     Example,
     ParseTree,
@@ -40,12 +43,6 @@ from dcg_torch.types import (
     Symbol,
     WorldModel,
 )
-
-_RELATION_L2 = 0.2
-"""Penalty on the weights that are taught by generated lessons."""
-_ON_THE_WAY, _SETTLED = 75, 300
-"""Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
-landmarks move it anyway."""
 
 
 class GroundingModel:
@@ -95,7 +92,7 @@ class GroundingModel:
         model._know_names()
         model.train()
         if relations:
-            model._fit(model._encoded(place_examples()), free=taught_mask(features), l2=_RELATION_L2)
+            model.fit_weights(model._encoded(place_examples()), free=taught_mask(features), l2=RELATION_L2)
         return model
 
     @property
@@ -161,14 +158,14 @@ class GroundingModel:
     def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
         """Of one reading."""
         if Group.RELATION not in self.variant.groups:
-            return self._solve(path_to_object(tree), world)
+            return self.solve(path_to_object(tree), world)
         first, *others = (
-            self._solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
+            self.solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
             for part in coordinated(tree)
         )
         return replace(first, further=tuple(others))
 
-    def _solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
+    def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
         return FactorGraph(tree, world, encoder).solve(self.features, self.factor, beam=self.variant.beam)
 
@@ -187,7 +184,7 @@ class GroundingModel:
         if solution.best is None:
             return Learned(reason=solution.problem or "the command was not grounded to an object")
         looked = all(LOOKED_ROUND in o.attributes for o in solution.world.objects if o.hypothetical)
-        self.learner, learned = self.learner.hear(solution, experience or Experience(looked), self._solve)
+        self.learner, learned = self.learner.hear(solution, experience or Experience(looked), self.solve)
         self.train()
         return learned
 
@@ -231,11 +228,13 @@ class GroundingModel:
 
     def train(self) -> FitResult:
         """M.train (lines 6 and 25): columns for all that was learned, and a fit from the present weights."""
-        self._grow(self.learner.columns(self.features))
+        self.grow(self.learner.columns(self.features))
         free = self.learner.trainable(self.features)
         if free is not None and self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
-        return self._fit(self._encoded(self.learner.training_examples(self.features)), free=free, l2=self.variant.l2)
+        return self.fit_weights(
+            self._encoded(self.learner.training_examples(self.features)), free=free, l2=self.variant.l2
+        )
 
     def _encoded(self, examples: Sequence[Example]) -> list[DesignMatrix]:
         return encode(examples, self.features, self.factor.correspondences)
@@ -259,26 +258,15 @@ class GroundingModel:
             rounds: of expectation and maximisation.
             progress: called with the number of each round that is done.
         """
-        parts = [part for lesson in lessons for part in parts_of(lesson)]
-        self._make_room(parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
-        if relations_only:
-            always, free, l2 = place_examples(), taught_mask(self.features), _RELATION_L2
-        else:
-            # What was known before gives way to as much evidence as any.
-            self.prior = self.factor.weight.numpy().copy()
-            always, free, l2 = path_examples(lessons), None, self.variant.l2
-        kept = rows_of(always, self.features)
-
-        def fit_once(rows: list[Rows], last: bool) -> None:
-            designs = design_matrices([*kept, *rows], self.features, self.factor.correspondences)
-            self._fit(designs, free=free, l2=l2, tolerance=1e-3, max_steps=_SETTLED if last else _ON_THE_WAY)
-            if last and not relations_only:
-                self.held |= firing(designs, self.features.shape)
-
-        fit_landmarks_em(parts, self.features, self._solve, fit_once, rounds=rounds, progress=progress)
-        if not relations_only:
-            self.prior = self.factor.weight.numpy().copy()
-            self._hear_lessons(parts)
+        teach(
+            self,
+            lessons,
+            relations_only=relations_only,
+            known_types=known_types,
+            known_colors=known_colors,
+            rounds=rounds,
+            progress=progress,
+        )
 
     def _know_names(self) -> None:
         """Give the facts between words and the names of classes, colours and attributes their odds."""
@@ -292,15 +280,11 @@ class GroundingModel:
             weight[:, rows, column] = (sign * odds)[:, None]
         self.factor.set_weight(weight)
 
-    def _make_room(self, parts: Sequence[Part], said: Taught, *, relations_only: bool) -> None:
-        """Columns for the words of lessons, and what they settle."""
-        phrases = [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
-        if relations_only:
-            self._grow(self.features.extended((), said.colors, phrases))
-            return
-        self.learner = self.learner.taught(said)
-        nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
-        self._grow(self.learner.columns(self.features).extended(nouns, said.colors, phrases))
+    def save(self, directory: Path | str) -> None:
+        """Write the model into a folder, which is made if need be; `dcg_torch.load` reads it."""
+        from dcg_torch.model.checkpoint import save  # which knows this class
+
+        save(self, directory)
 
     def lexicon(self) -> list[Entry]:
         """Every noun with what it may mean, and from which commands."""
@@ -318,16 +302,7 @@ class GroundingModel:
         """type -> probability that a noun names it."""
         return self.learner.meanings(word)
 
-    def _hear_lessons(self, parts: Sequence[Part]) -> None:
-        """Weigh what lessons tell of words that they did not settle, landmarks' above all, and train."""
-        for part in parts:
-            told = replace(part.world, meant=part.targets)
-            solution = self._solve(part.noun, told)
-            taught = Experience(certain=True, taught=True, source="lesson")
-            self.learner, _ = self.learner.hear(solution, taught, self._solve)
-        self.train()
-
-    def _grow(self, features: FeatureSet) -> None:
+    def grow(self, features: FeatureSet) -> None:
         """Columns of zero weight for what is new."""
         if features.shape == self.features.shape:
             return
@@ -337,7 +312,7 @@ class GroundingModel:
         self.held = np.pad(self.held, [(0, more[0]), (0, more[1])])
         self.prior = np.pad(self.prior, [(0, 0), (0, more[0]), (0, more[1])])
 
-    def _fit(
+    def fit_weights(
         self,
         designs: Sequence[DesignMatrix],
         *,

@@ -43,6 +43,10 @@ class Grounds(Protocol):
         ...
 
 
+_SURE = 0.5
+"""Probability from which on a described object is taken to be the one spoken of."""
+
+
 def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: Grounds) -> Told:
     """The name that a sentence gives, and to what type.
 
@@ -50,7 +54,7 @@ def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: 
         pointing_at: id of the object that the teacher points at.
         model: finds the object that the teacher describes.
     """
-    from dcg_torch.language.teaching import read_teaching  # loads spaCy: only who gives text pays for it
+    from dcg_torch.language.teaching import read_teaching  # its words are data that only who gives text pays for
 
     said = read_teaching(sentence)
     if said is None:
@@ -62,9 +66,10 @@ def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: 
     meant: Sequence[Object] = [o for o in world.objects if o.id == pointing_at]
     if said.subject is not None and pointing_at is None:
         found = model.ground(f"go to {said.subject}", world)
-        meant = [o for o in found.objects if not o.hypothetical]
+        sure = (found.probability or 0.0) >= _SURE
+        meant = [o for o in found.objects if not o.hypothetical] if sure else []
     if len(meant) != 1 or meant[0].type is None:
-        there = "there is no such object" if not meant else "it is not clear which one is meant"
+        there = "no object here fits that well enough" if not meant else "it is not clear which one is meant"
         return Told(said.name, problem=f"{there}: {said.subject or pointing_at}")
     return Told(said.name, meant[0].type, meant[0].id)
 

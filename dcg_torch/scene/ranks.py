@@ -77,7 +77,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     with np.errstate(invalid="ignore"):
         less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
     before = (less & alike[None]).sum(axis=2)  # (axes, n)
-    there = np.isfinite(values) & alike.any(axis=1)[None]
+    there = np.isfinite(values) & alike.any(axis=1, keepdims=True).T
     first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
     out = [np.where(there & (before < NEAREST), first + before, -1)]
     if ordinal is not None:

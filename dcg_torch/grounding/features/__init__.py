@@ -19,7 +19,6 @@ feature instead. Columns are only ever appended, so old indices stay valid.
 from dcg_torch.grounding.features.columns import FeatureSet
 from dcg_torch.grounding.features.names import (
     GROUNDING_OF,
-    LOOKED_ROUND,
     PAIRS,
     PAPER,
     Feature,
@@ -32,7 +31,6 @@ from dcg_torch.grounding.features.said import Said, fact_odds
 
 __all__ = [
     "GROUNDING_OF",
-    "LOOKED_ROUND",
     "PAIRS",
     "PAPER",
     "Feature",

@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from dcg_torch import scene
 from dcg_torch.grounding.features.names import (
     FEW,
-    LOOKED_ROUND,
     PAIRS,
     Feature,
     Group,
@@ -25,6 +24,7 @@ from dcg_torch.grounding.features.names import (
 from dcg_torch.grounding.features.said import Said, facts
 from dcg_torch.grounding.psi import Bag
 from dcg_torch.types import (
+    LOOKED_ROUND,
     Child,
     Example,
     GroundingKind,

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
 from dcg_torch.types import (
+    LOOKED_ROUND,
     NOT,
     Correspondence,
     GroundingKind,
@@ -28,10 +29,6 @@ class Group(enum.StrEnum):
     RELATION = "relation"
     NAMES = "names"  # the names of classes, colours and attributes are evidence for words
     OPEN = "open"  # what has never been heard or met has columns too, and so has a look all round
-
-
-LOOKED_ROUND = "looked round"
-"""Attribute of a hypothetical object, once the robot has seen all the ground that it can."""
 
 
 # The family of a feature is what stands before the colon of its name. A language family meets these grounding

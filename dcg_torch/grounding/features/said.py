@@ -16,10 +16,13 @@ from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, colo
 from dcg_torch.names.colors import color_scores
 from dcg_torch.names.evidence import evidence
 from dcg_torch.names.weights import FACTS, fact_weights
-from dcg_torch.types import OPAQUE, Object, Phrase
+from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase
 
 _TRUST = 0.6
 """Share of the facts' log-odds that is believed: a parser's noun is wrong more often than a list of nouns is."""
+_ABSENT = "name: absent"
+_ABSENT_ODDS = 3.5
+"""Of what is not there, once all has been seen: a noun that no class is named by mostly means nothing that is there."""
 _COLOR_ODDS = {"equal": 4.0, "same hue": 2.0, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
 _ATTRIBUTE_ODDS = {"equal": 4.0, "alike": 4.0, "contrary": -4.0, "silent": -0.5}
 _LOOKS = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)
@@ -50,6 +53,7 @@ def fact_odds() -> dict[str, float]:
     """Name of a grounding feature -> its log-odds before anything is learned."""
     weights = fact_weights()
     odds = {f"said {fact}": _TRUST * weights.get(fact, 0.0) for fact in FACTS}
+    odds[f"said {_ABSENT}"] = _ABSENT_ODDS
     odds |= {f"said color: {name}": value for name, value in _COLOR_ODDS.items()}
     odds |= {f"said attribute: {name}": value for name, value in _ATTRIBUTE_ODDS.items()}
     return odds | {f"said {fact}": -_behind(k) for k, fact in enumerate(LOOK_FACTS)}
@@ -64,7 +68,7 @@ def _behind(k: int) -> float:
 
 def said_features() -> list[str]:
     """The names of all such features."""
-    names = [*FACTS, *(f"color: {name}" for name in _COLOR_ODDS), *ATTRIBUTE_FACTS, *LOOK_FACTS]
+    names = [*FACTS, _ABSENT, *(f"color: {name}" for name in _COLOR_ODDS), *ATTRIBUTE_FACTS, *LOOK_FACTS]
     return [f"said {name}" for name in names]
 
 
@@ -76,6 +80,8 @@ def facts(said: Said, things: Sequence[Object]) -> list[list[str]]:
 
 def _facts(said: Said, thing: Object, look: str | None) -> list[str]:
     found: list[str] = []
+    if said.noun is not None and thing.type is None and LOOKED_ROUND in thing.attributes:
+        found.append(_ABSENT)
     if said.noun is not None and thing.type is not None and not thing.type.startswith(OPAQUE):
         found += evidence(said.noun, thing.type)
     if look is not None:

@@ -1,0 +1,77 @@
+"""Training on commands whose objects are known: generated lessons on relations, and corpora of people's commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from dcg_torch.grounding.encode import Rows, design_matrices, firing, rows_of
+from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
+from dcg_torch.learning.learner import Experience, Taught
+from dcg_torch.learning.places import place_examples
+from dcg_torch.learning.trainable import taught_mask
+from dcg_torch.types import Example, Symbol
+
+if TYPE_CHECKING:
+    from dcg_torch.model.core import GroundingModel as Teachable
+
+RELATION_L2 = 0.2
+"""Penalty on the weights that are taught by generated lessons."""
+_ON_THE_WAY, _SETTLED = 75, 300
+"""Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
+landmarks move it anyway."""
+
+
+def teach(
+    model: Teachable,
+    lessons: Sequence[Lesson],
+    *,
+    relations_only: bool,
+    known_types: Collection[str] | None,
+    known_colors: Collection[str] | None,
+    rounds: int,
+    progress: Callable[[int], None] | None,
+) -> None:
+    """See `GroundingModel.teach`."""
+    parts = [part for lesson in lessons for part in parts_of(lesson)]
+    _make_room(model, parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
+    if relations_only:
+        always, free, l2 = place_examples(), taught_mask(model.features), RELATION_L2
+    else:
+        # What was known before gives way to as much evidence as any.
+        model.prior = model.factor.weight.numpy().copy()
+        always, free, l2 = path_examples(lessons), None, model.variant.l2
+    kept = rows_of(always, model.features)
+
+    def fit_once(rows: list[Rows], last: bool) -> None:
+        designs = design_matrices([*kept, *rows], model.features, model.factor.correspondences)
+        model.fit_weights(designs, free=free, l2=l2, tolerance=1e-3, max_steps=_SETTLED if last else _ON_THE_WAY)
+        if last and not relations_only:
+            model.held |= firing(designs, model.features.shape)
+
+    fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
+    if not relations_only:
+        model.prior = model.factor.weight.numpy().copy()
+        _hear(model, parts)
+
+
+def _make_room(model: Teachable, parts: Sequence[Part], said: Taught, *, relations_only: bool) -> None:
+    """Columns for the words of lessons, and what they settle."""
+    phrases = [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
+    if relations_only:
+        model.grow(model.features.extended((), said.colors, phrases))
+        return
+    model.learner = model.learner.taught(said)
+    nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
+    model.grow(model.learner.columns(model.features).extended(nouns, said.colors, phrases))
+
+
+def _hear(model: Teachable, parts: Sequence[Part]) -> None:
+    """Weigh what lessons tell of words that they did not settle, landmarks' above all, and train."""
+    for part in parts:
+        told = replace(part.world, meant=part.targets)
+        solution = model.solve(part.noun, told)
+        taught = Experience(certain=True, taught=True, source="lesson")
+        model.learner, _ = model.learner.hear(solution, taught, model.solve)
+    model.train()
