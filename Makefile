@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-u
 PYTHON ?= $(shell for p in python3.11 python3; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
 
-.PHONY: help reproduce test torture check lint bench board clean
+.PHONY: help reproduce test torture check lint bench board clean docs pretrain
 .DEFAULT_GOAL := help
 
 help: ## Show this list
@@ -40,6 +40,12 @@ bench: $(VENV)/installed-bench ## Time the parts; a table, and runs/bench.json
 
 board: $(VENV)/installed ## Open TensorBoard over runs/
 	$(BIN)/tensorboard --logdir runs
+
+docs: $(VENV)/installed-docs ## Build the documentation as a site, in build/site
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
+
+pretrain: $(VENV)/installed ## Make the shipped model anew from what is in the repository
+	$(BIN)/python -m dcg_torch.model.pretrain
 
 clean: ## Remove .venv, caches and build products; runs/ stays
 	rm -rf $(VENV) build dist .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache

@@ -23,9 +23,13 @@ from rich.table import Table
 from dcg_torch.cli.application import one_line_errors, run_application
 from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
+from dcg_torch.evaluation.baselines import make_baseline, run_baseline
+from dcg_torch.evaluation.baselines.run import Outcome
+from dcg_torch.evaluation.certify import certify
 from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds
 from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
-from dcg_torch.evaluation.summary import summarise
+from dcg_torch.evaluation.summary import by_file, summarise
+from dcg_torch.evaluation.summary import figures as of_all
 from dcg_torch.experiment.factory import make_model
 from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
@@ -79,14 +83,55 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     part.replace(directory / PREDICTIONS)
     if settings.save and not settings.folds:
         write_whole_folder(directory / MODEL, lambda folder: save(model, folder))
+    if settings.baseline:
+        baselines = _baselines(settings, splits, console)
+    if settings.certify:
+        certified = _certify(model, splits, console)
     figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
     _print_files(figures["by_file"], console)
     _print_errors(found, console)
+    if settings.baseline:
+        figures["baselines"] = baselines
+    if settings.certify:
+        figures["certify"] = certified
     if settings.learn:
         figures["learned"] = learned
         told = ", ".join(f"{word} = {meaning}" for word, meaning in learned.items()) or "none"
         console.print(f"nouns learned: {told}", markup=False)
     return figures
+
+
+def _baselines(settings: EvaluateSettings, splits: Sequence[Split], console: Console) -> dict[str, Any]:
+    """The figures of other ways to answer, on the same episodes and candidates."""
+    found: dict[str, Any] = {}
+    for name in settings.baseline:
+        outcomes: list[Outcome] = []
+        for split in splits:
+            baseline = make_baseline(name, _noun_phrase)
+            taught = [e for episodes in split.train.values() for e in episodes]
+            with Bar(name, sum(map(len, split.test.values())), console) as bar:
+                outcomes += run_baseline(baseline, taught, split.test, advance=bar.advance)
+        found[name] = {**of_all(outcomes), "by_file": by_file(outcomes)}
+        console.print(f"{name}: {found[name]['accuracy']:.3f} right", markup=False)
+    return found
+
+
+def _noun_phrase(text: str) -> str:
+    parse = default_parser().parse(text)
+    return " ".join(word for word in (parse.color, parse.noun) if word)
+
+
+def _certify(model: GroundingModel, splits: Sequence[Split], console: Console) -> dict[str, Any]:
+    """How often the answer follows a small change of the episode; by the model of the last split."""
+    test = [e for episodes in splits[-1].test.values() for e in episodes]
+
+    def answer(episode: Episode) -> tuple[str, ...]:
+        return next(iter(answers(model, [episode], default_parser().parse))).predicted
+
+    found = certify(answer, test)
+    for kind, of in found.items():
+        console.print(f"{kind}: {of['right']} of {of['n']} changes followed", markup=False)
+    return found
 
 
 def _train(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -13,15 +13,39 @@ from dcg_torch.report.calibration import calibration_error
 from dcg_torch.report.intervals import wilson
 
 
+class Counted(Protocol):
+    """An answer, as far as figures count it; of the project or of a baseline."""
+
+    @property
+    def file(self) -> str:
+        """The stem of the file that it is from."""
+        ...
+
+    @property
+    def probability(self) -> float | None:
+        """Of the answer."""
+        ...
+
+    @property
+    def correct(self) -> bool:
+        """Is it right?"""
+        ...
+
+
+def by_file(answers: Sequence[Counted]) -> dict[str, dict[str, Any]]:
+    """The figures of each file."""
+    files = {name: [a for a in answers if a.file == name] for name in dict.fromkeys(a.file for a in answers)}
+    return {name: figures(of) for name, of in files.items()}
+
+
 def summarise(answers: Sequence[Answer], train_seconds: float, *, by_color: bool = False) -> dict[str, Any]:
     """The figures of an evaluation; accuracies have their 95 % interval (Wilson).
 
     Args:
         by_color: also by the colour of the object meant.
     """
-    files = {name: [a for a in answers if a.file == name] for name in dict.fromkeys(a.file for a in answers)}
     return {
-        **_figures(answers),
+        **figures(answers),
         "no_answer": sum(not a.predicted for a in answers),
         "train_seconds": train_seconds,
         "seconds_per_command": sum(a.seconds.parse + a.seconds.ground for a in answers) / len(answers),
@@ -34,11 +58,12 @@ def summarise(answers: Sequence[Answer], train_seconds: float, *, by_color: bool
             for kind, of in _kinds(answers, by_color=by_color).items()
             if of
         },
-        "by_file": {name: _figures(of) for name, of in files.items()},
+        "by_file": by_file(answers),
     }
 
 
-def _figures(answers: Sequence[Answer]) -> dict[str, Any]:
+def figures(answers: Sequence[Counted]) -> dict[str, Any]:
+    """Number, accuracy with its interval, calibration error."""
     estimate = wilson(sum(a.correct for a in answers), len(answers))
     return {
         "n": len(answers),

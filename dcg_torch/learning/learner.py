@@ -76,7 +76,7 @@ class Learner(Protocol):
 
     @property
     def settled(self) -> frozenset[str]:
-        """The nouns of which nothing is left to be learned."""
+        """The words of which nothing is left to be learned."""
         ...
 
     @property

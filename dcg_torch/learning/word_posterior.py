@@ -147,8 +147,8 @@ class WordPosterior:
 
     @property
     def settled(self) -> frozenset[str]:
-        """Nouns whose meaning was given, and the words for places and groups."""
-        return frozenset((*self.nouns.settled, *PLACE_WORDS, *GROUP_WORDS))
+        """Words whose meaning was given, and those for places and groups."""
+        return frozenset((*self.nouns.settled, *self.colors.settled, *PLACE_WORDS, *GROUP_WORDS))
 
     @property
     def open_words(self) -> frozenset[str]:
@@ -167,6 +167,8 @@ class WordPosterior:
                 heard = replace(heard, nouns=heard.nouns.weigh(told))
             else:
                 heard = replace(heard, colors=heard.colors.weigh(told))
+        if experience.taught:
+            return heard, Learned(reason="a lesson says what it teaches")
         noun = solution.noun
         if noun is None:
             return heard, Learned(reason="the command was not grounded to an object")
@@ -176,7 +178,8 @@ class WordPosterior:
         return heard, Learned(reason=heard._why_not(noun.noun, [e.word for e in found]))
 
     def _is_open(self, attribute: Attribute, word: str) -> bool:
-        return word not in (self.settled if attribute == "noun" else self.colors.settled)
+        beliefs = self.nouns if attribute == "noun" else self.colors
+        return word not in beliefs.settled and not (attribute == "noun" and word in (*PLACE_WORDS, *GROUP_WORDS))
 
     def _why_not(self, noun: str | None, words: Sequence[str]) -> str:
         if noun is None:

@@ -70,6 +70,9 @@ def _make_room(model: Teachable, parts: Sequence[Part], said: Taught, *, relatio
 def _hear(model: Teachable, parts: Sequence[Part]) -> None:
     """Weigh what lessons tell of words that they did not settle, landmarks' above all, and train."""
     for part in parts:
+        said = {word for node in part.noun.walk() for word in (node.phrase.noun, node.phrase.color)}
+        if said - {None} <= model.learner.settled:
+            continue
         told = replace(part.world, meant=part.targets)
         solution = model.solve(part.noun, told)
         taught = Experience(certain=True, taught=True, source="lesson")
