@@ -11,8 +11,8 @@ import pytest
 from episode_making import COLORS, episode, write
 from making import typed
 
-from dcg_torch import __main__ as experiment
 from dcg_torch import evaluate
+from dcg_torch.cli import commands
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
@@ -65,7 +65,7 @@ def test_evaluate_and_experiment_make_the_same_model(tmp_path: Path, capsys: pyt
     runs = {
         "evaluate": (evaluate.main, [f"test={test}"]),
         "experiment": (
-            experiment.main,
+            commands.main,
             ["simulator=fake", "trials=1", "iterations=1", "workers=1", "figures=false", "tensorboard=false"],
         ),
     }
