@@ -145,6 +145,15 @@ class TestLines17And18:
         assert reason is not None
         assert "not grounded" in reason
 
+    def test_line_17_a_stale_solution_teaches_no_second_word(self, pupil: Pupil) -> None:
+        """Grounded before the thing was named by another word."""
+        model = pupil()
+        world = saw(model, "red cube", "blue drill")
+        one, other = (model.ground(command_tree(word), world) for word in ("gizmo", "gadget"))
+        assert model.learn(one).symbol == Symbol("gizmo", "drill", "blue", None)
+        assert model.learn(other).reason == "the object meant is of a known type, 'drill'"
+        assert "gadget" not in model.symbols
+
     def test_line_18_the_symbol_keeps_word_type_and_colors(self, trained: GroundingModel) -> None:
         assert self.lesson(trained, "gizmo", "1 blue drill", "azure")[0] == Symbol("gizmo", "drill", "blue", "azure")
 

@@ -43,7 +43,9 @@ def trial(
     model: GroundingModel, parser: Parser, *commands: tuple[str, str, str], world: World = WORLD
 ) -> list[tuple[Iteration, Timing]]:
     """The rows of (text, noun, target) commands in one world."""
-    given = [Command(world, text, noun, None, target) for text, noun, target in commands]
+    given = [
+        Command(world, text, noun, None, target, away=text.startswith("stay away")) for text, noun, target in commands
+    ]
     return list(run_trial(7, given, model, parser.parse, FakeRobot(), np.random.default_rng(0)))
 
 

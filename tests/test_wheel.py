@@ -19,7 +19,8 @@ ROOT = Path(__file__).resolve().parent.parent
 def data_files() -> set[str]:
     """What has to come along besides Python code, by its place in the wheel."""
     found = {f"dcg_torch/_data/{p.relative_to(ROOT)}" for n in ("conf", "worlds") for p in (ROOT / n).rglob("*.yaml")}
-    return found | {str(p.relative_to(ROOT)) for e in ("yaml", "urdf") for p in (ROOT / "dcg_torch").rglob(f"*.{e}")}
+    package = [p for p in (ROOT / "dcg_torch").rglob("*") if p.is_file() and "__pycache__" not in p.parts]
+    return found | {str(p.relative_to(ROOT)) for p in package if p.suffix not in (".py", ".pyc")}
 
 
 def test_the_makefile_pins_the_torch_of_the_project() -> None:
@@ -52,7 +53,9 @@ def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_the_wheel_holds_configuration_worlds_and_models(built: Path) -> None:
     (wheel,) = built.glob("*.whl")
     names = set(zipfile.ZipFile(wheel).namelist())
-    assert data_files() <= names
+    wanted = data_files()
+    assert {"dcg_torch/py.typed", "dcg_torch/model/shipped/model.json"} <= wanted
+    assert wanted <= names
     assert any(name.startswith("dcg_torch/_data/worlds/hardware/") for name in names)
     assert not any(name.startswith(("tests/", "runs/")) for name in names)
 
@@ -91,6 +94,16 @@ def test_the_installed_wheel_runs_from_any_directory(experiment: str, built: Pat
     where = [sys.executable, "-c", "import dcg_torch.storage.resources as r; print(r.__file__, r.resource('conf'))"]
     found = subprocess.run(where, check=True, capture_output=True, text=True, cwd=elsewhere, env=environment).stdout
     assert all(path.startswith(str(site)) for path in found.split())
+    pretrained = "import dcg_torch; print(dcg_torch.pretrained().known_types[0])"
+    said = subprocess.run(
+        [sys.executable, "-c", pretrained],
+        capture_output=True,
+        text=True,
+        cwd=elsewhere,
+        env=environment,
+        check=False,
+    )
+    assert said.stdout == "cube\n", said.stderr
     done = subprocess.run(
         [sys.executable, "-m", "dcg_torch", f"experiment={experiment}", "simulator=fake", "animate=[]"],
         capture_output=True,

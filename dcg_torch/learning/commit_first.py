@@ -128,7 +128,7 @@ def unsupervised_training(solution: Solution) -> list[Example]:
     ]
 
 
-def new_symbol(solution: Solution, symbols: Collection[str]) -> tuple[Symbol | None, str | None]:
+def new_symbol(solution: Solution, symbols: Mapping[str, Symbol]) -> tuple[Symbol | None, str | None]:
     """gamma': the symbol to learn, if an unknown noun met a perceived object of unknown type (lines 17 and 18).
 
     Returns:
@@ -143,7 +143,7 @@ def new_symbol(solution: Solution, symbols: Collection[str]) -> tuple[Symbol | N
         return None, f"{noun.noun!r} is known already"
     if obj.hypothetical or obj.type is None:
         return None, "what is meant has not been seen"
-    if obj.known:
+    if obj.known or any(s.type == obj.type for s in symbols.values()):  # named since the solution was made, perhaps
         return None, f"the object meant is of a known type, {obj.type!r}"
     return Symbol(noun.noun, obj.type, obj.color, noun.color), None
 
