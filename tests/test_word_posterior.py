@@ -182,7 +182,7 @@ def test_growth_leaves_every_probability_as_it_was(pupil_of: Pupil) -> None:
     before = [model.ground(tree, world).probabilities for tree in trees]
     features = model.features.grow(Symbol("pyramid", "wug")).name_color("mauve", "c9")
     assert features.shape > model.features.shape
-    model._grow(features)
+    model.grow(features)
     assert [model.ground(tree, world).probabilities for tree in trees] == before
 
 
