@@ -65,7 +65,7 @@ def test_contexts_say_what_is_done_and_what_is_compared() -> None:
 
 
 def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> None:
-    """Psi(object) = slip + (1 - slip) sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark), by plain sums."""
+    """Psi(object) = slip + (1 - slip) sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark)."""
     world = cubes(("red", "cube", 2, 0), ("red", "cube", 2, 2), ("blue", "sphere", 3, 2), ("blue", "cylinder", 5, -1))
     tree = to_factor_tree(go_to(np_("cube", "red", pp("next to", np_("sphere")))))
     noun = tree.children[0].children[0]
