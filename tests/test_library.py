@@ -208,7 +208,6 @@ class TestATeacher:
         assert "zorp" not in {entry.word for entry in model.lexicon()}
         assert "zorp" not in model.symbols
 
-    @pytest.mark.xfail(strict=True, reason="a world keeps what was known when it was made; ground does not renew it")
     def test_a_world_from_before_the_lesson_will_do(self, model: GroundingModel, world: WorldModel) -> None:
         assert model.tell("that is called a beaker", world, pointing_at="m1")
         found = model.ground("go to the beaker", world).object

@@ -5,13 +5,13 @@ from __future__ import annotations
 import copy
 import functools
 import json
-from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
+from making import Read, command_tree
 
 from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.explore import LookBefore, Worth
@@ -43,28 +43,11 @@ def words_of(model: GroundingModel) -> WordPosterior:
     return model.learner
 
 
-@dataclass(frozen=True)
-class Reading:
-    tree: ParseTree | None
-    problem: str | None
-    noun: str | None
-    color: str | None
-    text: str = ""
-    log_weight: float = 0.0
-
-    @property
-    def readings(self) -> Sequence[Any]:
-        return () if self.tree is None else (self,)
-
-
-def read(text: str, vocabulary: Collection[str] = ()) -> Reading:
+def read(text: str, vocabulary: Collection[str] = ()) -> Read:
     """Reads "go to the [colour] noun", without the language room."""
     words = text.split(" the ", 1)[1].split()
     color = words.pop(0) if words[0] in (*COLORS, "mauve") else None
-    noun = " ".join(words)
-    thing = ParseTree(Phrase(PhraseKind.NOUN, noun, noun=noun, color=color))
-    to = ParseTree(Phrase(PhraseKind.PREPOSITION, "to", ("to",)), (thing,))
-    return Reading(ParseTree(Phrase(PhraseKind.VERB, "go", ("go",)), (to,)), None, noun, color)
+    return Read(command_tree(" ".join(words), color))
 
 
 def thing(id_: str, type_: str, color: str = "red") -> Percept:

@@ -14,8 +14,8 @@ from dcg_torch.agent.asking import AskingPolicy, Listener, Question, Reply, cand
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.learning.learner import Experience
-from dcg_torch.model.spoken import ReadCommand
 from dcg_torch.types import DriveResult, ParseTree, Percept, Pose, WorldModel
 
 
@@ -143,7 +143,7 @@ def carry_out(
     by default that is the paper's, which turns in place while the grounding is hypothetical (line 13). Then the
     robot may ask back. A grounding that is still hypothetical is not acted on: what is meant is not there.
 
-    The model does not learn here; give it the outcome for that: `model.learn(outcome.solution, outcome.scene(text))`.
+    The model does not learn here; give it the outcome for that: `model.learn(outcome.solution, outcome.experience(text))`.
 
     Args:
         parse: reads the command; None: the parser of `dcg_torch.language`.

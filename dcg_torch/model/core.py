@@ -21,17 +21,17 @@ from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import NEGLIGIBLE, looking, sum_over
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
 from dcg_torch.learning.trainable import rows_mask, taught_mask
-from dcg_torch.model.spoken import ReadCommand
 from dcg_torch.model.teach import RELATION_L2, teach
 from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
-from dcg_torch.scene.upsilon import world_model
+from dcg_torch.scene.upsilon import with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_groups, with_places
 from dcg_torch.types import (
     LOOKED_ROUND,
@@ -141,6 +141,7 @@ class GroundingModel:
             command: what was said, its parse tree, or what a parser made of it: of several readings the world decides.
             world: of `world_model`.
         """
+        world = with_known(world, self.known_types)
         if isinstance(command, ParseTree):
             return self._ground(command, world)
         if isinstance(command, str):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from dataclasses import replace
 
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
@@ -30,6 +31,14 @@ def perceive_objects(
         for p in percepts
     )
     return [o for o in seen if o.known or unknown]
+
+
+def with_known(world: WorldModel, known_types: Collection[str]) -> WorldModel:
+    """A world with every object known or not as it is by now: one from before a lesson will do."""
+    known = set(known_types)
+    if all(o.known == (o.type in known) for o in world.objects):
+        return world
+    return replace(world, objects=tuple(replace(o, known=o.type in known) for o in world.objects))
 
 
 def hypothesize_objects(known_types: Iterable[str], attributes: frozenset[str] = frozenset()) -> list[Object]:
