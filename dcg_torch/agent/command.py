@@ -143,7 +143,7 @@ def carry_out(
     by default that is the paper's, which turns in place while the grounding is hypothetical (line 13). Then the
     robot may ask back. A grounding that is still hypothetical is not acted on: what is meant is not there.
 
-    The model does not learn here; give it the outcome for that: `model.learn(outcome.solution, outcome.experience(text))`.
+    The model does not learn here; `model.learn(outcome.solution, outcome.experience(text))` gives it the outcome.
 
     Args:
         parse: reads the command; None: the parser of `dcg_torch.language`.

@@ -69,7 +69,7 @@ def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: 
         sure = (found.probability or 0.0) >= _SURE
         meant = [o for o in found.objects if not o.hypothetical] if sure else []
     if len(meant) != 1 or meant[0].type is None:
-        there = "no object here fits that well enough" if not meant else "it is not clear which one is meant"
+        there = "there is no such object here" if not meant else "it is not clear which one is meant"
         return Told(said.name, problem=f"{there}: {said.subject or pointing_at}")
     return Told(said.name, meant[0].type, meant[0].id)
 
