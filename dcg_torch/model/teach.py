@@ -16,7 +16,7 @@ from dcg_torch.types import Example, Symbol
 if TYPE_CHECKING:
     from dcg_torch.model.core import GroundingModel as Teachable
 
-RELATION_L2 = 0.2
+RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
 _ON_THE_WAY, _SETTLED = 75, 300
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
