@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
-from dcg_torch.grounding.features import FeatureSet, Group, fact_odds
+from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
@@ -35,7 +35,6 @@ from dcg_torch.scene.upsilon import with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_groups, with_places
 from dcg_torch.types import (
     LOOKED_ROUND,
-    Correspondence,
     Example,
     ParseTree,
     Percept,
@@ -89,7 +88,8 @@ class GroundingModel:
             features = features.include(nouns=group_nouns())
         features = learner.columns(features)
         model = cls(variant, features, LogLinearFactor(features.pairs, TERNARY if variant.ternary else BINARY), learner)
-        model._know_names()
+        if Group.NAMES in variant.groups:
+            give_odds(model.factor, features)
         model.train()
         if relations:
             model.fit_weights(model._encoded(place_examples()), free=taught_mask(features), l2=RELATION_L2)
@@ -268,18 +268,6 @@ class GroundingModel:
             rounds=rounds,
             progress=progress,
         )
-
-    def _know_names(self) -> None:
-        """Give the facts between words and the names of classes, colours and attributes their odds."""
-        if Group.NAMES not in self.variant.groups:
-            return
-        weight = self.factor.weight.numpy().copy()
-        sign = np.array([0.5 if c is Correspondence.ACTIVE else -0.5 for c in self.factor.correspondences])
-        for fact, odds in fact_odds().items():
-            column = self.features.grounding[fact]
-            rows = np.flatnonzero(self.features.pairs[:, column])
-            weight[:, rows, column] = (sign * odds)[:, None]
-        self.factor.set_weight(weight)
 
     def save(self, directory: Path | str) -> None:
         """Write the model into a folder, which is made if need be; `dcg_torch.load` reads it."""

@@ -17,6 +17,7 @@ feature instead. Columns are only ever appended, so old indices stay valid.
 """
 
 from dcg_torch.grounding.features.columns import FeatureSet
+from dcg_torch.grounding.features.given import give_odds
 from dcg_torch.grounding.features.names import (
     GROUNDING_OF,
     PAIRS,
@@ -27,7 +28,7 @@ from dcg_torch.grounding.features.names import (
     child_feature,
     ranking,
 )
-from dcg_torch.grounding.features.said import Said, fact_odds
+from dcg_torch.grounding.features.said import Said
 
 __all__ = [
     "GROUNDING_OF",
@@ -39,6 +40,6 @@ __all__ = [
     "Ranking",
     "Said",
     "child_feature",
-    "fact_odds",
+    "give_odds",
     "ranking",
 ]
