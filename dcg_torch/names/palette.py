@@ -14,7 +14,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from matplotlib.colors import CSS4_COLORS, XKCD_COLORS, to_rgb
 from numpy.typing import NDArray
 
 from dcg_torch.names.normal import normalise, read_data
@@ -64,6 +63,8 @@ class Region:
 @functools.cache
 def listed_colors() -> dict[str, tuple[float, float, float]]:
     """Every listed name in normal form, and its colour in CIELAB; the survey's names go before those of CSS."""
+    from matplotlib.colors import CSS4_COLORS, XKCD_COLORS, to_rgb  # here: only unknown colours need it
+
     named = {normalise(name): code for name, code in CSS4_COLORS.items()}
     named |= {normalise(name.removeprefix("xkcd:")): code for name, code in XKCD_COLORS.items()}
     values = lab(255.0 * np.array([to_rgb(code) for code in named.values()]))
