@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
+CORPUS_L2 = 0.2
+"""Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
 _ON_THE_WAY, _SETTLED = 75, 300
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
 landmarks move it anyway."""
@@ -41,7 +43,7 @@ def teach(
     else:
         # What was known before gives way to as much evidence as any.
         model.prior = model.factor.weight.numpy().copy()
-        always, free, l2 = path_examples(lessons), None, model.variant.l2
+        always, free, l2 = path_examples(lessons), None, CORPUS_L2
     kept = rows_of(always, model.features)
 
     def fit_once(rows: list[Rows], last: bool) -> None:
