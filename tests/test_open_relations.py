@@ -33,7 +33,7 @@ ROBOT = Pose(0.0, 0.0, 0.0)
 def taught() -> GroundingModel:
     variant = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, beam=12)
     model = train_open_world(initial_training(), variant, lessons=0, assumed=Assumptions())
-    model.teach(relational_lessons(400), relations_only=True, rounds=2)
+    model.teach(relational_lessons(1000), relations_only=True, rounds=2)  # as many as the shipped model had
     return model
 
 
