@@ -1,7 +1,7 @@
 """An experiment: trials in parallel, journalled so that an interrupted run can go on.
 
-What a trial needs (torch, spaCy, PyBullet) is imported by `worker`, in the processes that run trials; here it would
-only delay their start.
+What a trial needs (torch, the parser, PyBullet) is imported by `worker`, in the processes that run trials; here it
+would only delay their start.
 
 Every trial writes a line to `trials/NNNN.jsonl` as each of its commands ends, and is independent of all others:
 its random numbers come from (seed, trial) alone. `iterations.jsonl` and `timings.jsonl` are these lines in the

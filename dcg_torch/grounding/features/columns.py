@@ -107,14 +107,6 @@ class FeatureSet:
             [*((Group.DCG, f"type: {t}") for t in types), *of_colors],
         )
 
-    def joined(self, other: FeatureSet) -> FeatureSet:
-        """With the columns of another set of the same groups, behind its own."""
-        language, grounding = dict(self.language), dict(self.grounding)
-        for table, names in ((language, other.language), (grounding, other.grounding)):
-            for name in names:
-                table.setdefault(name, len(table))
-        return FeatureSet(self.groups, language, grounding)
-
     def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
         language, grounding = dict(self.language), dict(self.grounding)
         for table, features in ((language, languages), (grounding, groundings)):
