@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, NEAREST, NEXT, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
 
 AXES = (
@@ -15,7 +16,7 @@ AXES = (
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
     *(f"state: {s}" for s in ("beside something", "held", "in a row")),
-    *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", "row", "stack", "cluster")),
+    *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", ROW, STACK, CLUSTER, ACROSS, ALONG)),
     *(f"part: of {n}" for n in range(2, 11)),
 ]
 """The states of objects, and what places and groups are, that are always features; further attributes of objects become
