@@ -12,7 +12,8 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from dcg_torch.geometry import from_robot_frame, to_robot_frame
-from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS, NEXT, SAME_SPOT, Bools, Floats
+from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS, Bools, Floats
+from dcg_torch.scene.neighbours import NEXT, SAME_SPOT
 from dcg_torch.types import Object, Pose
 
 Bounds = tuple[float, float, float, float]

@@ -11,7 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.layout import NEAREST, ONE_LEVEL, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
+from dcg_torch.scene.order import TIE, Alike
+from dcg_torch.scene.order import before as lower
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """The bounds of the distance features, in units of the world."""
@@ -57,7 +60,7 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
-    found = _families(where, [tuple(of) for of in landmarks], where.alike[among])
+    found = _families(where, [tuple(of) for of in landmarks], where.alike(among))
     shape = (len(landmarks), len(where.things))
     columns = [
         np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((1, 1), -1) for f in RELATIONS
@@ -65,7 +68,7 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
     return np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
 
 
-def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools) -> dict[str, Ints]:
+def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike) -> dict[str, Ints]:
     """family -> (c, n) number of the value that fires, -1 for none; a family that fires nowhere may be missing."""
     first = np.array([of[0] for of in landmarks], dtype=np.int64)
     position = where.position
@@ -111,8 +114,9 @@ def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: 
         [VERTICAL.index(name) for name in ("higher over", "on top", "lower under", "right under", "above", "below")],
         VERTICAL.index("level"),
     )
-    on_ground = np.where(where.over.any(axis=1), VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
-    value = np.where(where.ground[first][:, None], on_ground, value)
+    if where.ground[first].any():
+        on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
+        value = np.where(where.ground[first][:, None], on_ground, value)
     out: Ints = np.where(exists & (where.solid | where.ground)[first][:, None], value, -1)
     return out
 
@@ -140,7 +144,7 @@ def _sector(angle: Floats) -> Ints:
     return np.round(np.nan_to_num(angle) / (math.pi / 4)).astype(np.int64) % 8
 
 
-def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Bools) -> dict[str, Ints]:
+def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> dict[str, Ints]:
     """The closest and the farthest of those alike; in a direction, the one that is farthest that way."""
     heading = np.nan_to_num(where.heading[first])
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
@@ -149,9 +153,8 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     found = {}
     for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
         signed = np.where(exists, sign * value, math.inf)
-        less = signed[:, None, :] < signed[:, :, None] - TIE
-        before = (less & alike[None]).sum(axis=2)
-        compared = exists & alike.any(axis=1, keepdims=True).T & (before < named)
+        before = lower(signed, alike, named)
+        compared = exists & (alike.code >= 0) & (before < named)
         found[order] = np.where(compared, before, -1)
     return found
 
@@ -188,8 +191,9 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
     for c, g in enumerate(first):
         if not where.group[g]:
             continue
-        inside = np.flatnonzero(where.member[g])
-        found["member"][c] = np.where(where.member[g], 0, 1)
+        inside = np.sort(where.members[int(g)])
+        found["member"][c] = 1
+        found["member"][c, inside] = 0
         height = where.position[inside, 2]
         found["member top"][c, inside] = np.where(height > height.max() - TIE, 0, 1)
         reach = np.linalg.norm(where.position[inside] - where.position[g], axis=1)
