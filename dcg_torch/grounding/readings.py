@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.graph import Search
 from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.scene.workspace import with_groups

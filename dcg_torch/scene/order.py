@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -19,7 +19,7 @@ TIE = 1e-6
 _FEW = 64
 """Things up to which each is held against each."""
 _SORTED = 8
-"""Places to count to from which it pays to search them instead of going through them."""
+"""Places that are counted to one by one; beyond, they are searched."""
 
 
 @dataclass(frozen=True)
@@ -71,28 +71,50 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
         values: (r, n); what is NaN comes before nothing, and nothing before it.
 
     Returns:
-        (r, n); 0 for what is in no class. A count of `most` means as many or more.
+        (r, n); 0 for what is in no class. A count of `most` or more means as many or more.
     """
     if values.shape[1] <= _FEW:
         with np.errstate(invalid="ignore"):
             less = values[:, None, :] < values[:, :, None] - TIE
-        few: Ints = np.minimum((less & alike.table[None]).sum(axis=2), most)
+        few: Ints = (less & alike.table[None]).sum(axis=2)
         return few
-    out = np.zeros(values.shape, dtype=np.int64)
-    for members, asking in zip(alike.members, alike.asking, strict=True):
-        if len(members) and len(asking):
-            out[:, asking] = _counted(values[:, members], values[:, asking], most)
+    with np.errstate(invalid="ignore"):
+        bound = values - TIE
+        if most > _SORTED:
+            return _searched(values, bound, alike)
+        out = np.zeros(values.shape, dtype=np.int64)
+        for lowest in _lowest(values, alike, most):
+            out += lowest[:, alike.code] < bound
     return out
 
 
-def _counted(values: Floats, asking: Floats, most: int) -> Ints:
-    """(r, m') how many of values (r, m) are lower than each that asks (r, m')."""
-    least = values if values.shape[1] <= most else np.partition(values, most - 1, axis=1)[:, :most]  # NaN goes last
-    with np.errstate(invalid="ignore"):
-        bound = asking - TIE
-        if least.shape[1] <= _SORTED:
-            found: Ints = sum(((v[:, None] < bound) for v in least.T), np.zeros(bound.shape, dtype=np.int64))
-            return found
-    ordered = np.sort(least, axis=1)
-    searched = np.stack([np.searchsorted(own, b, side="left") for own, b in zip(ordered, bound, strict=True)])
-    return np.where(np.isnan(bound), 0, searched)
+def _lowest(values: Floats, alike: Alike, most: int) -> Iterator[Floats]:
+    """(r, classes + 1) the lowest value of each class, then the next ...; the last column is of what has no class."""
+    sizes = [len(members) for members in alike.members]
+    there = np.flatnonzero(sizes)
+    found = np.full((len(values), len(sizes) + 1), np.inf)
+    if not len(there):
+        return
+    inside = np.concatenate([alike.members[k] for k in there.tolist()])
+    counts = np.array(sizes)[there]
+    starts = np.cumsum(counts) - counts
+    left = values[:, inside]
+    left[np.isnan(left)] = np.inf
+    rows, numbers = np.arange(len(values))[:, None], np.arange(len(inside))
+    for _ in range(most):
+        lowest = np.minimum.reduceat(left, starts, axis=1)
+        found[:, there] = lowest
+        yield found
+        here = np.where(left == np.repeat(lowest, counts, axis=1), numbers, len(inside))
+        left[rows, np.minimum.reduceat(here, starts, axis=1)] = np.inf
+
+
+def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
+    """As `before`, however many come before."""
+    out = np.zeros(values.shape, dtype=np.int64)
+    for members, asking in zip(alike.members, alike.asking, strict=True):
+        if len(members) and len(asking):
+            ordered = np.sort(values[:, members], axis=1)  # NaN goes last
+            out[:, asking] = [np.searchsorted(v, b) for v, b in zip(ordered, bound[:, asking], strict=True)]
+    out[np.isnan(bound)] = 0
+    return out

@@ -26,6 +26,8 @@ _STEP = 2.0
 """Neighbours in a row are at most so many times as far apart as the nearest ones."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
+_CHUNK = 1024
+"""Steps that are looked at together."""
 _MOST = 12
 """Groups of one kind that are kept: the largest."""
 
@@ -128,18 +130,19 @@ def _rows(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
     level = np.abs(offset[..., 2]) < SAME_SPOT
     apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
     nearest = apart.min(axis=1)
-    follow = np.full((len(points), len(points)), -1, dtype=np.int64)  # (i, j) -> the one after j
     steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
-    for i, j in steps:
-        miss = np.linalg.norm(points - (points[j] + offset[i, j]), axis=1)
-        best = int(miss.argmin())
-        if miss[best] < _UNEVEN * apart[i, j]:
-            follow[i, j] = best
-    for i, j in steps:
-        if follow[i, j] < 0 or follow[j, i] >= 0:
-            continue  # no row, or this is not its end
-        run = [int(i), int(j)]
-        while (after := int(follow[run[-2], run[-1]])) >= 0 and after not in run:
+    follow: dict[tuple[int, int], int] = {}  # (i, j) -> the one after j
+    for part in np.split(steps, range(_CHUNK, len(steps), _CHUNK)):
+        i, j = part.T
+        miss = np.linalg.norm(points[None] - (points[j] + offset[i, j])[:, None], axis=2)
+        best = miss.argmin(axis=1)
+        due = miss[np.arange(len(part)), best] < _UNEVEN * apart[i, j]
+        follow.update(zip(map(tuple, part[due].tolist()), best[due].tolist(), strict=True))
+    for i, j in follow:
+        if (j, i) in follow:
+            continue  # this is not an end of the row
+        run = [i, j]
+        while (after := follow.get((run[-2], run[-1]))) is not None and after not in run:
             run.append(after)
         if run[0] < run[-1]:
             yield frozenset(among[k] for k in run)

@@ -61,11 +61,12 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
     found = _families(where, [tuple(of) for of in landmarks], where.alike(among))
-    shape = (len(landmarks), len(where.things))
-    columns = [
-        np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((1, 1), -1) for f in RELATIONS
-    ]
-    return np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
+    out = np.full((len(landmarks), len(where.things), len(RELATIONS)), -1, dtype=np.int16)
+    for k, (family, start) in enumerate(_START.items()):
+        if family in found:
+            out[:, :, k] = found[family]
+            out[:, :, k] += start * (out[:, :, k] >= 0)
+    return out
 
 
 def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike) -> dict[str, Ints]:
@@ -76,7 +77,8 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     flat = offset[..., :2]
     half = where.half[first][:, None, :]
     with np.errstate(invalid="ignore"):
-        flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
+        if half.any():
+            flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
         distance = np.hypot(flat[..., 0], flat[..., 1])
     exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
     solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
@@ -100,20 +102,20 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     return found
 
 
-def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
-    same = distance < SAME_SPOT
-    value = np.select(
-        [
-            same & (up > ONE_LEVEL),
-            same & (up > 0.01),
-            same & (up < -ONE_LEVEL),
-            same & (up < -0.01),
-            up > 0.01,
-            up < -0.01,
-        ],
-        [VERTICAL.index(name) for name in ("higher over", "on top", "lower under", "right under", "above", "below")],
-        VERTICAL.index("level"),
+_OVER, _BESIDE = (
+    np.array([VERTICAL.index(name) for name in names])
+    for names in (
+        ("level", "on top", "higher over", "lower under", "right under"),
+        ("level", "above", "above", "below", "below"),
     )
+)
+"""Values of "vertical" for what is on the landmark's spot and what is not; an index below 0 counts from the end."""
+
+
+def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
+    # From -2, far below, to 2, far above; 0 is on a level.
+    step = (up > 0.01).astype(np.int64) + (up > ONE_LEVEL) - (up < -0.01) - (up < -ONE_LEVEL)
+    value = np.where(distance < SAME_SPOT, _OVER[step], _BESIDE[step])
     if where.ground[first].any():
         on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
         value = np.where(where.ground[first][:, None], on_ground, value)
@@ -127,21 +129,23 @@ def _sides(where: Layout, first: Ints, flat: Floats, aside: Bools) -> dict[str, 
     bearing = np.arctan2(flat[..., 1], flat[..., 0])
     mark = where.position[first, :2]
     away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    found = {"side": np.where(sided, _sector(bearing), -1)}
-    found["side seen"] = np.where(sided & away, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None]), -1)
+    seen = sided & away
+    found = {"side": np.where(sided, _sector(bearing, sided), -1)}
+    found["side seen"] = np.where(seen, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None], seen), -1)
     if where.speaker is not None:
         view = mark - where.speaker
         near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
         view[near] = where.middle - where.speaker
-        found["side spoken"] = np.where(sided, _sector(bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]), -1)
+        spoken = bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]
+        found["side spoken"] = np.where(sided, _sector(spoken, sided), -1)
     across, along = np.abs(flat[..., 1]) < SAME_SPOT, np.abs(flat[..., 0]) < SAME_SPOT
     found["line"] = np.where(sided & along, 0, np.where(sided & across, 1, -1))
     return found
 
 
-def _sector(angle: Floats) -> Ints:
-    """Which of the eight `SECTORS`, as seen by who looks along angle 0."""
-    return np.round(np.nan_to_num(angle) / (math.pi / 4)).astype(np.int64) % 8
+def _sector(angle: Floats, kept: Bools) -> Ints:
+    """Which of the eight `SECTORS`, as seen by who looks along angle 0; any for what is not kept."""
+    return np.round(np.where(kept, angle, 0.0) / (math.pi / 4)).astype(np.int64) % 8
 
 
 def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> dict[str, Ints]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -229,7 +230,8 @@ class FeatureSet:
 
     def _columns(self, names: Iterable[str]) -> list[int]:
         """Each once, in the order of the columns."""
-        return sorted({self.grounding[name] for name in names if name in self.grounding})
+        number = self.grounding.get
+        return sorted({column for name in names if (column := number(name)) is not None})
 
     def encode_placed(
         self, where: scene.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None
@@ -295,7 +297,5 @@ class FeatureSet:
 
 def padded(rows: Sequence[Sequence[int]]) -> Bag:
     """Rows of columns as one array, padded with -1."""
-    bag = np.full((len(rows), max(map(len, rows), default=0)), -1, dtype=np.int64)
-    for row, columns in zip(bag, rows, strict=True):
-        row[: len(columns)] = columns
-    return bag
+    filled = list(itertools.zip_longest(*rows, fillvalue=-1))
+    return np.array(filled, dtype=np.int64).reshape(len(filled), len(rows)).T.copy()
