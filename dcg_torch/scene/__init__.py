@@ -9,7 +9,7 @@ relations   to a landmark: above, beside, at which distance and on which side, c
 from dcg_torch.scene.groups import groups
 from dcg_torch.scene.layout import Layout, layout
 from dcg_torch.scene.places import Bounds, places, scene_bounds
-from dcg_torch.scene.ranks import RANKS, STATES, ranks, states
+from dcg_torch.scene.ranks import RANKS, STATES, ranks, state_signatures, states
 from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, relations
 
 __all__ = [
@@ -25,5 +25,6 @@ __all__ = [
     "ranks",
     "relations",
     "scene_bounds",
+    "state_signatures",
     "states",
 ]

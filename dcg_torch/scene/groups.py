@@ -14,7 +14,8 @@ from scipy.cluster.hierarchy import linkage
 from scipy.sparse.csgraph import connected_components
 
 from dcg_torch.geometry import to_robot_frame
-from dcg_torch.scene.layout import SAME_SPOT, Bools, Floats
+from dcg_torch.scene.layout import Bools, Floats
+from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types import Object, Pose
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"
@@ -30,6 +31,8 @@ _MOST = 12
 """Groups of one kind that are kept: the largest."""
 _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
+_CHUNK = 1024
+"""Steps that are looked at together."""
 _APART = 1.25
 """A group's nearest neighbour is at least so many times as far as its members are from one another."""
 
@@ -96,18 +99,19 @@ def _even_rows(points: Floats) -> Iterable[list[int]]:
     level = np.abs(offset[..., 2]) < SAME_SPOT
     apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
     nearest = apart.min(axis=1)
-    follow = np.full((len(points), len(points)), -1, dtype=np.int64)  # (i, j) -> the one after j
     steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
-    for i, j in steps:
-        miss = np.linalg.norm(points - (points[j] + offset[i, j]), axis=1)
-        best = int(miss.argmin())
-        if miss[best] < _UNEVEN * apart[i, j]:
-            follow[i, j] = best
-    for i, j in steps:
-        if follow[i, j] < 0 or follow[j, i] >= 0:
-            continue  # no row, or this is not its end
-        run = [int(i), int(j)]
-        while (after := int(follow[run[-2], run[-1]])) >= 0 and after not in run:
+    follow: dict[tuple[int, int], int] = {}  # (i, j) -> the one after j
+    for part in np.split(steps, range(_CHUNK, len(steps), _CHUNK)):
+        i, j = part.T
+        miss = np.linalg.norm(points[None] - (points[j] + offset[i, j])[:, None], axis=2)
+        best = miss.argmin(axis=1)
+        due = miss[np.arange(len(part)), best] < _UNEVEN * apart[i, j]
+        follow.update(zip(map(tuple, part[due].tolist()), best[due].tolist(), strict=True))
+    for i, j in follow:
+        if (j, i) in follow:
+            continue  # this is not an end of the row
+        run = [i, j]
+        while (after := follow.get((run[-2], run[-1]))) is not None and after not in run:
             run.append(after)
         if run[0] < run[-1]:
             yield run
