@@ -89,7 +89,8 @@ class Statistics:
     def _of_examples(self, plain: Sequence[tuple[Example, Ints, Floats]], at: Sequence[int]) -> _Counted:
         codes = np.concatenate([np.zeros(0, dtype=np.int64), *(own for _, own, _ in plain)])
         weights = np.concatenate([np.zeros(0), *(own for _, _, own in plain)])
-        count = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).reshape(-1, _LABELS).T
+        total: Floats = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).astype(np.float64)
+        count = total.reshape(-1, _LABELS).T
         pairs = np.array(list(self._pairs), dtype=np.int64).reshape(-1, 2)
         used: Ints = np.flatnonzero(count.any(axis=0))
         return pairs[used, 0], pairs[used, 1], count[at][:, used]
