@@ -60,6 +60,14 @@ class Statistics:
         self._objects: dict[Object, int] = {}
         self._of_phrase: dict[int, Ints] = {}
 
+    def copy(self) -> Statistics:
+        """Another that knows the same, and goes its own way from here."""
+        other = Statistics(self._groups)
+        other._phrases, other._seen = self._phrases.copy(), self._seen.copy()
+        other._pairs, other._kept, other._objects = dict(self._pairs), dict(self._kept), dict(self._objects)
+        other._of_phrase = {phrase: seen.copy() for phrase, seen in self._of_phrase.items()}
+        return other
+
     def designs(
         self,
         examples: Iterable[Example],
@@ -162,6 +170,13 @@ class _Columns:
         self._open: list[int] = []
         self._done = 0
         self._features: FeatureSet | None = None
+
+    def copy(self) -> _Columns:
+        """Another with the same keys."""
+        other = _Columns()
+        other.keys, other._number, other._bag = list(self.keys), dict(self._number), self._bag.copy()
+        other._open, other._done, other._features = self._open, self._done, self._features
+        return other
 
     def number(self, key: Hashable) -> int:
         """Its row."""

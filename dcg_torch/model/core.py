@@ -34,14 +34,7 @@ from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
 from dcg_torch.scene.upsilon import with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_groups, with_places
-from dcg_torch.types import (
-    LOOKED_ROUND,
-    ParseTree,
-    Percept,
-    Pose,
-    Symbol,
-    WorldModel,
-)
+from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
 
 
 class GroundingModel:
@@ -96,6 +89,15 @@ class GroundingModel:
             designs = encode(place_examples(), features, model.factor.correspondences)
             model.fit_weights(designs, free=taught_mask(features), l2=RELATION_L2)
         return model
+
+    def copy(self) -> GroundingModel:
+        """A model that is like this one, and learns by itself from here."""
+        factor = LogLinearFactor(self.features.pairs, self.factor.correspondences)
+        factor.set_weight(self.factor.weight.detach().clone())
+        other = GroundingModel(self.variant, self.features, factor, self.learner)
+        other.held, other.prior, other.fitted = self.held.copy(), self.prior.copy(), self.fitted
+        other._statistics = self._statistics.copy()
+        return other
 
     @property
     def symbols(self) -> dict[str, Symbol]:
