@@ -120,7 +120,9 @@ class _Builder(NounPhrases):
         # "the cube that is biggest", "the cube, big"
         predicate = self.forced or self.copula or (bare and name not in SETS["sides"])
         ranked = is_superlative(name) and name not in SETS["ordinals"]
-        predicate = name == "alone" or item.words[-1] == "each other" or ranked or (predicate and name not in SETS["adverbs"])
+        predicate = (
+            name == "alone" or item.words[-1] == "each other" or ranked or (predicate and name not in SETS["adverbs"])
+        )
         before_rank = after is not None and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
         if name in SETS["ordinals"] and before_rank:
             predicate = True  # "the cone second from the left", "... second closest to the sphere"

@@ -161,7 +161,7 @@ class GroundingModel:
         if Group.RELATION not in self.variant.groups:
             return self.solve(path_to_object(tree), world)
         first, *others = (
-            self.solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
+            self.solve(to_factor_tree(part, world), with_groups(world) if speaks_of_groups(part) else world)
             for part in coordinated(tree)
         )
         return replace(first, further=tuple(others))
