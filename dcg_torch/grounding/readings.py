@@ -14,7 +14,7 @@ from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.scene.workspace import with_groups
-from dcg_torch.types import ParseTree, PhraseKind
+from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
 NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
@@ -38,6 +38,11 @@ class SharedSearch:
         self._search = Search(encoder, self._tables, beam)
         self._grouped: Search | None = None
         self._solved: dict[tuple[ParseTree, bool], Solution] = {}
+
+    @property
+    def world(self) -> WorldModel:
+        """Upsilon, without groups."""
+        return self._search.encoder.world
 
     def solve(self, tree: ParseTree, *, groups: bool = False) -> Solution:
         """Of a tree of factors.

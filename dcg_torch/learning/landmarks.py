@@ -18,8 +18,9 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, Modified
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.factor_tree import coordinated, is_group, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
+from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
@@ -99,7 +100,7 @@ def parts_of(lesson: Lesson) -> list[Part]:
     found = []
     trees = coordinated(lesson.tree)
     for tree in trees:
-        noun = target_of(to_factor_tree(tree))
+        noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
             world = with_groups(lesson.world) if speaks_of_groups(tree) else lesson.world
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
@@ -138,7 +139,7 @@ def path_examples(lessons: Iterable[Lesson]) -> list[Example]:
     for lesson in lessons:
         if len(lesson.targets) != 1 or len(coordinated(lesson.tree)) != 1:
             continue
-        path, node = [], to_factor_tree(lesson.tree)
+        path, node = [], to_factor_tree(lesson.tree, lesson.world)
         while node.phrase.kind is not PhraseKind.NOUN and node.children:
             path.append(node.phrase)
             node = node.children[0]
@@ -195,7 +196,7 @@ def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Itera
 def _meant(part: Part, solution: Solution) -> list[int] | None:
     """Numbers of the things that a noun phrase means; None where a group is meant that is not seen as one."""
     things = part.world.things
-    if is_group(part.noun.phrase):
+    if in_group(part.noun.phrase):
         return [j for j, o in enumerate(things) if o.members and part.targets == set(o.members)][:1] or None
     return [j for j, o in enumerate(part.world.objects) if o.id in part.targets] or None
 

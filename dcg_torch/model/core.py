@@ -166,7 +166,8 @@ class GroundingModel:
         if Group.RELATION not in self.variant.groups:
             return search.solve(path_to_object(tree))
         first, *others = (
-            search.solve(to_factor_tree(part), groups=speaks_of_groups(part)) for part in coordinated(tree)
+            search.solve(to_factor_tree(part, search.world), groups=speaks_of_groups(part))
+            for part in coordinated(tree)
         )
         return replace(first, further=tuple(others)) if others else first
 
