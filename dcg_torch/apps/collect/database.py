@@ -9,7 +9,7 @@ from __future__ import annotations
 import hashlib
 import secrets
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -161,9 +161,9 @@ class Answers:
             mine = set(session.scalars(select(Written.item).where(Written.person == person)))
             if len(mine) >= self._per_person:
                 return Task(None, len(mine), self._per_person)
-            counts = dict(session.execute(select(Written.item, func.count()).group_by(Written.item)).tuples().all())
+            counts = _counts(session.execute(select(Written.item, func.count()).group_by(Written.item)))
             chosen = one.item
-            if chosen in mine or chosen not in self._items or counts.get(chosen, 0) >= self._per_object:
+            if chosen in mine or chosen not in self._items or counts.get(chosen or "", 0) >= self._per_object:
                 chosen = self._choose(session, person, mine, counts)
                 one.item, one.shown = chosen, time.time()
             return Task(self._items[chosen] if chosen else None, len(mine) + 1, self._per_person)
@@ -171,7 +171,7 @@ class Answers:
     def _choose(self, session: Session, person: str, mine: set[str], counts: Mapping[str, int]) -> str | None:
         """An item of those with the fewest answers, written or being written; which, depends on the person."""
         recent = select(Person.item, func.count()).where(Person.shown > time.time() - _KEPT_FOR, Person.id != person)
-        looked = dict(session.execute(recent.group_by(Person.item)).tuples().all())
+        looked = _counts(session.execute(recent.group_by(Person.item)))
         free = [i for i in self._items if i not in mine and counts.get(i, 0) < self._per_object]
         return min(free, key=lambda i: (counts.get(i, 0) + looked.get(i, 0), _shuffled(person, i)), default=None)
 
@@ -208,6 +208,10 @@ def rows(engine: Engine) -> list[Written]:
     """All commands, in the order in which they were written."""
     with Session(engine, expire_on_commit=False) as session, session.begin():
         return list(session.scalars(select(Written).order_by(Written.id)))
+
+
+def _counts(result: Iterable[Any]) -> dict[str, int]:
+    return {item: number for item, number in result if item is not None}
 
 
 def _shuffled(person: str, item: str) -> bytes:

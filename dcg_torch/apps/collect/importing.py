@@ -102,7 +102,7 @@ def _command(row: Row, text: str, world: World, found: Import) -> WrittenCommand
     if parse.noun is None:
         what = f"without a noun that is found; {_NO_NOUN!r} stands for it"
         found.noted.setdefault(what, []).append(f"{row.line} ({shown(text)})")
-    return WrittenCommand(text=text, target=row.object, noun=parse.noun or _NO_NOUN, color=parse.color)
+    return WrittenCommand(text=text, target=row.object, noun=parse.noun or _NO_NOUN, color=parse.color, away=False)
 
 
 def import_results(source: str, settings: ImportSettings) -> str:

@@ -163,7 +163,8 @@ def _add_task(app: FastAPI, study: Study) -> None:
         task, code = study.answers.task(person), study.answers.code(person)
         if task is None or task.item is not None:
             return RedirectResponse("/task", 303)
-        return HTMLResponse(page("done.html", task=task, code=study.code or code, contact=study.settings.contact))
+        values = {"code": study.code or code, "own": study.code is None, "contact": study.settings.contact}
+        return HTMLResponse(page("done.html", **values))
 
 
 def _valid(key: str | None) -> bool:

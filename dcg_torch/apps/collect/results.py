@@ -42,8 +42,10 @@ def read_results(source: str) -> list[Row]:
     path = Path(source).expanduser()
     if "://" not in source and not _is_sqlite(path):
         return list(_csv_rows(path, read_text(path, "file of results", CollectError, "utf-8-sig")))
-    written = rows(open_database(source if "://" in source else sqlite_url(path)))
-    return [Row(w.id, w.person, w.world, w.object, w.text) for w in written]
+    if (file := source.removeprefix("sqlite:///")) != source and not Path(file).is_file():
+        raise CollectError(f"{source}: no such database")  # SQLite would make one
+    url = source if "://" in source else sqlite_url(path)
+    return [Row(w.id, w.person, w.world, w.object, w.text) for w in rows(open_database(url))]
 
 
 def _is_sqlite(path: Path) -> bool:

@@ -10,7 +10,7 @@ EXAMPLE = "Drive over to the yellow chair."
 LONGEST = 300  # characters
 _FEWEST_WORDS = 2
 _MARKS = re.compile(r"\b(highlighted|yellow ring|ring and arrow|under the arrow)\b")
-_WORD = re.compile(r"[^\W_]+(?:['’][^\W_]+)?")
+_WORD = re.compile(r"[^\W_]+(?:['\u2019][^\W_]+)?")
 
 
 def tidy(text: str) -> str:
