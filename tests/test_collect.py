@@ -9,8 +9,10 @@ from pathlib import Path
 import pytest
 from making import typed
 
-for extra in ("fastapi", "jinja2", "sqlalchemy", "uvicorn", "httpx2"):
-    pytest.importorskip(extra, reason="needs the extra collect, and httpx2 to test its pages")
+pytest.importorskip("fastapi", reason="needs the extra collect, and httpx2")
+pytest.importorskip("sqlalchemy", reason="needs the extra collect, and httpx2")
+pytest.importorskip("uvicorn", reason="needs the extra collect, and httpx2")
+pytest.importorskip("httpx2", reason="needs the extra collect, and httpx2")
 
 from collect_making import WORLDS, Writer, study
 

@@ -10,8 +10,9 @@ from typing import Any
 import pytest
 from making import typed, world_file
 
-for extra in ("fastapi", "jinja2", "sqlalchemy", "uvicorn"):
-    pytest.importorskip(extra, reason="needs the extra collect")
+pytest.importorskip("fastapi", reason="needs the extra collect")
+pytest.importorskip("sqlalchemy", reason="needs the extra collect")
+pytest.importorskip("uvicorn", reason="needs the extra collect")
 
 from browser import chromium, serving
 

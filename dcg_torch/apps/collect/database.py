@@ -15,7 +15,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from sqlalchemy import ForeignKey, String, UniqueConstraint, create_engine, event, func, select
+from sqlalchemy import ForeignKey, QueuePool, String, UniqueConstraint, create_engine, event, func, make_url, select
 from sqlalchemy.engine import Connection, Engine
 from sqlalchemy.exc import IntegrityError, InvalidRequestError, NoSuchModuleError, SQLAlchemyError
 from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column
@@ -71,8 +71,11 @@ def open_database(url: str) -> Engine:
         CollectError: there is no such database, or no driver for it.
     """
     try:
-        engine = create_engine(url, pool_pre_ping=True)
-        if engine.dialect.name == "sqlite":
+        sqlite = make_url(url).get_backend_name() == "sqlite"
+        # SQLite has one writer at a time: a queue for one connection is fair, waiting for SQLite's lock is not.
+        few: dict[str, Any] = {"poolclass": QueuePool, "pool_size": 1, "max_overflow": 0} if sqlite else {}
+        engine = create_engine(url, pool_pre_ping=True, **few)
+        if sqlite:
             event.listen(engine, "connect", _set_up_sqlite)
             event.listen(engine, "begin", _begin_immediate)
         _Base.metadata.create_all(engine)
