@@ -60,7 +60,13 @@ def test_a_worker_writes_ten_commands_which_are_imported_and_run(
     monkeypatch.chdir(tmp_path)
     status, out, err = typed(capsys, main, "dcg-torch", "collect", "import", "runs/collect/answers.sqlite")
     assert (status, "kept: 10 commands of 1 people for 10 objects" in out) == (0, True), err
-    settings = ("speaker=written", "simulator=fake", "worlds=runs/collect_import/worlds", "order=file", "trials=1")
+    settings: tuple[str, ...] = (
+        "speaker=written",
+        "simulator=fake",
+        "worlds=runs/collect_import/worlds",
+        "order=file",
+        "trials=1",
+    )
     settings += ("workers=1", "figures=false", "tensorboard=false", "hydra.run.dir=runs/told")
     status, _, err = typed(capsys, main, "dcg-torch", *settings)
     assert status == 0, err

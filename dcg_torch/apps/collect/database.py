@@ -192,7 +192,8 @@ class Answers:
         return Added(False, _AGAIN)
 
     def _insert(self, session: Session, person: str, item: Item, text: str) -> Added:
-        mine = {w.item: w.text for w in session.scalars(select(Written).where(Written.person == person))}
+        told = select(Written.item, Written.text).where(Written.person == person)
+        mine: dict[str, str] = dict(iter(session.execute(told)))
         if item.id in mine or len(mine) >= self._per_person:
             return Added(mine.get(item.id) == text)
         if refused := copied(text, {normal(earlier) for earlier in mine.values()}):
