@@ -16,7 +16,7 @@ pytest.importorskip("httpx2", reason="needs the extra collect, and httpx2")
 
 from collect_making import WORLDS, Writer, study
 
-from dcg_torch.apps.collect.database import Answers, open_database, rows, sqlite_url
+from dcg_torch.apps.collect.database import Answers, open_database, read_rows, sqlite_url
 from dcg_torch.apps.collect.page import COOKIE
 from dcg_torch.apps.collect.program import main
 from dcg_torch.apps.collect.tasks import CollectError, items_of, prepare
@@ -27,8 +27,7 @@ from dcg_torch.world.files import World, load_world
 
 
 def stored(folder: Path) -> list[tuple[str, str, str]]:
-    engine = open_database(sqlite_url(folder / "answers.sqlite"))
-    return [(w.world, w.object, w.text) for w in rows(engine)]
+    return [(w.world, w.object, w.text) for w in read_rows(sqlite_url(folder / "answers.sqlite"))]
 
 
 def test_a_person_agrees_writes_and_gets_a_code(tmp_path: Path) -> None:
@@ -62,7 +61,7 @@ def test_nobody_writes_without_having_agreed(tmp_path: Path) -> None:
         ("cube", "one word"),
         ("go to the " + "very " * 70 + "red cube", "too long"),
         (EXAMPLE, "the example"),
-        (" drive OVER to  the yellow chair", "the example"),
+        (" drive OVER to  the white piano", "the example"),
         ("go to the highlighted object", "does not see the marks"),
     ],
 )
@@ -145,7 +144,7 @@ def test_limits_hold_for_threads_at_once(tmp_path: Path) -> None:
         thread.start()
     for thread in threads:
         thread.join()
-    found = rows(engine)
+    found = read_rows(sqlite_url(tmp_path / "answers.sqlite"))
     assert {p: sum(w.person == p for w in found) for p in ("p0", "p1", "p2", "p3")} == dict.fromkeys(
         ("p0", "p1", "p2", "p3"), 2
     )
@@ -207,7 +206,7 @@ def test_texts_are_compared_without_case_stops_and_spaces() -> None:
     assert normal("the robot's left") != normal("the robots left")
     assert tidy("  go\nto\x07 it ") == "go to it"
     assert empty("go there") is None
-    assert copied("go to the yellow chair") is None
+    assert copied("go to the white piano") is None
 
 
 def test_pictures_and_worlds_are_made_once_and_never_mixed(tmp_path: Path) -> None:

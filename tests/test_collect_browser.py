@@ -50,7 +50,7 @@ def test_a_worker_writes_ten_commands_which_are_imported_and_run(
         page.get_by_role("checkbox").check()
         page.get_by_role("button", name="Start").click()
         assert page.get_by_role("img").bounding_box()["width"] <= 360
-        page.get_by_label("Write a command").fill("Drive over to the yellow chair.")
+        page.get_by_label("Write a command").fill("Drive over to the white piano.")
         page.get_by_role("button", name="Send").click()
         assert "example" in page.get_by_role("alert").inner_text()
         told = [written(page) for _ in range(5)]

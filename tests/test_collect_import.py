@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
+import sqlite3
 from pathlib import Path
 
 import pytest
@@ -40,7 +42,7 @@ BATCH = (
     "h7,a7,ANNA,Approved,https://x/4.png,yard,red_cube,GO TO THE RED CUBE PLEASE",
     "h8,a8,CARL,Approved,https://x/4.png,yard,red_cuub,go to the red cube",
     "h9,a9,CARL,Approved,https://x/4.png,yardd,red_cube,go to the red cube",
-    "h10,a10,CARL,Approved,https://x/3.png,hall,green_cone,Drive over to the yellow chair",
+    "h10,a10,CARL,Approved,https://x/3.png,hall,green_cone,Drive over to the white piano",
     ",,,,,,,",
     "h11,a11,CARL,Approved,https://x/5.png,yard,blue_cube,turn left",
     "h12,a12,CARL,Approved,https://x/3.png,hall,green_cone,go to the red cube",
@@ -152,6 +154,18 @@ def test_a_database_that_is_not_there_is_not_made(tmp_path: Path) -> None:
     with pytest.raises(UserError, match="no such database"):
         read_results(f"sqlite:///{tmp_path}/typo.sqlite")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_a_database_of_others_and_a_broken_one_are_refused_and_left_as_they_were(tmp_path: Path) -> None:
+    other, broken = tmp_path / "other.sqlite", tmp_path / "broken.sqlite"
+    with contextlib.closing(sqlite3.connect(other)) as connection:
+        connection.execute("CREATE TABLE written (id INTEGER)")
+    broken.write_bytes(other.read_bytes()[:200] + b"?" * 4_000)
+    for path in (other, broken):
+        with pytest.raises(UserError, match="is of this program"):
+            read_results(str(path))
+    with contextlib.closing(sqlite3.connect(other)) as connection:
+        assert connection.execute("SELECT name FROM sqlite_master").fetchall() == [("written",)]
 
 
 def test_a_folder_of_other_files_is_left_alone(folder: Path) -> None:

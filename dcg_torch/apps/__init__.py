@@ -1,1 +1,1 @@
-"""Programs around the model for people and other systems: each an extra, and nothing else knows of them."""
+"""Programs around the model, each with an extra of its own; nothing below knows of them."""

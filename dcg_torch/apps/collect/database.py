@@ -6,10 +6,11 @@ below each limit, and a number is taken once: the database refuses the second.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import secrets
 import time
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -17,7 +18,7 @@ from typing import Any
 
 from sqlalchemy import ForeignKey, QueuePool, String, UniqueConstraint, create_engine, event, func, make_url, select
 from sqlalchemy.engine import Connection, Engine
-from sqlalchemy.exc import IntegrityError, InvalidRequestError, NoSuchModuleError, SQLAlchemyError
+from sqlalchemy.exc import IntegrityError, SQLAlchemyError
 from sqlalchemy.orm import DeclarativeBase, Mapped, Session, mapped_column
 
 from dcg_torch.apps.collect.tasks import CollectError, Item
@@ -68,36 +69,53 @@ def open_database(url: str) -> Engine:
     """An engine with the tables made, if need be.
 
     Raises:
-        CollectError: there is no such database, or no driver for it.
+        CollectError: there is no such database, no driver for it, or it cannot be written.
     """
-    try:
-        sqlite = make_url(url).get_backend_name() == "sqlite"
-        # SQLite has one writer at a time: a queue for one connection is fair, waiting for SQLite's lock is not.
-        few: dict[str, Any] = {"poolclass": QueuePool, "pool_size": 1, "max_overflow": 0} if sqlite else {}
-        engine = create_engine(url, pool_pre_ping=True, **few)
-        if sqlite:
-            event.listen(engine, "connect", _set_up_sqlite)
-            event.listen(engine, "begin", _begin_immediate)
+    with _one_line(url):
+        engine = _engine(url)
         _Base.metadata.create_all(engine)
-    except NoSuchModuleError as error:
-        raise CollectError(f"database={_bare(url)}: {error}; write DIALECT://...") from None
-    except ModuleNotFoundError as error:
-        raise CollectError(f"database={_bare(url)}: its driver {error.name} is not installed: pip install it") from None
-    except (SQLAlchemyError, InvalidRequestError) as error:
-        said = str(getattr(error, "orig", None) or error)
-        raise CollectError(f"database={_bare(url)}: {said}; give one that can be opened and written") from None
     return engine
+
+
+def read_rows(url: str) -> list[Written]:
+    """All commands of a database, in the order in which they were written.
+
+    Raises:
+        CollectError: it cannot be read, or is not one of ours.
+    """
+    with _one_line(url), Session(_engine(url)) as session, session.begin():
+        found = list(session.scalars(select(Written).order_by(Written.id)))
+        session.expunge_all()
+    return found
+
+
+def _engine(url: str) -> Engine:
+    sqlite = make_url(url).get_backend_name() == "sqlite"
+    # SQLite has one writer at a time: a queue for one connection is fair, waiting for SQLite's lock is not.
+    few: dict[str, Any] = {"poolclass": QueuePool, "pool_size": 1, "max_overflow": 0} if sqlite else {}
+    engine = create_engine(url, pool_pre_ping=True, **few)
+    if sqlite:
+        event.listen(engine, "connect", _set_up_sqlite)
+        event.listen(engine, "begin", _begin_immediate)
+    return engine
+
+
+@contextlib.contextmanager
+def _one_line(url: str) -> Iterator[None]:
+    scheme, mark, rest = url.partition("://")
+    where = f"database={scheme}{mark}{rest.rpartition('@')[2]}"  # without user and password
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        raise CollectError(f"{where}: its driver {error.name} is not installed: pip install it") from None
+    except SQLAlchemyError as error:
+        said = str(getattr(error, "orig", None) or error)
+        raise CollectError(f"{where}: {said}; give a database that can be opened, and is of this program") from None
 
 
 def sqlite_url(path: Path) -> str:
     """The URL of a file."""
     return f"sqlite:///{path}"
-
-
-def _bare(url: str) -> str:
-    """A URL without its user and password."""
-    scheme, mark, rest = url.partition("://")
-    return f"{scheme}{mark}{rest.rpartition('@')[2]}"
 
 
 def _set_up_sqlite(connection: Any, _: object) -> None:
@@ -206,12 +224,6 @@ class Answers:
         at = {"place": len(mine) + 1, "number": taken + 1, "seconds": seconds, "at": _now()}
         session.add(Written(person=person, item=item.id, world=item.world, object=item.object, text=text, **at))
         return Added(True)
-
-
-def rows(engine: Engine) -> list[Written]:
-    """All commands, in the order in which they were written."""
-    with Session(engine, expire_on_commit=False) as session, session.begin():
-        return list(session.scalars(select(Written).order_by(Written.id)))
 
 
 def _counts(result: Iterable[Any]) -> dict[str, int]:

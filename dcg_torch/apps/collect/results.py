@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from dcg_torch.apps.collect.database import open_database, rows, sqlite_url
+from dcg_torch.apps.collect.database import read_rows, sqlite_url
 from dcg_torch.apps.collect.tasks import CollectError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text
 
@@ -45,7 +45,7 @@ def read_results(source: str) -> list[Row]:
     if (file := source.removeprefix("sqlite:///")) != source and not Path(file).is_file():
         raise CollectError(f"{source}: no such database")  # SQLite would make one
     url = source if "://" in source else sqlite_url(path)
-    return [Row(w.id, w.person, w.world, w.object, w.text) for w in rows(open_database(url))]
+    return [Row(w.id, w.person, w.world, w.object, w.text) for w in read_rows(url)]
 
 
 def _is_sqlite(path: Path) -> bool:

@@ -6,7 +6,7 @@ import re
 import unicodedata
 from collections.abc import Collection
 
-EXAMPLE = "Drive over to the yellow chair."
+EXAMPLE = "Drive over to the white piano."
 LONGEST = 300  # characters
 _FEWEST_WORDS = 2
 _MARKS = re.compile(r"\b(highlighted|yellow ring|ring and arrow|under the arrow)\b")
