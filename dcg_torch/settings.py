@@ -212,13 +212,22 @@ def check_bounds(settings: Settings | EvaluateSettings) -> None:
     Raises:
         SettingsError: one does not.
     """
+    check_values(settings)
+    if not settings.model.groups:
+        raise SettingsError("model.groups=[]: a model needs features; give some, [dcg,unknown] for one")
+
+
+def check_values(settings: Any) -> None:
+    """See that every number of any settings lies within its bounds, and that no text is beyond measure.
+
+    Raises:
+        SettingsError: one does not.
+    """
     for name, value, _, bounds in _walk(settings):
         if bounds is not None and value is not None and not bounds.hold(value):
             raise SettingsError(f"{name}={_short(value)}: give a number {bounds}")
         if isinstance(value, str) and ("\0" in value or len(value) > 4_000):
             raise SettingsError(f"{name}: a text of {len(value)} characters makes no sense here; give a shorter one")
-    if not settings.model.groups:
-        raise SettingsError("model.groups=[]: a model needs features; give some, [dcg,unknown] for one")
 
 
 def _short(number: float) -> str:

@@ -8,7 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from dcg_torch.apps.collect.settings import HitSettings, ImportSettings, ServeSettings
 from dcg_torch.settings import EvaluateSettings, Settings, described
+
+SCHEMAS = (Settings, EvaluateSettings, ServeSettings, HitSettings, ImportSettings)
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
@@ -52,7 +55,7 @@ def test_files_links_and_names_are_there(page: Path) -> None:
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
 def test_settings_in_commands_are_settings(page: Path) -> None:
-    keys = {name for schema in (Settings, EvaluateSettings) for name, *_ in described(schema)}
+    keys = {name for schema in SCHEMAS for name, *_ in described(schema)}
     keys |= {"experiment", "model", "simulator"}
     commands = re.findall(r"^(?:python -m dcg_torch|dcg-torch)\b.*$", prose(page), re.MULTILINE)
     given = [word for command in commands for word in re.findall(r" '?([a-z_.]+)=", command.partition("#")[0])]

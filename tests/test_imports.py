@@ -26,7 +26,7 @@ LAYERS = (
     {"model", "watch"},
     {"evaluation", "experiment"},
     {"cli"},
-    {"__main__", "bench", "evaluate"},
+    {"__main__", "apps", "bench", "collect", "evaluate"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
@@ -44,6 +44,10 @@ ONLY = {
     "sentence_transformers": {"names.embedding"},
     "transformers": {"names.embedding"},
     "sklearn": {"evaluation.baselines", "bench"},
+    "fastapi": {"apps.collect.page"},
+    "jinja2": {"apps.collect.page"},
+    "sqlalchemy": {"apps.collect"},
+    "uvicorn": {"apps.collect.program"},
 }
 ROOT = "dcg_torch"
 

@@ -18,10 +18,11 @@ _WIDTH = 118
 
 def settings_help(program: str, *, _root_: DictConfig) -> str:
     """A line or more for each setting: its name, the value it has now, what it means, what numbers make sense."""
-    return "\n".join(_lines(SCHEMAS[program], _root_))
+    return "\n".join(setting_lines(SCHEMAS[program], _root_))
 
 
-def _lines(schema: type, config: DictConfig) -> Iterator[str]:
+def setting_lines(schema: type, config: DictConfig) -> Iterator[str]:
+    """The lines of one schema, with the values of a configuration."""
     for name, default, text, bounds in described(schema):
         value = default if OmegaConf.is_missing(config, name) else OmegaConf.select(config, name, default=default)
         choices = f": {', '.join(type(default))}" if isinstance(default, enum.Enum) else ""

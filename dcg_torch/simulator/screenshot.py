@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Final
 
@@ -46,13 +46,23 @@ def save_pair_screenshots(worlds: Sequence[World], directory: Path, size: tuple[
     directory.mkdir(parents=True, exist_ok=True)
     paths = []
     for world in worlds:
-        with Stage(world) as stage:
-            shot = _Screenshot(stage, size)
-            for item in world.objects:
-                path = directory / f"{world.name}-{item.id}.png"
-                Image.fromarray(shot.picture(item.id)).save(path)
-                paths.append(path)
+        for highlight, picture in pair_pictures(world, size):
+            path = directory / f"{world.name}-{highlight}.png"
+            Image.fromarray(picture).save(path)
+            paths.append(path)
     return paths
+
+
+def pair_pictures(world: World, size: tuple[int, int] = (640, 480)) -> Iterator[tuple[str, Pixels]]:
+    """(object id, picture with it highlighted) for every object of a world, which is rendered once.
+
+    Raises:
+        ValueError: one of its types has no body.
+    """
+    with Stage(world) as stage:
+        shot = _Screenshot(stage, size)
+        for item in world.objects:
+            yield item.id, shot.picture(item.id)
 
 
 def close_up(type: str, color: str, side: int = 220) -> Pixels:

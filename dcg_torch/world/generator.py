@@ -19,10 +19,10 @@ from pathlib import Path
 from typing import Final
 
 import numpy as np
-import yaml
 
 from dcg_torch.geometry import FIELD_OF_VIEW, bearing
 from dcg_torch.world.files import RobotStart, World, WorldObject
+from dcg_torch.world.writing import yaml_lines
 
 TYPES: Final = ("cube", "sphere", "cylinder", "fire hydrant", "drill", "mailbox", "door handle", "traffic cone")
 COLORS: Final = ("red", "green", "blue")
@@ -226,16 +226,6 @@ def write_worlds(directory: Path, seed: int | None = None, count: int = 10) -> l
     for world in generate_worlds(chosen, count):
         path = directory / f"{world.name}.yaml"
         with path.open("x", encoding="utf-8") as file:
-            file.write("\n".join([*head, *_yaml_lines(world)]) + "\n")
+            file.write("\n".join([*head, *yaml_lines(world)]) + "\n")
         paths.append(path)
     return paths
-
-
-def _yaml_lines(world: World) -> list[str]:
-    """The world as YAML with one line per object."""
-
-    def flow(value: object) -> str:
-        return yaml.safe_dump(value, default_flow_style=True, sort_keys=False, width=math.inf).strip()
-
-    lines = [f"name: {world.name}", f"robot: {flow(world.robot.model_dump())}", "objects:"]
-    return lines + [f"  - {flow(o.model_dump(mode='json'))}" for o in world.objects]

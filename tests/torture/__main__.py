@@ -1,6 +1,6 @@
 """`make torture`: kills, pairs of processes, full disks and hostile files, by the hundred. Bounded by `--minutes`.
 
-    python tests/torture [kills] [pairs] [disk] [fuzz] [soak] [--minutes 30] [--seed 0]
+    python tests/torture [kills] [pairs] [disk] [fuzz] [writers] [soak] [--minutes 30] [--seed 0]
 
 Prints a line a part and exits with 1 if anything did not hold. The programs run in forks of one process that has
 imported all they need, so that their first moments are as likely to be hit as their last.
@@ -22,6 +22,7 @@ import disks  # noqa: E402
 import fuzz  # noqa: E402
 import kills  # noqa: E402
 import soak  # noqa: E402
+import writers  # noqa: E402
 
 # A part takes a random generator, a folder, and the monotonic time at which it should be done; it says what it found.
 PARTS: dict[str, Callable[[random.Random, Path, float], tuple[bool, str]]] = {
@@ -29,6 +30,7 @@ PARTS: dict[str, Callable[[random.Random, Path, float], tuple[bool, str]]] = {
     "pairs": kills.pairs,
     "kills": kills.kills,
     "fuzz": fuzz.readers,
+    "writers": writers.fifty_writers,
     "soak": soak.soak,
 }
 
@@ -46,7 +48,7 @@ def main() -> int:
         share = (until - time.monotonic()) / (len(names) - k)
         with tempfile.TemporaryDirectory(prefix="torture_") as folder:
             good, said = PARTS[name](random.Random(options.seed), Path(folder), time.monotonic() + share)
-        print(f"{name:<6} {'held' if good else 'BROKE'}: {said}", flush=True)
+        print(f"{name:<7} {'held' if good else 'BROKE'}: {said}", flush=True)
         held &= good
     return 0 if held else 1
 
