@@ -164,7 +164,7 @@ def _turn(
     """A motion in place."""
     if slots["turn"][:1] == ["look"] and {"around", "round"} & set(slots["directions"]):
         return Motion("look")
-    if not slots["turn"] or (angle is None and amount is None):
+    if not slots["turn"] or slots["lengths"] or (angle is None and amount is None):
         return None
     if amount is None:
         return Motion("turn", angle or 0.0)
