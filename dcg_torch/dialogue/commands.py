@@ -21,17 +21,19 @@ _SURE_ANSWER = 0.6
 def carry_out(s: Situation, text: str, said: Parse) -> Done:
     """Look for what a command means, ask if that is not clear, go there, and learn from it."""
 
+    at_first: list[str | None] = []
+
     def first(solution: Solution, moves: bool) -> None:
-        nonlocal answered
-        answered = not moves
         seen = solution.object is not None and not solution.object.hypothetical
         meant = solution.object.id if solution.object is not None and seen else None
+        at_first.append(meant if moves else "")
         s.emit(Understood("command", understood(s, solution, moves=moves), meant))
 
-    answered = False
     errand = s.find(text, said, first)
     s.last = errand
-    return _decide(s, errand, silent=answered)
+    if at_first != [""] and errand.chosen is not None and errand.chosen in at_first:
+        return _decide(s, errand, saying=f"{_doing(errand.solution)}.")
+    return _decide(s, errand, saying="" if at_first == [""] else None)
 
 
 def understood(s: Situation, solution: Solution, *, moves: bool) -> str:
@@ -40,8 +42,7 @@ def understood(s: Situation, solution: Solution, *, moves: bool) -> str:
     Args:
         moves: it turns or drives now to see more.
     """
-    noun = solution.noun.noun if solution.noun is not None else None
-    new = noun is not None and noun not in {entry.word for entry in s.model.lexicon()} and noun not in s.model.symbols
+    noun, new = solution.noun.noun if solution.noun is not None else None, s.is_new(solution)
     thing = solution.object
     if thing is None or thing.hypothetical:
         looking = ", so I look round." if moves else "."
@@ -70,23 +71,25 @@ def _doing(solution: Solution) -> str:
     return "I can take nothing, but I go there" if handling.intersection(action) else "I go there"
 
 
-def _decide(s: Situation, errand: Errand, *, silent: bool) -> Done:
+def _decide(s: Situation, errand: Errand, *, saying: str | None) -> Done:
     """Ask, or go, or say that it is not there.
 
     Args:
-        silent: it has said what it does, if it goes at once.
+        saying: what it says before it goes; None: what it has understood.
     """
     solution = errand.solution
     ids = candidates(solution, ASKING) if len(errand.asked) < ASKING.questions else ()
     if ids:
-        return _ask(s, errand, question(ids, s.seen, s.robot.pose, s.model.sure_names()))
+        return _ask(s, errand, question(ids, s.seen, s.robot.pose, s.names()))
     chosen = errand.chosen
     if chosen is None:
         s.say(f"There is no {kind_of(solution)} here." if solution.noun is not None else "I see nothing like that.")
         _learn(s, errand)
         return Done(s.robot.pose, "absent")
-    if not silent:
-        s.say(understood(s, replace(solution, probabilities={**solution.probabilities, chosen: 1.0}), moves=False))
+    if saying is None:
+        saying = f"You mean {s.the(chosen)}; {_doing(solution)}."
+    if saying:
+        s.say(saying)
     s.before = s.robot.pose
     move = s.robot.drive_away if solution.inverted else s.robot.drive_to
     errand.result = move(chosen, s.seen)
@@ -129,7 +132,7 @@ def answer(s: Situation, errand: Errand, asking: Question, said: Answer | str) -
         s.emit(Understood("answer", f"You mean {s.the(reply.meant)}; {_doing(errand.solution)}.", reply.meant))
     else:
         s.emit(Understood("answer", "None of these, then."))
-    return _decide(s, errand, silent=reply.meant is not None)
+    return _decide(s, errand, saying=None if reply.meant is None else "")
 
 
 def _reply(s: Situation, asking: Question, said: Answer | str) -> Reply | None:

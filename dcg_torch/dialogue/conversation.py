@@ -7,8 +7,8 @@ import math
 from dcg_torch.dialogue.acts import Forget, Lesson, Refused, Stop, read_act
 from dcg_torch.dialogue.commands import answer, carry_out
 from dcg_torch.dialogue.events import Done, Learned, Understood
-from dcg_torch.dialogue.questions import answer_question, name_of, what_is_seen
-from dcg_torch.dialogue.sentences import ENDINGS
+from dcg_torch.dialogue.questions import answer_question, what_is_seen
+from dcg_torch.dialogue.sentences import ENDINGS, with_article
 from dcg_torch.dialogue.situation import Situation, Stopped, beside
 from dcg_torch.geometry import bearing
 from dcg_torch.language.requests import Answer, Motion, Question
@@ -100,15 +100,15 @@ def _lesson(s: Situation, text: str, teaching: Teaching, pointed: WorldObject | 
     elif pointed is None and teaching.subject is None and teaching.same_as is None and s.last is not None:
         id_ = s.last.chosen
         s.last.taken_back = s.last.taken_back or text.lower().startswith(("no", "wrong"))
+    described = {id_: s.the(id_) for id_ in s.memory}
     world = s.model.world_model(s.seen, start, looked=bool(s.places))
     told = s.model.tell(text, world, pointing_at=id_)
     if told.word is not None and told.type is not None and told:
         s.taught[told.word] = "told"
-        s.emit(Learned(told.word, told.type, "told"))
         if teaching.same_as is not None:
             said = f'"{teaching.name}" and "{teaching.same_as}" are the same to me now.'
         else:
-            said = f"I call {name_of(s, s.memory[told.object])} now." if told.object in s.memory else "I know it now."
+            said = f"I call {described.get(told.object or '', 'it')} {with_article(told.word)} now."
     else:
         problem = told.problem or "I do not know why"
         said = f"I have not learned that: {problem}."
@@ -116,6 +116,8 @@ def _lesson(s: Situation, text: str, teaching: Teaching, pointed: WorldObject | 
         s.say(said)
     else:
         s.emit(Understood("lesson", said, told.object))
+    if told and told.word is not None:
+        s.emit(Learned(told.word, told.type, "told"))
     return Done(s.robot.pose, "done", told.object)
 
 

@@ -17,7 +17,6 @@ from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import problem_of, read_json, read_text
 from dcg_torch.world.files import FileName, Metres, Radians, World, WorldObject
 
-FORMAT = 1
 MOST_CHARACTERS = 2_000
 """Of one text; the parser refuses much shorter ones in words."""
 
@@ -33,7 +32,7 @@ class _Strict(BaseModel):
 class Header(_Strict):
     """What a session begins with; `sha256` is of the model's files, whose folder is `model`, None for the shipped."""
 
-    dcg_torch_session: Literal[1] = FORMAT
+    dcg_torch_session: Literal[1] = 1
     world: World
     model: str | None = None
     sha256: str
@@ -114,7 +113,8 @@ class SessionFile:
         try:
             fcntl.flock(self._descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
             if header is not None:
-                self.header, self.inputs = header, ()
+                self.header: Header = header
+                self.inputs: tuple[Input, ...] = ()
                 self._write(header)
                 return
             os.truncate(self._descriptor, path.read_bytes().rfind(b"\n") + 1)

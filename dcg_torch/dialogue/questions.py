@@ -16,6 +16,8 @@ from dcg_torch.types import Percept
 
 _SURE = 0.5
 """Probability from which on a thing is said to be what a question is about."""
+_NAMED = 0.4
+"""How well the noun phrase must name a thing: a question, unlike a command, does not say that there is one."""
 
 
 def answer_question(s: Situation, question: Question, pointing_at: str | None) -> Done:
@@ -58,7 +60,7 @@ def _about_things(s: Situation, kind: str, about: str) -> Done:
         s.look()
         s.look_round()
     errand = s.find(about, said, first)
-    text, id_ = _count(s, errand, bare) if kind == "count" else _found(s, errand, kind)
+    text, id_ = _count(s, errand) if kind == "count" else _found(s, errand, kind)
     if answered:
         s.say(text)
     else:
@@ -75,6 +77,11 @@ def _found(s: Situation, errand: Errand, kind: str) -> tuple[str, str | None]:
             return f"No, there is no {what} here.", None
         return f"There is no {what} here, as far as I can see.", None
     thing = s.memory[id_]
+    if solution.named < _NAMED and s.is_new(solution):
+        new = f"I have not heard the word before, so {s.the(id_)} may be one"
+        return f"I see nothing that I would call {sentences.with_article(what)}; {new}.", None
+    if solution.named < _NAMED:
+        return f"No, there is no {what} here.", None
     if solution.probabilities[id_] < _SURE:
         return f"I am not sure. It may be {s.the(id_)}, {s.where(id_)}.", id_
     if kind == "exists":
@@ -86,13 +93,13 @@ def _found(s: Situation, errand: Errand, kind: str) -> tuple[str, str | None]:
     return f"The {what} is {s.where(id_)}.{also}", id_
 
 
-def _count(s: Situation, errand: Errand, about: str) -> tuple[str, str | None]:
+def _count(s: Situation, errand: Errand) -> tuple[str, str | None]:
     """How many things the noun phrase describes."""
-    fits = errand.solution.fits
-    found = [id_ for id_ in s.memory if fits.get(id_, 0.0) >= _SURE]
-    noun = errand.solution.noun
+    solution, noun = errand.solution, errand.solution.noun
+    there = errand.chosen is not None and solution.fits[errand.chosen] >= _NAMED
+    found = [o.id for o in solution.objects if o.id in s.memory] if there else []
     color = f"{noun.color} " if noun is not None and noun.color else ""
-    name = f"{color}{noun.noun}" if noun is not None and noun.noun else about
+    name = f"{color}{noun.noun if noun is not None and noun.noun else 'thing'}"
     text = f"I count {sentences.numbered(len(found), name)}"
     if not found:
         return f"{text}.", None
@@ -129,12 +136,12 @@ def _identify(s: Situation, about: str, pointing_at: str | None) -> Done:
 
 def name_of(s: Situation, thing: Percept) -> str:
     """As in "a red cube"; with what the robot would call it by its best guess, where it is not sure."""
-    return sentences.a(thing, s.model.sure_names())
+    return sentences.a(thing, s.names())
 
 
 def what_is_seen(s: Situation) -> str:
     """What is in view, and what else is remembered."""
-    ids, names = s.look(), s.model.sure_names()
+    ids, names = s.look(), s.names()
     rest = [p for p in s.seen if p.id not in ids]
     if not ids and not rest:
         return "I see nothing from here."
@@ -193,9 +200,13 @@ def why(s: Situation) -> str:
     if any(described):
         because.append(f'of what I saw it fits "{" ".join(filter(None, described))}" best')
     others = sorted(((p, id_) for id_, p in solution.probabilities.items() if id_ != thing.id), reverse=True)
-    next_best = next(((p, id_) for p, id_ in others if id_ in s.memory), None)
+    next_best = next(((p, id_) for p, id_ in others if id_ in s.memory and p >= 0.005), None)
     share = f" I was {solution.probabilities[thing.id]:.0%} sure"
-    rest = f"; next came {s.the(next_best[1])} with {next_best[0]:.0%}." if next_best else "; I saw nothing else."
+    rest = (
+        f"; next came {s.the(next_best[1])} with {next_best[0]:.0%}."
+        if next_best
+        else "; nothing else that I saw fits."
+    )
     return f"I went to {s.the(thing.id)} because {sentences.listed(because)}.{share}{rest}"
 
 

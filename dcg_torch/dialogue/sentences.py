@@ -67,13 +67,15 @@ def listed(parts: Sequence[str], last: str = "and") -> str:
 
 def numbered(count: int, noun: str) -> str:
     """ "no cubes", "one cube", "3 cubes"."""
+    if count == 1:
+        return f"one {noun}"
     if noun.endswith(("s", "x", "ch", "sh")):
         several = f"{noun}es"
     elif noun.endswith("y") and noun[-2:-1] not in "aeiou":
         several = f"{noun[:-1]}ies"
     else:
         several = f"{noun}s"
-    return f"one {noun}" if count == 1 else f"{count or 'no'} {several}"
+    return f"{count or 'no'} {several}"
 
 
 def said_of(solution: Solution) -> str:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from dcg_torch.agent.robot import InteractiveRobot
 from dcg_torch.dialogue import conversation, questions
 from dcg_torch.dialogue.events import Done, Event, Moved, Said, Watcher, WorldChanged
-from dcg_torch.dialogue.file import Header, Input, Move, SessionFile, model_hash, read_session
+from dcg_torch.dialogue.file import Header, Input, Move, SessionError, SessionFile, model_hash, read_session
 from dcg_torch.dialogue.situation import Situation
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
@@ -50,6 +50,8 @@ class Session:
         UserError: the file is there already, the model is missing or not valid, or the simulator can't have the world.
     """
 
+    _file: SessionFile | None
+
     def __init__(
         self,
         world: World,
@@ -63,7 +65,7 @@ class Session:
         header = Header(world=world, model=folder, sha256=model_hash(model), simulator=simulator, seed=seed)
         self._begin(header)
         try:
-            self._file = None if file is None else SessionFile(file, header)
+            self._file = SessionFile(file, header) if file is not None else None
         except BaseException:
             self.close()
             raise
@@ -71,7 +73,7 @@ class Session:
     def _begin(self, header: Header) -> None:
         """Stand at the start of a session."""
         self.header, self.world = header, header.world
-        self._file: SessionFile | None = None
+        self._file = None
         self._stop = threading.Event()
         self._events: list[Event] = []
         self._watch: Watcher | None = None
@@ -82,7 +84,7 @@ class Session:
         self.state = Situation(robot, self.model, self._emit, lambda: self._was_stopped)
         robot.load(header.world, rng=np.random.default_rng(header.seed))
         robot.on_tick = lambda pose: self._emit(Moved(pose))
-        self.state.look()
+        self.state.warm_up()
 
     @classmethod
     def replayed(cls, file: Path) -> tuple[Session, tuple[Input, ...]]:
@@ -184,12 +186,10 @@ class Session:
         return Done(self.pose, "done")
 
     def _change(self, things: Mapping[str, WorldObject]) -> Done:
-        """The world with these objects instead, the robot where it is; it forgets what was changed unless it sees it."""
+        """The world with these objects, the robot where it is; it forgets what was changed unless it sees it."""
         before, state = self.world, self.state
-        changed = [
-            key for key in {**{o.id: o for o in before.objects}, **things} if things.get(key) not in before.objects
-        ]
-        changed += [o.id for o in before.objects if o.id not in things]
+        old = {thing.id: thing for thing in before.objects}
+        changed = [id_ for id_ in {**old, **things} if old.get(id_) != things.get(id_)]
         try:
             world = _at(World(name=before.name, objects=tuple(things.values())), self.pose)
             state.robot.load(world, rng=np.random.default_rng(self.header.seed))
@@ -288,8 +288,6 @@ def _at(world: World, pose: Pose) -> World:
 
 def _checked(header: Header, file: Path) -> Header:
     """See that the model is the one that the session began with."""
-    from dcg_torch.dialogue.file import SessionError
-
     if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
         where = header.model or "the shipped model"
         raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")

@@ -19,6 +19,7 @@ from dcg_torch.types import DriveResult, Percept, Pose
 
 ASKING = AskingPolicy(below=0.75)
 _WORTH = Worth(sure=ASKING.below)
+_SURE_WORD = 0.95  # probability from which on the robot uses a word itself
 
 FirstAnswer = Callable[[Solution, bool], None]
 """Says what a command is taken to mean, before the robot moves; and whether it moves now to see more."""
@@ -98,6 +99,11 @@ class Situation:
         self.memory.update((p.id, p) for p in found)
         return tuple(p.id for p in found)
 
+    def warm_up(self) -> None:
+        """Look, and ground some command, so that the first one of a person does not wait for what is loaded then."""
+        self.look()
+        self.model.ground("go to the red thing next to the cube", self.model.world_model(self.seen, self.robot.pose))
+
     def check(self) -> None:
         """End this input if somebody has stopped the robot.
 
@@ -111,9 +117,23 @@ class Situation:
         """A sentence."""
         self.emit(Said(text))
 
+    def names(self) -> dict[str, str]:
+        """type -> the word that the robot uses for it: of those that it is sure of, the one learned first."""
+        found: dict[str, str] = {}
+        sure = set(self.model.sure_names())
+        for symbol in self.model.symbols.values():
+            if symbol.type in sure and self.model.beliefs_of(symbol.word).get(symbol.type, 0.0) >= _SURE_WORD:
+                found.setdefault(symbol.type, symbol.word)
+        return found
+
+    def is_new(self, solution: Solution) -> bool:
+        """Is the noun of a command one that was never heard before?"""
+        noun = solution.noun.noun if solution.noun is not None else None
+        return noun is not None and noun not in {entry.word for entry in self.model.lexicon()}
+
     def the(self, id_: str) -> str:
         """An object that was seen, in words that fit no other."""
-        return sentences.the(self.memory[id_], self.seen, self.robot.pose, self.model.sure_names())
+        return sentences.the(self.memory[id_], self.seen, self.robot.pose, self.names())
 
     def where(self, id_: str) -> str:
         """Where an object is, from here."""
@@ -159,7 +179,7 @@ class Situation:
         return Errand(text, command, solution, explorer.looked, start, in_view, looks)
 
     def _candidates(self, look: Look) -> Candidates:
-        names, solution = self.model.sure_names(), look.solution
+        names, solution = self.names(), look.solution
         rows = [sentences.candidate(o, solution.probabilities.get(o.id, 0.0), names) for o in solution.world.objects]
         rows.sort(key=lambda row: (-row.probability, row.id))
         return Candidates(tuple(rows), tuple(p.id for p in look.percepts))
