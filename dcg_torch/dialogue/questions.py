@@ -77,7 +77,7 @@ def _found(s: Situation, errand: Errand, kind: str) -> tuple[str, str | None]:
             return f"No, there is no {what} here.", None
         return f"There is no {what} here, as far as I can see.", None
     thing = s.memory[id_]
-    if solution.named < _NAMED and s.is_new(solution):
+    if s.is_new(solution) and not s.is_named_so(solution, thing):
         new = f"I have not heard the word before, so {s.the(id_)} may be one"
         return f"I see nothing that I would call {sentences.with_article(what)}; {new}.", None
     if solution.named < _NAMED:

@@ -12,9 +12,11 @@ from dcg_torch.agent.explore import LookBefore, Point, Worth
 from dcg_torch.agent.robot import InteractiveRobot
 from dcg_torch.dialogue import sentences
 from dcg_torch.dialogue.events import Candidates, Looking, Said, Watcher
+from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parse
 from dcg_torch.model import GroundingModel
+from dcg_torch.names import log_odds
 from dcg_torch.types import DriveResult, Percept, Pose
 
 ASKING = AskingPolicy(below=0.75)
@@ -130,6 +132,11 @@ class Situation:
         """Is the noun of a command one that was never heard before?"""
         noun = solution.noun.noun if solution.noun is not None else None
         return noun is not None and noun not in {entry.word for entry in self.model.lexicon()}
+
+    def is_named_so(self, solution: Solution, thing: Percept) -> bool:
+        """Does the name of its class say that a thing is what the noun names?"""
+        noun = None if solution.noun is None else solution.noun.noun
+        return noun is not None and Group.NAMES in self.model.variant.groups and log_odds(noun, thing.type) > 0.0
 
     def the(self, id_: str) -> str:
         """An object that was seen, in words that fit no other."""
