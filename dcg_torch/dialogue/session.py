@@ -117,7 +117,7 @@ class Session:
         return session
 
     def say(self, text: str, *, pointing_at: str | None = None, watch: Watcher | None = None) -> tuple[Event, ...]:
-        """A text, with the id of the object that was pointed at, if any. First event: `Understood`; last: `Done`."""
+        """A text, with the id of the object that was pointed at, if any. `Understood` comes before the robot moves; `Done` comes last."""
         return self.play(Input(say=text, pointing_at=pointing_at), None, watch)
 
     def click(self, object_id: str, *, watch: Watcher | None = None) -> tuple[Event, ...]:
