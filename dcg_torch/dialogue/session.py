@@ -117,7 +117,7 @@ class Session:
         return session
 
     def say(self, text: str, *, pointing_at: str | None = None, watch: Watcher | None = None) -> tuple[Event, ...]:
-        """A text, with the id of the object that was pointed at, if any. `Understood` comes before the robot moves; `Done` comes last."""
+        """A text, with the id of the object that was pointed at, if any. The first answer comes before it moves."""
         return self.play(Input(say=text, pointing_at=pointing_at), None, watch)
 
     def click(self, object_id: str, *, watch: Watcher | None = None) -> tuple[Event, ...]:
@@ -191,10 +191,10 @@ class Session:
         old = {thing.id: thing for thing in before.objects}
         changed = [id_ for id_ in {**old, **things} if old.get(id_) != things.get(id_)]
         try:
-            world = _at(World(name=before.name, objects=tuple(things.values())), self.pose)
+            world = standing_at(World(name=before.name, objects=tuple(things.values())), self.pose)
             state.robot.load(world, rng=np.random.default_rng(self.header.seed))
         except ValueError as error:
-            state.robot.load(_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
+            state.robot.load(standing_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
             return self._refused(str(error).splitlines()[0])
         self.world = world
         state.places.clear()
@@ -250,7 +250,7 @@ class Session:
 
     def save_world(self, path: Path) -> None:
         """Write the world as it is now, the robot's pose as its start, as a world file."""
-        values = _at(self.world, self.pose).model_dump(mode="json", exclude={"commands", "relational"})
+        values = standing_at(self.world, self.pose).model_dump(mode="json", exclude={"commands", "relational"})
         write_whole(path, yaml.safe_dump(values, sort_keys=False, allow_unicode=True))
 
     def close(self) -> None:
@@ -281,7 +281,7 @@ def _robot(simulator: str) -> InteractiveRobot:
     return SimulatedRobot(observed=1)
 
 
-def _at(world: World, pose: Pose) -> World:
+def standing_at(world: World, pose: Pose) -> World:
     """The world with the robot at this pose."""
     return world.model_copy(update={"robot": RobotStart(x=pose.x, y=pose.y, yaw=pose.yaw)})
 
