@@ -58,6 +58,7 @@ def _commands(file: Path) -> list[_Command]:
     """The commands of a session, in their order."""
     session, inputs = Session.replayed(file)
     found: list[_Command] = []
+    known = set(session.model.symbols)  # from the start
     try:
         for line, stop_at in with_stops(inputs):
             moves: list[Pose | None] = []  # None: a look
@@ -70,7 +71,8 @@ def _commands(file: Path) -> list[_Command]:
             elif errand is None or len(errand.asked) == asked:
                 continue  # no command, and no answer to the question about one
             _append(found[-1], moves, session.pose)
-            found[-1].symbols = {s.word: s.type for s in session.model.symbols.values()}
+            symbols = session.model.symbols
+            found[-1].symbols = {word: symbol.type for word, symbol in symbols.items() if word not in known}
     finally:
         session.close()
     return found

@@ -25,14 +25,15 @@ def hear(s: Situation, text: str, teaching: Teaching, pointed: WorldObject | Non
     """Learn a name from a sentence; "this" and "that" are what is pointed at, or else what the last command meant."""
     s.look()
     if teaching.same_as is not None:
-        return _learn(s, text, None, said=f'"{teaching.name}" and "{teaching.same_as}" are the same to me now.')
+        s.emit(Understood("lesson", f'You say that "{teaching.name}" and "{teaching.same_as}" are the same.'))
+        return _learn(s, text, None)
     if pointed is not None:
         face(s, pointed, "lesson")
-        return _learn(s, text, pointed.id)
+        return _named(s, text, teaching.name, pointed.id)
     if teaching.subject is None:
         if s.last is not None:
             s.last.taken_back = s.last.taken_back or text.lower().startswith(("no", "wrong"))
-        return _learn(s, text, None if s.last is None else s.last.chosen)
+        return _named(s, text, teaching.name, None if s.last is None else s.last.chosen)
     start = s.robot.pose
     if not s.places:
         s.emit(Understood("lesson", "I look for it."))
@@ -42,7 +43,7 @@ def hear(s: Situation, text: str, teaching: Teaching, pointed: WorldObject | Non
     if len(ids) > 1:
         s.emit(Understood("lesson", "I am not sure which one you speak of."))
         return s.ask(UnclearLesson(text), ids)
-    return _learn(s, text, ids[0] if ids else found.object.id if found.object is not None else None)
+    return _named(s, text, teaching.name, ids[0] if ids else found.object.id if found.object is not None else None)
 
 
 def settle(s: Situation, text: str, meant: str | None) -> Done:
@@ -50,29 +51,38 @@ def settle(s: Situation, text: str, meant: str | None) -> Done:
     if meant is None:
         s.emit(Understood("answer", "Then I do not know what you speak of; click on it."))
         return Done(s.robot.pose, "done")
-    return _learn(s, text, meant, act="answer")
+    s.emit(Understood("answer", f"You speak of {s.the(meant)}.", meant))
+    return _learn(s, text, meant)
 
 
-def _learn(s: Situation, text: str, id_: str | None, *, act: str = "lesson", said: str | None = None) -> Done:
-    described = s.the(id_) if id_ in s.memory else "it"
+def _named(s: Situation, text: str, name: str, id_: str | None) -> Done:
+    if id_ in s.memory:
+        s.emit(Understood("lesson", f"You call {s.the(id_)} {with_article(name)}.", id_))
+    else:
+        s.emit(Understood("lesson", f"You tell me what {with_article(name)} is."))
+    return _learn(s, text, id_)
+
+
+def _learn(s: Situation, text: str, id_: str | None) -> Done:
+    """Learn a name, after the first answer: the training takes longer than that may."""
     told = s.model.tell(text, s.model.world_model(s.seen, s.robot.pose, looked=bool(s.places)), pointing_at=id_)
     if not told or told.word is None:
-        s.emit(Understood(act, f"I have not learned that: {told.problem}."))
+        s.say(f"I have not learned that: {told.problem}.")
         return Done(s.robot.pose, "done")
     s.taught[told.word] = "told"
-    s.emit(Understood(act, said or f"I call {described} {with_article(told.word)} now.", told.object))
     s.emit(Learned(told.word, told.type, "told"))
+    s.say("I will remember that.")
     return Done(s.robot.pose, "done", told.object)
 
 
 def forget(s: Situation, word: str) -> Done:
     """Forget a word."""
-    try:
-        s.model.forget(word)
-    except ValueError:
+    if word not in {entry.word for entry in s.model.lexicon()}:
         s.emit(Understood("forget", f'I have never heard the word "{word}".'))
         return Done(s.robot.pose, "done")
+    s.emit(Understood("forget", f'You want me to forget what "{word}" means.'))
+    s.model.forget(word)
     s.taught.pop(word, None)
-    s.emit(Understood("forget", f'I have forgotten what "{word}" means.'))
     s.emit(Learned(word, None, "forgotten"))
+    s.say("I have forgotten it.")
     return Done(s.robot.pose, "done")
