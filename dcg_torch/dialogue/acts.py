@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from dcg_torch.language import Parse, parse_command
+from dcg_torch.language.lexicon import SETS
 from dcg_torch.language.parser import MAX_CHARACTERS
 from dcg_torch.language.requests import (
     Answer,
@@ -89,7 +90,9 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
     if parse.tree is None:
         reason = parse.refused if tokens(text) else replies()["greeting"]  # "hello" is left out as a filler
         return Refused(replies()["refused"].get(reason) or f"I can't do that: {parse.problem}.")
-    if parse.tree.phrase.words == ("be",):
+    if parse.tree.phrase.words == ("be",) and not (SETS["commands"] | set(replies()["pointing_out"])) & set(
+        tokens(text)
+    ):
         return Refused(replies()["refused"][replies()["telling"]])
     return parse
 

@@ -208,14 +208,14 @@ class Session:
         """The world with these objects, the robot where it is; it forgets what was changed unless it sees it."""
         if not things:
             return self._refused("one object must stay")
-        before, state = self.world, self.state
+        before, state, here = self.world, self.state, self.pose
         old = {thing.id: thing for thing in before.objects}
         changed = [id_ for id_ in {**old, **things} if old.get(id_) != things.get(id_)]
         try:
-            world = standing_at(World(name=before.name, objects=tuple(things.values())), self.pose)
+            world = standing_at(World(name=before.name, objects=tuple(things.values())), here)
             state.robot.load(world, rng=np.random.default_rng(self.header.seed))
         except ValueError as error:
-            state.robot.load(standing_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
+            state.robot.load(standing_at(before, here), rng=np.random.default_rng(self.header.seed))
             return self._refused(str(error).splitlines()[0])
         self.world = world
         state.places.clear()
