@@ -210,6 +210,16 @@ def test_a_question_is_answered_by_words_or_a_click_and_else_dropped(laboratory:
     assert laboratory.question == ()
 
 
+def test_what_is_not_there_is_said_and_teaches_nothing(laboratory: Session) -> None:
+    events = laboratory.say("go to the red sphere")
+    done = events[-1]
+    assert isinstance(done, Done)
+    assert done.result == "absent"
+    assert Said("There is no red sphere here.") in events
+    assert not any(isinstance(event, Learned) for event in events)
+    assert laboratory.words() == {}
+
+
 def test_the_unclear_thing_of_a_lesson_is_asked_for(laboratory: Session) -> None:
     asked = next(e for e in laboratory.say("the thing behind you is called a wug") if isinstance(e, Asked))
     assert set(asked.candidates) == {"cube", "crate"}

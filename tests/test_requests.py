@@ -117,6 +117,11 @@ def test_other_acts_are_read_where_a_question_waits() -> None:
     assert read_act("what do you see?", (), asked=True) == Question("see")
 
 
+def test_a_lesson_that_says_what_it_is_about_answers_no_question() -> None:
+    assert isinstance(read_act("the thing on your left is called a gizmo", (), asked=True), Lesson)
+    assert isinstance(read_act("a wug and a pylon are the same", (), asked=True), Lesson)
+
+
 def test_every_command_of_the_worlds_is_a_command() -> None:
     worlds = load_worlds(resource("worlds"))
     texts = [command.text for world in worlds for command in (*world.commands, *world.relational)]

@@ -80,9 +80,12 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
         return Stop()
     if len(text) > MAX_CHARACTERS:
         return Refused(f"I can't do that: {parse.problem}.")
+    teaching = read_teaching(text)
+    named = teaching is not None and (teaching.subject is not None or teaching.same_as is not None)
+    answer = None if named or read_forget(text) else _answer(text, parse)
+    if answer is not None and (asked or answer.yes is not None):
+        return answer
     for read in (read_forget, read_teaching, read_motion, read_question):
-        if asked and read is read_teaching and (answer := _answer(text, parse)) is not None:
-            return answer
         if (found := read(text)) is not None:
             if isinstance(found, str):
                 return Forget(found)
