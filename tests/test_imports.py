@@ -26,7 +26,7 @@ LAYERS = (
     {"model", "watch"},
     {"evaluation", "experiment"},
     {"cli"},
-    {"__main__", "bench", "evaluate"},
+    {"__main__", "apps", "bench", "evaluate"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
@@ -44,6 +44,7 @@ ONLY = {
     "sentence_transformers": {"names.embedding"},
     "transformers": {"names.embedding"},
     "sklearn": {"evaluation.baselines", "bench"},
+    "gymnasium": {"apps.gym"},
 }
 ROOT = "dcg_torch"
 

@@ -51,7 +51,7 @@ class GroundEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
         SimulatorError: PyBullet is asked for and is not there.
     """
 
-    metadata = {"render_modes": ["ansi"]}  # noqa: RUF012 - as Gymnasium's own
+    metadata = {"render_modes": ["ansi"], "render_fps": 1}  # noqa: RUF012 - as Gymnasium's own
 
     def __init__(
         self,

@@ -81,7 +81,7 @@ def experiment_settings(simulator: str, given: Mapping[str, Any]) -> Settings:
 _CHOICES: Mapping[str, type[enum.StrEnum]] = {"speaker": Speaker, "order": Order}
 
 
-def _choice(name: str, kind: type[enum.StrEnum], value: object) -> Any:
+def _choice(name: str, kind: type[enum.StrEnum], value: str) -> Any:
     try:
         return kind(value)
     except ValueError:
