@@ -261,7 +261,7 @@ def test_the_robot_in_physics_is_one_by_an_argument() -> None:
 @pytest.mark.slow
 def test_the_example_shows_that_learning_pays() -> None:
     done = subprocess.run(
-        [sys.executable, "-W", "error", str(ROOT / "examples" / "gym_agents.py"), "10"],
+        [sys.executable, "-W", "error", str(ROOT / "examples" / "gym_agents.py"), "6"],
         capture_output=True,
         text=True,
         check=False,

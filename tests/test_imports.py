@@ -26,7 +26,7 @@ LAYERS = (
     {"model", "watch"},
     {"evaluation", "experiment"},
     {"cli"},
-    {"__main__", "apps", "bench", "evaluate"},
+    {"__main__", "apps", "bench", "convert", "evaluate"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
@@ -45,6 +45,7 @@ ONLY = {
     "transformers": {"names.embedding"},
     "sklearn": {"evaluation.baselines", "bench"},
     "gymnasium": {"apps.gym"},
+    "defusedxml": {"storage.foreign"},
 }
 ROOT = "dcg_torch"
 
