@@ -42,6 +42,7 @@ class _Scene:
 
     ids: dict[_Key, str] = field(default_factory=dict)
     relations: list[tuple[_Key, str, _Key]] = field(default_factory=list)
+    _taken: set[str] = field(default_factory=set)
 
     def add(self, given: Any) -> _Key:
         """Take an object; it stays the same if it is there."""
@@ -52,9 +53,10 @@ class _Scene:
             raise LeftOut("it has no tag, or one that says it failed")
         center, extent = (tuple(numbers(given.get(k), 3)) for k in ("bbox_center", "bbox_extent"))
         key = (" ".join(tag.split()), center, extent)
-        taken = set(self.ids.values())
-        id_ = str(given.get("id", len(taken)))
-        self.ids.setdefault(key, id_ if id_ not in taken else f"{id_} of {len(taken)}")
+        if key not in self.ids:
+            id_ = str(given.get("id", len(self.ids)))
+            self.ids[key] = id_ if id_ not in self._taken else f"{id_} of {len(self.ids)}"
+            self._taken.add(self.ids[key])
         return key
 
 
