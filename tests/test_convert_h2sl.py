@@ -130,5 +130,5 @@ def test_a_dictionary_of_few_types_teaches_no_contradictions(types: str) -> None
     known = types.split(",")
     for entry in h2sl_symbols.training(known, ["red"])["examples"]:
         if entry["means"].startswith("hypothetical ") and entry["noun"] in known:
-            sought = f"{entry.get('color', '')} {example['noun']}".strip()
+            sought = f"{entry.get('color', '')} {entry['noun']}".strip()
             assert not any(one.endswith(sought) for one in entry["see"]), entry
