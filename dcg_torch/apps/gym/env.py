@@ -127,7 +127,7 @@ class GroundEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
             reward -= self._look_cost
         elif act is Act.DONE:
             return self._observe(), float(self._correct), True, False, self._info("") | self._verdict()
-        elif which >= len(self._percepts):
+        elif not 0 <= which < len(self._percepts):
             problem = f"there is no percept {which}"
         elif act is Act.ASK:
             self._reply = Reply.YES if self._ids[which] == self.command.target else Reply.NO

@@ -108,8 +108,8 @@ def read_json_file(path: Path, what: str) -> Any:
 
 
 def reason_of(error: Exception, path: Path) -> str:
-    """The message of an error about a file, without the file."""
-    return str(error).removeprefix(f"{path}: ")
+    """The message of an error about a file, without the file and the place in it, so that such errors add up."""
+    return re.sub(r":? (line|at character) \d+(, column \d+)?", "", str(error).removeprefix(f"{path}: "))
 
 
 def numbers(values: Any, count: int) -> list[float]:

@@ -115,7 +115,7 @@ def _read(content: Iterable[Any], scene: _Scene, where: str, found: Converted) -
                 continue
             first, second = scene.add(entry["object1"]), scene.add(entry.get("object2"))
             relation = entry.get("object_relation")
-            if relation not in _RELATIONS:
+            if not isinstance(relation, str) or relation not in _RELATIONS:
                 raise LeftOut("it says neither on nor in")
             word, swapped = _RELATIONS[relation]
             scene.relations.append((second, word, first) if swapped else (first, word, second))

@@ -70,12 +70,12 @@ def example(root: Element) -> tuple[dict[str, Any], dict[str, int]]:
     text = None if instruction is None else instruction.get("text")
     if not text or not text.strip():
         raise LeftOut("no text of the instruction")
-    phrases = [child for child in root if child.tag not in ("instruction", "world")]
+    phrases = [child for child in root if child.tag.isupper()]  # VP, NP ...
     if len(phrases) != 1:
         raise LeftOut("no parse" if not phrases else "several parses")
     everything = {_attribute(o, "id", "name"): o for o in world.findall("object")}
-    if None in everything:
-        raise LeftOut("an object has no id")
+    if None in everything or len(everything) < len(world.findall("object")):
+        raise LeftOut("an object has no id, or that of another")
     robots = [name for name, o in everything.items() if _attribute(o, "object_type", "type") == _ROBOT]
     strange = [name for name, o in everything.items() if _attribute(o, "object_type", "type") in _NONE]
     objects = [_object(o) for name, o in everything.items() if name not in (*robots, *strange)]
@@ -109,16 +109,17 @@ def _position(element: Element) -> list[float]:
     given = element.get("position")
     if given is None:
         raise LeftOut("an object has no position")
-    return numbers(given.split(","), 3)
+    return numbers(given.replace(",", " ").split(), 3)
 
 
 def _target(phrase: Element, robots: list[str | None], strange: list[str | None]) -> list[str]:
     """The ids of what the whole phrase means."""
     meant = phrase.find("grounding_set")
+    meant = phrase.find("grounding/grounding_set") if meant is None else meant
     if meant is None:
         raise LeftOut("no grounding of the whole phrase")
-    ids = [o.get("id") for o in meant.findall("object")]
-    ids = ids or [one.strip() for c in meant.findall("container") for one in (c.get("object_ids") or "").split(",")]
+    ids = _listed(meant)
+    ids = ids or [one for container in meant.findall("container") for one in _listed(container)]
     ids = ids or [_about(c.attrib, robots) for c in meant.findall("constraint")]
     named = [one for one in dict.fromkeys(ids) if one]
     if not named:
@@ -129,6 +130,12 @@ def _target(phrase: Element, robots: list[str | None], strange: list[str | None]
     if any(one in strange for one in things):
         raise LeftOut("it means an object whose type is na")
     return things
+
+
+def _listed(element: Element) -> list[str | None]:
+    """The ids of the objects within an element, or in its list of ids."""
+    within = [_attribute(o, "id", "name") for o in element.findall("object")]
+    return within or [one.strip() for one in element.get("object_ids", "").split(",") if one.strip()]
 
 
 def _about(constraint: Mapping[str, str], robots: list[str | None]) -> str | None:

@@ -13,9 +13,11 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 import yaml
+from pydantic import ValidationError
 
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError
-from dcg_torch.storage.foreign import plain, read_xml
+from dcg_torch.lessons.files import TrainingFile
+from dcg_torch.storage.foreign import plain, problem_of, read_xml
 
 _NO_TYPES = ("na", "robot", "")
 
@@ -33,10 +35,19 @@ def convert(path: Path, tick: Callable[[int], None] = lambda total: None) -> Con
     if lists is None:
         raise ImportFileError(f"{path}: no symbol dictionary in it; give a file with <symbol_dictionary>")
     types, colors = lists.pop("object_type", []), lists.pop("object_color_type", lists.pop("object_color", []))
-    types, colors = [t for t in types if t not in _NO_TYPES], [c for c in colors if c not in _NO_TYPES]
+    types = [t for t in types if t not in _NO_TYPES]
+    named = [c for c in colors if c not in _NO_TYPES]
+    colors = [c for c in named if len(c.split()) == 1]
     if not types or not colors:
         raise ImportFileError(f"{path}: names no object types or no colours; a robot that knows none can't be taught")
-    found = Converted([yaml.safe_dump(training(types, colors), sort_keys=False, allow_unicode=True, width=200)])
+    content = training(types, colors)
+    try:
+        TrainingFile.model_validate(content)
+    except ValidationError as error:
+        raise ImportFileError(f"{path}: makes no training file: {problem_of(error, TrainingFile)}") from None
+    found = Converted([yaml.safe_dump(content, sort_keys=False, allow_unicode=True, width=200)])
+    if len(colors) < len(named):
+        found.leave_out("symbol", "a colour of several words", path.name, len(named) - len(colors))
     for key, values in lists.items():
         reason = f"of {plain(key)}, for which a training file has no place"
         found.leave_out("symbol", reason, path.name, len(values))
