@@ -182,11 +182,16 @@ class _Command:
     clock: Stopwatch
 
     def look(self, explorer: Explorer, watch: Callable[[Look], None] | None) -> Solution:
-        """Ground what is seen, and look on until the explorer is content."""
+        """Ground what is seen, and look on until the explorer is content.
+
+        Where a look has shown nothing new, the command means what it meant before.
+        """
+        known: tuple[int, bool] | None = None
         while True:
-            with self.clock("ground"):
-                world = self.model.world_model(self.percepts.values(), self.start, looked=explorer.looked)
-                solution = self.model.ground(self.said, world)
+            if known != (known := (len(self.percepts), explorer.looked)):
+                with self.clock("ground"):
+                    world = self.model.world_model(self.percepts.values(), self.start, looked=explorer.looked)
+                    solution = self.model.ground(self.said, world)
             if watch is not None:
                 watch(Look(self.robot.pose, tuple(self.percepts.values()), solution))
             with self.clock("explore"):

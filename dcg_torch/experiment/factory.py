@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import functools
 from collections.abc import Callable
 from dataclasses import replace
@@ -55,7 +54,7 @@ def make_model(settings: ModelSettings, names: Names, training: str | None = Non
         SettingsError: a feature group that does not exist.
         TrainingFileError: the file is missing or not valid.
     """
-    return copy.deepcopy(_made(variant(settings), settings.lessons, settings.learner, names, training))
+    return _made(variant(settings), settings.lessons, settings.learner, names, training).copy()
 
 
 @functools.cache

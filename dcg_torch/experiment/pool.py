@@ -18,6 +18,7 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
 from typing import Any, TypeVar
 
@@ -25,6 +26,8 @@ from dcg_torch.storage.errors import UserError
 
 T = TypeVar("T")
 
+_PRELOADED = ("dcg_torch.__main__", "dcg_torch.experiment.ready")
+"""Modules that are imported once, for all processes."""
 TICK = 0.25
 """Seconds after which `work_off` speaks up even if no task has ended."""
 
@@ -89,8 +92,17 @@ def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> 
             process.join()
 
 
+def _context() -> ForkServerContext | SpawnContext:
+    """Of new processes: forked from one that has imported what a trial needs, where there is such a thing."""
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(list(_PRELOADED))
+    return context
+
+
 def _start(work: Callable[[T], object]) -> tuple[Connection, BaseProcess]:
-    context = multiprocessing.get_context("spawn")
+    context = _context()
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, work), daemon=True)
     process.start()

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -17,7 +18,7 @@ from dcg_torch.experiment.folder import MODEL, ORIGIN, animation_of, lexicon_of,
 from dcg_torch.experiment.plan import trial_commands, trial_generators
 from dcg_torch.experiment.robots import make_robot
 from dcg_torch.experiment.trial import run_trial
-from dcg_torch.language import default_parser
+from dcg_torch.language import Parse, default_parser
 from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
@@ -45,7 +46,7 @@ def run_one(settings: Settings, trial: int, directory: Path, tick: Callable[[], 
         trial,
         commands,
         model,
-        default_parser().parse,
+        _parse_once,
         robot,
         trial_generators(settings.seed, trial)[2],
         spin_step=math.radians(settings.simulator.spin_step),
@@ -62,6 +63,16 @@ def run_one(settings: Settings, trial: int, directory: Path, tick: Callable[[], 
             tick()
     _save_outcome(settings, model, recorder, trial, directory)
     return model
+
+
+def _parse_once(text: str, words: Collection[str]) -> Parse:
+    """Reads a command: people say the same in many trials."""
+    return _parsed(text, frozenset(words))
+
+
+@functools.lru_cache(maxsize=4096)
+def _parsed(text: str, words: frozenset[str]) -> Parse:
+    return default_parser().parse(text, words)
 
 
 def _save_outcome(

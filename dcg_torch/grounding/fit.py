@@ -88,9 +88,12 @@ def fit(
     with one_thread():
         found = _solve(reduced, tolerance, max_steps, solver)
     factor.set_weight(reduced.weight(found.point.at))
-    distance = (fixed if prior is None else fixed - prior)[:, pairs]
+    rest = np.flatnonzero(pairs & ~active)  # of the active ones that don't move the prior is the optimum
+    distance = (fixed if prior is None else fixed - prior).reshape(len(weight), -1)[:, rest] if len(rest) else 0.0
     return FitResult(
-        value=found.point.value + reduced.constant + 0.5 * float((strength[pairs] * distance * distance).sum()),
+        value=found.point.value
+        + reduced.constant
+        + 0.5 * float(np.sum(strength.reshape(-1)[rest] * distance * distance)),
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,

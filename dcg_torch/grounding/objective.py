@@ -24,7 +24,7 @@ from functools import cached_property
 import numpy as np
 
 from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.rows import DenseRows, GridRows, Rows
+from dcg_torch.grounding.rows import ArrowheadRows, GridRows, Rows
 from dcg_torch.grounding.solvers import Function, Point
 
 _CG_STEPS = 1000
@@ -70,32 +70,62 @@ class Objective:
         return Point(flat, value, gradient.reshape(-1), norm, chances)
 
     def newton_step(self, point: Point) -> Floats:
-        """Minus the inverse Hessian times the gradient; for dense rows."""
-        assert isinstance(self.rows, DenseRows)
-        q = len(self.count) - 1
-        unit = np.eye(q)
-        gradient, step = point.gradient.reshape(q, -1), np.empty((q, len(self.strength)))
+        """Minus the inverse Hessian times the gradient; for rows of the arrowhead.
+
+        The rows' own variables are eliminated first: what is left is as if their rows were less curved.
+        """
+        assert isinstance(self.rows, ArrowheadRows)
+        rows, chances = self.rows, point.chances
+        q, shared = len(chances), rows.patterns.shape[1]
+        gradient = point.gradient.reshape(q, -1)
+        curvature = self.total * chances[:, None] * (np.eye(q)[:, :, None] - chances)  # (Q, Q, N)
+        downhill = -gradient[:, :shared]
+        if len(rows.own):
+            coupled = rows.entry * curvature[:, :, rows.own]
+            inverse = _inverse(rows.entry * coupled + self._basis[:, :, None] * self.strength[shared:])
+            across = np.einsum("abr,bcr->acr", coupled, inverse)
+            curvature[:, :, rows.own] -= np.einsum("abr,bcr->acr", across, coupled)
+            pull = np.zeros((q, curvature.shape[2]))
+            pull[:, rows.own] = np.einsum("abr,br->ar", across, gradient[:, shared:])
+            downhill = downhill + rows.by_pattern(pull) @ rows.patterns
+        by_pattern = rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
+        step = self._shared_step(by_pattern, downhill)
+        if not len(rows.own):
+            return step.reshape(-1)
+        moved = step @ rows.patterns.T
+        moved = moved[:, rows.own if rows.pattern is None else rows.pattern[rows.own]]
+        left = gradient[:, shared:] + np.einsum("abr,br->ar", coupled, moved)
+        return np.concatenate([step, -np.einsum("abr,br->ar", inverse, left)], axis=1).reshape(-1)
+
+    def _shared_step(self, curvature: Floats, downhill: Floats) -> Floats:
+        """(Q, S) the step of the shared variables, from the curvature (Q, Q, M) of each pattern."""
+        assert isinstance(self.rows, ArrowheadRows)
+        q, step = len(downhill), np.empty_like(downhill)
         for (rows, columns, matrix), penalty in zip(self.rows.blocks, self._penalties, strict=True):
-            own, k = point.chances[:, rows], len(columns)
-            curvature = self.total[rows] * own[:, None] * (unit[:, :, None] - own)  # (Q, Q, rows)
+            own, k = curvature[:, :, rows], len(columns)
             hessian = np.empty((q, k, q, k))
             for a in range(q):
                 for b in range(a + 1):
-                    hessian[a, :, b] = (matrix.T * curvature[a, b]) @ matrix
+                    hessian[a, :, b] = (matrix.T * own[a, b]) @ matrix
                     if a != b:
                         hessian[b, :, a] = hessian[a, :, b]
             whole = hessian.reshape(q * k, q * k)
             whole += penalty
-            step[:, columns] = np.linalg.solve(whole, -gradient[:, columns].reshape(-1)).reshape(q, k)
-        return step.reshape(-1)
+            step[:, columns] = np.linalg.solve(whole, downhill[:, columns].reshape(-1)).reshape(q, k)
+        return step
+
+    @cached_property
+    def _basis(self) -> Floats:
+        """(Q, Q) I - 1/P: the penalty of a variable's differences."""
+        q = len(self.count) - 1
+        return np.eye(q) - 1.0 / (q + 1)
 
     @cached_property
     def _penalties(self) -> list[Floats]:
         """(Q K, Q K) the Hessian of the penalty on each block's variables."""
-        assert isinstance(self.rows, DenseRows)
-        q = len(self.count) - 1
-        basis = np.eye(q) - 1.0 / (q + 1)
-        return [np.kron(basis, np.diag(self.strength[own])).astype(np.float64) for _, own, _ in self.rows.blocks]
+        assert isinstance(self.rows, ArrowheadRows)
+        diagonals = [np.diag(self.strength[own]).astype(np.float64) for _, own, _ in self.rows.blocks]
+        return [np.asarray(np.kron(self._basis, diagonal), dtype=np.float64) for diagonal in diagonals]
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""
@@ -161,6 +191,19 @@ def likelihood(u: Floats, count: Floats, total: Floats) -> tuple[float, Floats, 
     chances /= partition
     value = float(total @ log_partition) - float(np.vdot(count[1:], u))
     return value, chances * total - count[1:], chances
+
+
+def _inverse(matrices: Floats) -> Floats:
+    """(Q, Q, n) of symmetric matrices (Q, Q, n)."""
+    inverse: Floats
+    if len(matrices) == 1:
+        inverse = 1.0 / matrices
+    elif len(matrices) == 2:
+        (a, b), (_, c) = matrices
+        inverse = np.array([[c, -b], [-b, a]]) / (a * c - b * b)
+    else:
+        inverse = np.linalg.inv(matrices.transpose(2, 0, 1)).transpose(1, 2, 0).astype(np.float64)
+    return inverse
 
 
 def max_norm(gradient: Floats) -> float:

@@ -1,7 +1,7 @@
 """From design matrices to the smallest problem that has the same optimum.
 
-Few rows: each row is written out as the pairs that fire, rows and weights that are alike by symmetry become one, and
-Newton's method has one dense matrix.
+Few rows: each row is written out as the pairs that fire, rows and weights that are alike by symmetry become one,
+weights of a single row are eliminated, and Newton's method has a dense matrix of the others.
 
 Many rows: pairs are never written out. Scores are sums over cells of the phrases' side times the weights, or, where
 most phrases occur with most groundings, the whole product of the phrases' side, the weights and the groundings' side.
@@ -15,18 +15,19 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.arrowhead import Split, split
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, distinct_rows, stack
 from dcg_torch.grounding.objective import Objective, likelihood
-from dcg_torch.grounding.psi import Floats, binary, scores
-from dcg_torch.grounding.rows import BagRows, DenseRows, GridRows
+from dcg_torch.grounding.psi import Bag, Floats, binary, scores
+from dcg_torch.grounding.rows import ArrowheadRows, BagRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes, row_keys
 
 Mask = NDArray[np.bool_]
 
-_FEW_ENTRIES = 200_000
-"""Pairs that fire, over all rows, up to which rows are written out."""
+_FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
+"""Pairs that may fire, over all rows, up to which symmetry is looked for at once, and rows are written out."""
 _NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
-"""Weights, and multiplications a step, up to which Newton's method with a dense matrix is the fastest way."""
+"""Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
 _GRID = 0.25
 """Share of phrases and groundings that occur together from which on the whole product is the faster way."""
 
@@ -88,8 +89,10 @@ def reduce(
         empty = np.zeros((0, 0), dtype=np.int64)
         designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
-    if prefer == "newton" or (prefer == "auto" and entries <= _FEW_ENTRIES):
-        found = _dense(designs, weight, fixed, active, strength, always=prefer == "newton")
+    if prefer == "newton" or (prefer == "auto" and entries <= _SOME_ENTRIES):
+        found = _written(
+            designs, weight, fixed, active, strength, always=prefer == "newton", many=entries > _FEW_ENTRIES
+        )
         if found is not None:
             return found
     return _factored(designs, weight, fixed, active, strength)
@@ -99,9 +102,24 @@ def _offset(designs: Sequence[DesignMatrix], fixed: Floats) -> Floats | None:
     """(Q, N) score differences by weights that do not move."""
     if not fixed.any():
         return None
-    total = np.concatenate([scores(fixed, d.language, d.grounding, d.phrase) for d in designs], axis=1)
+    totals = []
+    for design in designs:
+        (left, language), (right, grounding) = (_compact(bag) for bag in (design.language, design.grounding))
+        totals.append(scores(fixed[:, left[:, None], right], language, grounding, design.phrase))
+    total = np.concatenate(totals, axis=1)
     offset: Floats = total[1:] - total[0]
     return offset
+
+
+def _compact(bag: Bag) -> tuple[Ints, Bag]:
+    """The columns that occur in a bag, and the bag with their numbers among these."""
+    occurs = np.zeros(int(bag.max(initial=-1)) + 2, dtype=np.bool_)
+    occurs[bag] = True
+    occurs[-1] = False  # the padding
+    columns = np.flatnonzero(occurs)
+    number = np.full(len(occurs), -1, dtype=np.int64)
+    number[columns] = np.arange(len(columns))
+    return columns, number[bag]
 
 
 def _constant(count: Floats, offset: Floats | None, rows: Mask) -> float:
@@ -113,45 +131,66 @@ def _constant(count: Floats, offset: Floats | None, rows: Mask) -> float:
 
 def _differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
     """(Q, K) how the weights of P - 1 correspondences differ from the first's, beside the prior's."""
-    moved = (weight - fixed).reshape(len(weight), -1)[:, columns]
+    moved = weight.reshape(len(weight), -1)[:, columns] - fixed.reshape(len(weight), -1)[:, columns]
     differences: Floats = moved[1:] - moved[0]
     return differences
 
 
-def _dense(
-    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats, *, always: bool
+def _written(
+    designs: Sequence[DesignMatrix],
+    weight: Floats,
+    fixed: Floats,
+    active: Mask,
+    strength: Floats,
+    *,
+    always: bool,
+    many: bool,
 ) -> Reduced | None:
-    """Rows written out and made few by symmetry; None if they stay too many for Newton's method."""
+    """Rows written out and made few by symmetry; None if too much stays for Newton's method.
+
+    Args:
+        always: Newton's method it is to be.
+        many: look for symmetry only where it takes that.
+    """
     incidence, rows, columns = _written_out(designs, active)
     offset, count = _offset(designs, fixed), np.concatenate([design.count for design in designs], axis=1)
     unmoved = np.ones(count.shape[1], dtype=np.bool_)
     unmoved[rows] = False
     constant = _constant(count, offset, unmoved)
     if not len(rows):
-        nothing = Objective(DenseRows(np.zeros((0, 0))), count[:, :0], None, np.zeros(0))
-        return Reduced(nothing, np.zeros(0), constant, fixed, columns, None)
+        none = ArrowheadRows(np.zeros((0, 0)), None, np.zeros(0, dtype=np.int64), np.zeros(0))
+        return Reduced(Objective(none, count[:, :0], None, np.zeros(0)), np.zeros(0), constant, fixed, columns, None)
     count, offset = count[:, rows], None if offset is None else offset[:, rows]
     incidence, count, offset = _merged(incidence, count, offset)
     start, own = _differences(weight, fixed, columns), strength.reshape(-1)[columns]
-    found = _alike(incidence, count, offset, own, incidence.columns if always else _NEWTON_COLUMNS)
-    if found is None or not (always or _pays(len(found.row_size), len(found.column_size) * len(start))):
-        return None
-    root = np.sqrt(found.column_size)
-    objective = Objective(
-        DenseRows(found.matrix(incidence) / root),
-        count[:, found.row_first] * found.row_size,
-        None if offset is None else offset[:, found.row_first],
-        own[found.column_first],
-        1.0 / root,
-    )
-    start = _summed(start, found.column, len(root)) / root
-    tied = found.column, (1.0 / root)[found.column]
-    return Reduced(objective, start.reshape(-1), constant, fixed, columns, tied)
+    found = split(incidence, np.ones(len(incidence.row))) if many else None
+    tied: tuple[Ints, Floats] | None = None
+    if found is None or not _pays(found, len(start)):
+        alike = _alike(incidence, count, offset, own)
+        root = np.sqrt(alike.column_size)
+        incidence, fires = alike.incidence(incidence)
+        count = count[:, alike.row_first] * alike.row_size
+        offset = None if offset is None else offset[:, alike.row_first]
+        own, start = own[alike.column_first], _summed(start, alike.column, len(root)) / root
+        tied = alike.column, (1.0 / root)[alike.column]
+        found = split(incidence, fires / root[incidence.column])
+        if not (always or _pays(found, len(start))):
+            return None
+    order = found.order
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    scale = 1.0 if tied is None else 1.0 / root[order]
+    tied = (number, np.ones(len(number))) if tied is None else (number[tied[0]], tied[1])
+    objective = Objective(found.rows(), count, offset, own[order], scale)
+    return Reduced(objective, start[:, order].reshape(-1), constant, fixed, columns, tied)
 
 
-def _pays(rows: int, variables: int) -> bool:
+def _pays(found: Split, q: int) -> bool:
     """Is a step of Newton's method cheap enough?"""
-    return (rows + variables) * variables * variables <= _NEWTON_WORK
+    shared = len(found.shared)
+    variables = q * shared
+    work = (len(found.first) + variables) * variables * variables + 40 * q * q * found.incidence.rows
+    return shared <= _NEWTON_COLUMNS and work <= _NEWTON_WORK
 
 
 def _written_out(designs: Sequence[DesignMatrix], active: Mask) -> tuple[Incidence, Ints, Ints]:
@@ -194,9 +233,9 @@ def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple
     )
 
 
-def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats, limit: int) -> Classes | None:
+def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats) -> Classes:
     rows = bits_of(count if offset is None else np.concatenate([count, offset]), incidence.rows)
-    return classes(incidence, rows, bits_of(strength[None], incidence.columns), limit)
+    return classes(incidence, rows, bits_of(strength[None], incidence.columns))
 
 
 def _summed(values: Floats, which: Ints, size: int) -> Floats:

@@ -30,24 +30,50 @@ class Rows(Protocol):
 
 
 @dataclass(frozen=True)
-class DenseRows:
-    """A few rows and columns as one matrix (N, K)."""
+class ArrowheadRows:
+    """Rows of which many have a variable of their own beside those that they share: the Hessian is an arrowhead.
 
-    matrix: Floats
+    A noun with a type is such a variable, where every pair of them is shown once. Rows that share the same variables
+    are of one pattern. The variables are the S shared ones, then the R own ones.
+
+    Attributes:
+        patterns: (M, S) what fires of the shared variables.
+        pattern: (N,) the pattern of each row; None: each row is its own.
+        own: (R,) the row of each own variable, no two of one row.
+        entry: (R,) how much it counts there.
+    """
+
+    patterns: Floats
+    pattern: Ints | None
+    own: Ints
+    entry: Floats
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        return d @ self.matrix.T
+        shared = self.patterns.shape[1]
+        total: Floats = d[:, :shared] @ self.patterns.T
+        if self.pattern is not None:
+            total = total[:, self.pattern]
+        if len(self.own):
+            total[:, self.own] += self.entry * d[:, shared:]
+        return total
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        return residual @ self.matrix
+        shared = self.by_pattern(residual) @ self.patterns
+        return np.concatenate([shared, self.entry * residual[:, self.own]], axis=1) if len(self.own) else shared
+
+    def by_pattern(self, values: Floats) -> Floats:
+        """(n, M) sums over the rows of each pattern, of values (n, N)."""
+        if self.pattern is None:
+            return values
+        return np.stack([np.bincount(self.pattern, row, minlength=len(self.patterns)) for row in values])
 
     @cached_property
     def blocks(self) -> list[tuple[Ints, Ints, Floats]]:
-        """Rows, columns and matrix of every part that shares no column with the others: verbs, prepositions, nouns."""
-        label = np.arange(self.matrix.shape[1])
-        fires = self.matrix != 0.0
+        """Patterns, shared variables and matrix of every part that shares none with the others: verbs, nouns."""
+        label = np.arange(self.patterns.shape[1])
+        fires = self.patterns != 0.0
         while True:  # the least label spreads through all that is connected
             of_row = np.where(fires, label, len(label)).min(axis=1, initial=len(label))
             spreading = np.minimum(label, np.where(fires, of_row[:, None], len(label)).min(axis=0, initial=len(label)))
@@ -57,7 +83,7 @@ class DenseRows:
         found = []
         for one in np.unique(label):
             rows, columns = np.flatnonzero(of_row == one), np.flatnonzero(label == one)
-            found.append((rows, columns, np.asfortranarray(self.matrix[rows][:, columns])))
+            found.append((rows, columns, np.asfortranarray(self.patterns[rows][:, columns])))
         return found
 
 

@@ -63,13 +63,13 @@ class Classes:
     row_size: Ints
     column_size: Ints
 
-    def matrix(self, incidence: Incidence) -> Floats:
-        """(row classes, column classes) how many columns of a class fire in a row of another."""
-        shape = len(self.row_size), len(self.column_size)
-        one = incidence.keep(np.sort(self.row_first))
+    def incidence(self, of: Incidence) -> tuple[Incidence, Floats]:
+        """Which column classes fire in which row classes, and how many columns of them."""
+        size = len(self.column_size)
+        one = of.keep(np.sort(self.row_first))
         of_row = self.row[np.sort(self.row_first)]
-        cells = of_row[one.row] * shape[1] + self.column[one.column]
-        return np.bincount(cells, minlength=shape[0] * shape[1]).astype(np.float64).reshape(shape)
+        cells, count = np.unique(of_row[one.row] * size + self.column[one.column], return_counts=True)
+        return Incidence(cells // size, cells % size, len(self.row_size), size), count.astype(np.float64)
 
 
 def row_keys(incidence: Incidence) -> Hashes:
@@ -86,8 +86,8 @@ def bits_of(values: Sequence[NDArray[np.float64]] | Floats, size: int) -> Hashes
     return total
 
 
-def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes, limit: int) -> Classes | None:
-    """The coarsest classes of rows and columns that are alike; None if there are more than `limit` of the columns.
+def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Classes:
+    """The coarsest classes of rows and columns that are alike.
 
     Args:
         row_start: (rows,) rows that differ here are never alike.
@@ -103,8 +103,6 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes, limit
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside
         before, found = found, (len(np.unique(rows)), len(np.unique(columns)))
-        if found[1] > limit:
-            return None  # classes only ever split
         if found == before:
             break
     row_first, row_class, row_size = _numbered(rows)

@@ -132,6 +132,11 @@ class Posterior:
     def _row(self) -> dict[str, int]:
         return {w: k for k, w in enumerate(self.words)}
 
+    @cached_property
+    def column(self) -> dict[str, int]:
+        """Type -> its column."""
+        return {t: k for k, t in enumerate(self.types)}
+
 
 @dataclass(frozen=True)
 class Beliefs:

@@ -8,13 +8,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry
-from dcg_torch.types import Correspondence, Example, PhraseKind, Symbol, WorldModel
+from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Symbol, WorldModel
 
 
 @dataclass(frozen=True)
@@ -78,13 +79,20 @@ class CommitFirst:
         return replace(self, symbols=named | dict(self.symbols))
 
     def training_examples(self, features: FeatureSet) -> Sequence[Example]:
-        """T, with M.Gamma's other types as contrast."""
-        return [contrast(e, self.symbols) for e in self.examples]
+        """T; where relations are features, with M.Gamma's other types as contrast: they stand where things do."""
+        if Group.RELATION in features.groups:
+            return [contrast(e, self.symbols) for e in self.examples]
+        return self.examples
+
+    def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
+        """M.Gamma's other types as contrast."""
+        return [] if Group.RELATION in features.groups else contrasts(self.examples, self.symbols)
 
     def columns(self, features: FeatureSet) -> FeatureSet:
         """f_word, f_obj and f_color of every symbol (lines 20 to 22)."""
         for symbol in self.symbols.values():
-            features = features.grow(symbol)
+            if not _has_columns(symbol, features):
+                features = features.grow(symbol)
         return features
 
     def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
@@ -154,19 +162,19 @@ def replace_unknown(examples: Iterable[Example], known_types: Collection[str]) -
     An example recorded while a type was unknown changes its meaning when the type is learned: positives and
     negatives alike. Examples that mention no such object are returned as they are.
     """
-    renewed: dict[WorldModel, WorldModel] = {}  # examples of one world go on sharing it
+    types, renewed = frozenset(known_types), dict[int, WorldModel]()  # examples of one world go on sharing it
     out = []
     for example in examples:
-        if example.world not in renewed:
-            renewed[example.world] = _renewed(example.world, known_types)
-        out.append(_relabelled(example, renewed[example.world]))
+        if id(example.world) not in renewed:
+            renewed[id(example.world)] = _renewed(example.world, types)
+        out.append(_relabelled(example, renewed[id(example.world)]))
     return out
 
 
 def _renewed(world: WorldModel, known_types: Collection[str]) -> WorldModel:
-    changed = any(o.known != (o.type in known_types) for o in world.objects)
-    objects = tuple(replace(o, known=o.type in known_types) for o in world.objects)
-    return replace(world, objects=objects) if changed else world
+    if all(o.known == (o.type in known_types) for o in world.objects):
+        return world
+    return replace(world, objects=tuple(replace(o, known=o.type in known_types) for o in world.objects))
 
 
 def _relabelled(example: Example, world: WorldModel) -> Example:
@@ -181,6 +189,50 @@ def _relabelled(example: Example, world: WorldModel) -> Example:
     return replace(example, world=world, children=children)
 
 
+def contrasts(examples: Iterable[Example], symbols: Mapping[str, Symbol]) -> list[SoftLabels]:
+    """What `contrast` adds to examples, summed: of every phrase with an object of every known type.
+
+    It says the same where no feature depends on where things stand.
+    """
+    types = list(dict.fromkeys(s.type for s in symbols.values()))
+    column = {t: k for k, t in enumerate(types)}
+    tables: dict[tuple[str | None, bool, frozenset[str]], dict[tuple[Phrase, str | None], float]] = {}
+    for example in examples:
+        meant = _only_meant(example)
+        if meant is not None:
+            table = tables.setdefault((meant.color, meant.hypothetical, meant.attributes), {})
+            said = example.phrase, meant.type
+            table[said] = table.get(said, 0.0) + example.weight
+    found = []
+    for (color, hypothetical, attributes), table in tables.items():
+        inactive = np.repeat(np.array([list(table.values())]).T, len(types), axis=1)
+        for row, (phrase, type_) in zip(inactive, table, strict=True):
+            named = symbols.get(phrase.noun or "")
+            row[[column[t] for t in (type_, None if named is None else named.type) if t in column]] = 0.0
+        objects = [Object(t, t, True, hypothetical, color, attributes=attributes) for t in types]
+        found.append(SoftLabels([p for p, _ in table], objects, np.zeros_like(inactive), inactive, inactive > 0.0))
+    return found
+
+
+def _only_meant(example: Example) -> Object | None:
+    """The one object that a noun phrase's example says is meant; None for another kind of example."""
+    if example.phrase.kind is not PhraseKind.NOUN:
+        return None
+    meant = [
+        o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0
+    ]
+    return meant[0] if len(meant) == 1 else None
+
+
+def _has_columns(symbol: Symbol, features: FeatureSet) -> bool:
+    """Would the features be the same with this symbol?"""
+    named = f"noun: {symbol.word}" in features.language and f"type: {symbol.type}" in features.grounding
+    if not named or Group.COLOR not in features.groups:
+        return named
+    said = all(f"color: {c}" in features.language for c in (symbol.color, symbol.color_word) if c is not None)
+    return said and (symbol.color is None or f"color: {symbol.color}" in features.grounding)
+
+
 def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
     """A noun phrase's example over all of M.Gamma: with a factor for every known type that was not meant.
 
@@ -188,15 +240,13 @@ def contrast(example: Example, symbols: Mapping[str, Symbol]) -> Example:
     object that was meant, one of every other known type with the same attributes, INACTIVE. Without these, what is
     known of a word learned in one lesson could not outweigh a matching colour.
     """
-    meant = [
-        o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0
-    ]
-    if example.phrase.kind is not PhraseKind.NOUN or len(meant) != 1:
+    meant = _only_meant(example)
+    if meant is None:
         return example
     named = symbols.get(example.phrase.noun or "")
-    spared = {meant[0].type, None if named is None else named.type}
+    spared = {meant.type, None if named is None else named.type}
     others = [
-        replace(meant[0], id=f"{meant[0].id} as {t}", type=t, known=True)
+        replace(meant, id=f"{meant.id} as {t}", type=t, known=True)
         for t in dict.fromkeys(s.type for s in symbols.values())
         if t not in spared
     ]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.types import Example, Symbol
@@ -61,7 +62,7 @@ class Learned:
 class Learner(Protocol):
     """What a model has learned of words, as a frozen value, and how it goes on.
 
-    The weights of the model follow from `training_examples`, by one fit of those weights that `trainable` names.
+    The weights of the model follow from `training_examples` and `soft_labels`: one fit of those that are `trainable`.
     """
 
     @property
@@ -101,7 +102,11 @@ class Learner(Protocol):
         ...
 
     def training_examples(self, features: FeatureSet) -> Sequence[Example]:
-        """What the weights are to follow."""
+        """What the weights are to follow; one that was there before is the same object again."""
+        ...
+
+    def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
+        """What else they are to follow: of every one of some phrases with every one of some objects."""
         ...
 
     def columns(self, features: FeatureSet) -> FeatureSet:

@@ -1,4 +1,4 @@
-"""The posterior as training examples of the log-linear model.
+"""The posterior as soft labels of the log-linear model.
 
 A grounding's probability is the softmax over objects of the log-odds of ACTIVE against INACTIVE, so the model says
 what the posterior says once these odds are proportional to P(this object | command). That is how a ratio of
@@ -16,13 +16,15 @@ each type, each colour word with each colour, and the hypothetical objects once.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
+from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.beliefs import UNMET, Beliefs
-from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import Object, Phrase, PhraseKind
 
 NEVER_HEARD = "(never heard)"
 """A noun and a colour word that nobody says; it has no column, as no unheard word has."""
@@ -43,16 +45,7 @@ class Unseen:
     after_full_scan: float
 
 
-@dataclass(frozen=True, slots=True)
-class Pair:
-    """A phrase and an object, and the odds for ACTIVE against INACTIVE that it is to have."""
-
-    phrase: Phrase
-    object: Object
-    odds: float
-
-
-def soft_examples(
+def soft_labels(
     nouns: Beliefs,
     colors: Beliefs,
     unseen: Unseen,
@@ -61,8 +54,8 @@ def soft_examples(
     strength: float = 5.0,
     forgotten: Collection[str] = (),
     fixed: Collection[str] = (),
-) -> list[Example]:
-    """Equation (2) as examples.
+) -> list[SoftLabels]:
+    """Equation (2) as soft labels.
 
     Args:
         nouns: what the nouns name; at least one is settled.
@@ -73,53 +66,75 @@ def soft_examples(
         fixed: words whose weights are not to follow from the posterior; they are left out.
         forgotten: nouns that have columns and no meaning any more: they are as if never heard.
     """
-    pairs = [*_nouns(nouns, forgotten, fixed), *_colors(nouns, colors, fixed), *_unseen(nouns, colors, unseen, looked)]
-    pairs += _unnamed(nouns, colors, unseen, looked)
-    return list(pair_examples(pairs, strength))
+    found = [
+        *_nouns(nouns, forgotten, fixed),
+        *_colors(nouns, colors, fixed),
+        *_unseen(nouns, colors, unseen, looked),
+        *_unnamed(nouns, colors, unseen, looked),
+    ]
+    return [_labelled(table, strength) for table in found if table.phrases]
+
+
+@dataclass(frozen=True)
+class _Odds:
+    """(phrases, objects) the odds for ACTIVE against INACTIVE that each pair is to have; `shown` are those in use."""
+
+    phrases: Sequence[Phrase]
+    objects: Sequence[Object]
+    odds: NDArray[np.float64]
+    shown: NDArray[np.bool_] | None = None
+
+
+def _labelled(table: _Odds, strength: float) -> SoftLabels:
+    odds = np.clip(table.odds, 1e-6, 1e6)
+    # weights a and b with a / b = odds and a b / (a + b) = strength
+    active, inactive = strength * (1.0 + odds), strength * (1.0 + 1.0 / odds)
+    return SoftLabels(table.phrases, table.objects, active, inactive, table.shown)
 
 
 _MANY = 40
 """Types with which every noun is shown; where there are more, names and nothing but names tell the others apart."""
 
 
-def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -> Iterator[Pair]:
+def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -> Iterator[_Odds]:
     """Every noun with a perceived object of every type, no colour said.
 
     Of many types a noun is shown with those that it was heard among, and with the first `_MANY` of all.
     """
     table, new = nouns.said_of()
-    things = [_object(type_) for type_ in nouns.posterior.types]
+    types, column = nouns.posterior.types, nouns.posterior.column
+    rows = [(word, row) for word, row in enumerate(nouns.posterior.words) if row not in fixed]
     unheard = (NEVER_HEARD, *forgotten)
-    for word, row in zip((*nouns.posterior.words, *unheard), (*table, *([new] * len(unheard))), strict=True):
-        if word in fixed:
-            continue
-        phrase, heard = _phrase(word), nouns.heard[word].more if word in nouns.heard else {}
-        for k, (thing, odds) in enumerate(zip(things, row.tolist(), strict=True)):
-            if k < _MANY or thing.type is None or thing.type in heard:
-                yield Pair(phrase, thing, odds)
+    odds = np.vstack([table[[k for k, _ in rows]], np.broadcast_to(new, (len(unheard), len(types)))])
+    shown = np.zeros(odds.shape, dtype=np.bool_)
+    shown[:, :_MANY] = shown[:, -1] = True
+    if len(types) > _MANY:
+        for k, (_, word) in enumerate(rows):
+            if word in nouns.heard:
+                shown[k, [column[t] for t in nouns.heard[word].more]] = True
+    yield _Odds([_phrase(w) for w in (*(w for _, w in rows), *unheard)], [_object(t) for t in types], odds, shown)
 
 
-def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[Pair]:
+def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[_Odds]:
     """Every colour word with every colour, on a known type and on one not met."""
     table, new = colors.said_of()
+    words = [*((w, row) for w, row in zip(colors.posterior.words, table, strict=True) if w not in fixed)]
+    words.append((NEVER_HEARD, new))
     for noun, type_, scale in _anchors(nouns):
-        for word, row in zip((*colors.posterior.words, NEVER_HEARD), (*table, new), strict=True):
-            if word in fixed:
-                continue
-            for color, odds in zip(colors.posterior.types, row, strict=True):
-                yield Pair(_phrase(noun, word), _object(type_, color), scale * float(odds))
+        objects = [_object(type_, color) for color in colors.posterior.types]
+        yield _Odds([_phrase(noun, word) for word, _ in words], objects, scale * np.stack([row for _, row in words]))
 
 
-def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[Pair]:
+def _unseen(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[_Odds]:
     """Hypothetical objects, of a known type and of one not met, with a colour said and without."""
     color = next(iter(colors.posterior.words), None)
     for noun, type_, scale in _anchors(nouns):
         for said, ahead in ((None, unseen.ahead), (color, unseen.ahead_colored)):
-            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.after_full_scan)):
-                yield Pair(_phrase(noun, said), _object(type_, hypothetical=True, attributes=attributes), scale * rate)
+            odds = scale * np.array([[ahead, unseen.after_full_scan]])
+            yield _Odds([_phrase(noun, said)], _hypothetical(type_, looked), odds)
 
 
-def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[Pair]:
+def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[str]) -> Iterator[_Odds]:
     """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
     said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
     if colors.posterior.words:
@@ -127,11 +142,12 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
         color = colors.posterior.types[int(row.argmax())]
         said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
     for word, color_of, odds, ahead in said:
-        for type_ in nouns.posterior.types:
-            yield Pair(_phrase(None, word), _object(type_, color_of), odds)
+        objects = [_object(type_, color_of) for type_ in nouns.posterior.types]
+        values = [odds] * len(objects)
         for _, type_, _ in _anchors(nouns):
-            for attributes, rate in ((frozenset[str](), ahead), (looked, unseen.after_full_scan)):
-                yield Pair(_phrase(None, word), _object(type_, hypothetical=True, attributes=attributes), rate)
+            objects += _hypothetical(type_, looked)
+            values += [ahead, unseen.after_full_scan]
+        yield _Odds([_phrase(None, word)], objects, np.array([values]))
 
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
@@ -148,27 +164,14 @@ def _phrase(noun: str | None, color: str | None = None) -> Phrase:
     return Phrase(PhraseKind.NOUN, " ".join(filter(None, (color, noun or "one"))), noun=noun, color=color)
 
 
+def _hypothetical(type_: str, looked: frozenset[str]) -> list[Object]:
+    """The unseen object of a type, before the robot has looked round and after."""
+    return [_object(type_, hypothetical=True, attributes=attributes) for attributes in (frozenset[str](), looked)]
+
+
 def _object(
     type_: str, color: str | None = None, *, hypothetical: bool = False, attributes: frozenset[str] = frozenset()
 ) -> Object:
     name = " ".join(filter(None, ("hypothetical" if hypothetical else "", *sorted(attributes), color, type_)))
     met = type_ != UNMET
     return Object(name, type_ if met else None, met, hypothetical, color, attributes=attributes)
-
-
-def pair_examples(pairs: Iterable[Pair], strength: float) -> Iterator[Example]:
-    """Examples from which the model gets the odds of the pairs.
-
-    A soft label a pair, as two examples a phrase: its objects ACTIVE, and the same INACTIVE."""
-    by_phrase: dict[Phrase, list[Pair]] = {}
-    worlds: dict[tuple[str, ...], WorldModel] = {}  # shared, so that each is encoded once
-    for pair in pairs:
-        by_phrase.setdefault(pair.phrase, []).append(pair)
-    for phrase, of_phrase in by_phrase.items():
-        objects = tuple(pair.object for pair in of_phrase)
-        world = worlds.setdefault(tuple(o.id for o in objects), WorldModel(objects))
-        odds = np.clip([pair.odds for pair in of_phrase], 1e-6, 1e6)
-        # weights a and b with a / b = odds and a b / (a + b) = strength
-        for label, amounts in ((Correspondence.ACTIVE, 1.0 + odds), (Correspondence.INACTIVE, 1.0 + 1.0 / odds)):
-            labels = (label,) * len(of_phrase)
-            yield Example(phrase, world, labels, weight=strength, weights=tuple(amounts.tolist()))

@@ -21,11 +21,12 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.learning.evidence import Attribute, Ground, WordEvidence, evidence
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry, lexicon
-from dcg_torch.learning.soft_labels import Unseen, soft_examples
+from dcg_torch.learning.soft_labels import Unseen, soft_labels
 from dcg_torch.learning.trainable import believed_mask
 from dcg_torch.types import LOOKED_ROUND, Example, Object, PhraseKind, Symbol
 from dcg_torch.vocabulary import GROUP_WORDS, PLACE_WORDS
@@ -86,7 +87,7 @@ class Assumptions:
         colors: of colour words, which are hardly ever wrong.
         hidden: number of objects of a type and colour to be expected though the robot has looked round: hidden
             ones, and such that a speaker believes to be there.
-        strength: see `soft_labels.soft_examples`.
+        strength: see `soft_labels.soft_labels`.
     """
 
     nouns: Prior = field(default_factory=Prior)
@@ -236,8 +237,12 @@ class WordPosterior:
         return replace(self, nouns=nouns, colors=colors, fixed=frozenset((*nouns.settled, *colors.settled)))
 
     def training_examples(self, features: FeatureSet) -> Sequence[Example]:
-        """The examples of verbs and prepositions, and the posterior as soft examples."""
-        soft = soft_examples(
+        """The examples of verbs and prepositions."""
+        return self.examples
+
+    def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
+        """The posterior."""
+        return soft_labels(
             self.nouns,
             self.colors,
             self._rates,
@@ -246,7 +251,6 @@ class WordPosterior:
             fixed=self.fixed,
             forgotten=sorted(features.nouns - {*self.nouns.posterior.words, *PLACE_WORDS, *GROUP_WORDS}),
         )
-        return [*self.examples, *soft]
 
     @property
     def _rates(self) -> Unseen:

@@ -19,9 +19,10 @@ from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.readings import NEGLIGIBLE, looking, sum_over
+from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
+from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
@@ -32,16 +33,8 @@ from dcg_torch.model.teach import RELATION_L2, teach
 from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
 from dcg_torch.scene.upsilon import with_known, world_model
-from dcg_torch.scene.workspace import Workspace, with_groups, with_places
-from dcg_torch.types import (
-    LOOKED_ROUND,
-    Example,
-    ParseTree,
-    Percept,
-    Pose,
-    Symbol,
-    WorldModel,
-)
+from dcg_torch.scene.workspace import Workspace, with_places
+from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
 
 
 class GroundingModel:
@@ -65,6 +58,7 @@ class GroundingModel:
         self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
         self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
         self.fitted: FitResult | None = None
+        self._statistics = Statistics(features.groups)
 
     @classmethod
     def trained(
@@ -92,8 +86,18 @@ class GroundingModel:
             give_odds(model.factor, features)
         model.train()
         if relations:
-            model.fit_weights(model._encoded(place_examples()), free=taught_mask(features), l2=RELATION_L2)
+            designs = encode(place_examples(), features, model.factor.correspondences)
+            model.fit_weights(designs, free=taught_mask(features), l2=RELATION_L2)
         return model
+
+    def copy(self) -> GroundingModel:
+        """A model that is like this one, and learns by itself from here."""
+        factor = LogLinearFactor(self.features.pairs, self.factor.correspondences)
+        factor.set_weight(self.factor.weight.detach().clone())
+        other = GroundingModel(self.variant, self.features, factor, self.learner)
+        other.held, other.prior, other.fitted = self.held.copy(), self.prior.copy(), self.fitted
+        other._statistics = self._statistics.copy()
+        return other
 
     @property
     def symbols(self) -> dict[str, Symbol]:
@@ -142,8 +146,9 @@ class GroundingModel:
             world: of `world_model`.
         """
         world = with_known(world, self.known_types)
+        search = SharedSearch(WorldEncoder(self.features, world), self.factor, self.variant.beam)
         if isinstance(command, ParseTree):
-            return self._ground(command, world)
+            return self._ground(command, search)
         if isinstance(command, str):
             from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
@@ -154,17 +159,17 @@ class GroundingModel:
         kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
         seen = any(o.rgb is not None for o in world.objects)
         trees = [looking(r.tree, command.text) if seen else r.tree for r in kept]
-        return sum_over([self._ground(tree, world) for tree in trees], [r.log_weight for r in kept])
+        return sum_over([self._ground(tree, search) for tree in trees], [r.log_weight for r in kept])
 
-    def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+    def _ground(self, tree: ParseTree, search: SharedSearch) -> Solution:
         """Of one reading."""
         if Group.RELATION not in self.variant.groups:
-            return self.solve(path_to_object(tree), world)
+            return search.solve(path_to_object(tree))
         first, *others = (
-            self.solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
+            search.solve(to_factor_tree(part, search.world), groups=speaks_of_groups(part))
             for part in coordinated(tree)
         )
-        return replace(first, further=tuple(others))
+        return replace(first, further=tuple(others)) if others else first
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
@@ -233,12 +238,13 @@ class GroundingModel:
         free = self.learner.trainable(self.features)
         if free is not None and self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
-        return self.fit_weights(
-            self._encoded(self.learner.training_examples(self.features)), free=free, l2=self.variant.l2
+        designs = self._statistics.designs(
+            self.learner.training_examples(self.features),
+            self.learner.soft_labels(self.features),
+            self.features,
+            self.factor.correspondences,
         )
-
-    def _encoded(self, examples: Sequence[Example]) -> list[DesignMatrix]:
-        return encode(examples, self.features, self.factor.correspondences)
+        return self.fit_weights(designs, free=free, l2=self.variant.l2)
 
     def teach(
         self,

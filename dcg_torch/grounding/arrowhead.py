@@ -1,0 +1,76 @@
+"""Which variables of a fit are one row's own: from what fires in which row to rows of the arrowhead."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from dcg_torch.grounding.design import Ints, scrambled
+from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.rows import ArrowheadRows
+from dcg_torch.grounding.symmetry import Incidence
+
+
+@dataclass(frozen=True)
+class Split:
+    """The columns that rows share, and those that are one row's own.
+
+    Attributes:
+        incidence: all that fires.
+        value: (entries,) how much.
+        private: (entries,) the numbers of those of a column that fires nowhere else; at most one of each row.
+        shared: (S,) the other columns.
+        pattern: (rows,) the number of what fires of the shared columns.
+        first: (M,) the first row of each pattern.
+    """
+
+    incidence: Incidence
+    value: Floats
+    private: Ints
+    shared: Ints
+    pattern: Ints
+    first: Ints
+
+    @property
+    def order(self) -> Ints:
+        """(columns,) the column of each variable: the shared ones, then the rows' own."""
+        return np.concatenate([self.shared, self.incidence.column[self.private]])
+
+    def rows(self) -> ArrowheadRows:
+        """The rows of the fit."""
+        incidence = self.incidence
+        number = np.full(incidence.columns, -1, dtype=np.int64)
+        number[self.shared] = np.arange(len(self.shared))
+        at = np.full(incidence.rows, -1, dtype=np.int64)
+        at[self.first] = np.arange(len(self.first))
+        kept = (at[incidence.row] >= 0) & (number[incidence.column] >= 0)
+        patterns = np.zeros((len(self.first), len(self.shared)))
+        patterns[at[incidence.row[kept]], number[incidence.column[kept]]] = self.value[kept]
+        alone = len(self.first) == incidence.rows
+        own = incidence.row[self.private]
+        pattern = None if alone and (self.pattern == np.arange(incidence.rows)).all() else self.pattern
+        return ArrowheadRows(patterns, pattern, own, self.value[self.private])
+
+
+def split(incidence: Incidence, value: Floats) -> Split:
+    """Tell what rows share from what is one row's own.
+
+    Args:
+        value: (entries,) how much each entry counts; equal ones of a column are equal to the last bit.
+    """
+    once = np.bincount(incidence.column, minlength=incidence.columns)[incidence.column] == 1
+    private = np.flatnonzero(once)
+    _, first = np.unique(incidence.row[private], return_index=True)
+    private = private[first]
+    alone = np.zeros(len(incidence.row), dtype=np.bool_)
+    alone[private] = True
+    is_shared = np.ones(incidence.columns, dtype=np.bool_)
+    is_shared[incidence.column[private]] = False
+    bits = scrambled(scrambled(incidence.column.astype(np.uint64)) ^ value.view(np.uint64))
+    keys = np.add.reduceat(np.where(alone, np.uint64(0), bits), incidence.starts)
+    _, first, pattern = np.unique(keys, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # patterns come in the order of their rows
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    return Split(incidence, value, private, np.flatnonzero(is_shared), rank[pattern], first[order])

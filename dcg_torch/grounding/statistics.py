@@ -1,0 +1,251 @@
+"""Labelled factors as sufficient statistics of a fit: what features see of phrases and groundings, and sums of labels.
+
+A retraining differs from the one before by a few examples. So what features see of an example is found once; a fit adds
+up what is counted of each pair of a phrase and a grounding; columns are looked up for what is new, or was unknown.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.design import DesignMatrix, Ints
+from dcg_torch.grounding.encode import encode
+from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Said, child_feature, ranking
+from dcg_torch.grounding.features.said import facts
+from dcg_torch.grounding.psi import Bag, Floats
+from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, PhraseKind
+
+_UNSEEN = (-1,)
+"""Of a thing whose colour no phrase judges by how it looks."""
+_LABELS = 3
+_Own = tuple[str | None, bool, bool, str | None, frozenset[str]]
+Seen = tuple[GroundingKind, _Own | None, tuple[str, ...]]
+"""What features see of a grounding: its kind; an object's type, known, hypothetical, colour, attributes; more names."""
+_Counted = tuple[Ints, Ints, Floats]
+"""Of n pairs, the phrase, what is seen of the grounding, and (P, n) the weight of each label."""
+
+
+@dataclass(frozen=True)
+class SoftLabels:
+    """Every one of some phrases with every one of some objects that stand nowhere, and how much is counted of it.
+
+    Attributes:
+        active, inactive: (phrases, objects) summed weights of the examples with either label.
+        shown: (phrases, objects) which pairs there are; None: all.
+    """
+
+    phrases: Sequence[Phrase]
+    objects: Sequence[Object]
+    active: Floats
+    inactive: Floats
+    shown: NDArray[np.bool_] | None = None
+
+
+class Statistics:
+    """Turns examples into the rows of a fit; what it has seen of them it keeps.
+
+    Args:
+        groups: the feature groups that are on, which say what features see.
+    """
+
+    def __init__(self, groups: frozenset[Group]) -> None:
+        self._groups = groups
+        self._phrases = _Columns()
+        self._seen = _Columns()
+        self._pairs: dict[tuple[int, int], int] = {}
+        self._kept: dict[int, tuple[Example, Ints, Floats]] = {}
+        self._objects: dict[Object, int] = {}
+        self._of_phrase: dict[int, Ints] = {}
+
+    def copy(self) -> Statistics:
+        """Another that knows the same, and goes its own way from here."""
+        other = Statistics(self._groups)
+        other._phrases, other._seen = self._phrases.copy(), self._seen.copy()
+        other._pairs, other._kept, other._objects = dict(self._pairs), dict(self._kept), dict(self._objects)
+        other._of_phrase = {phrase: seen.copy() for phrase, seen in self._of_phrase.items()}
+        return other
+
+    def designs(
+        self,
+        examples: Iterable[Example],
+        soft: Iterable[SoftLabels],
+        features: FeatureSet,
+        correspondences: Sequence[Correspondence],
+    ) -> list[DesignMatrix]:
+        """The labelled factors of examples and soft labels under the given columns."""
+        plain, others, kept = [], [], {}
+        for example in examples:
+            found = self._kept.get(id(example))
+            if found is None or found[0] is not example:
+                if not self._is_plain(example):
+                    others.append(example)
+                    continue
+                found = (example, *self._encoded(example))  # it is held, so that no other gets its id meanwhile
+            kept[id(example)] = found
+            plain.append(found)
+        self._kept = kept
+        at = [int(c) + 1 for c in correspondences]
+        parts = [self._of_examples(plain, at), *(self._of_soft(labels, at) for labels in soft)]
+        phrase, seen, count = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+        language = self._phrases.bag(features, _phrase_columns)
+        grounding = self._seen.bag(features, _seen_columns)
+        return [DesignMatrix(language, grounding[seen], phrase, count), *encode(others, features, correspondences)]
+
+    def _of_examples(self, plain: Sequence[tuple[Example, Ints, Floats]], at: Sequence[int]) -> _Counted:
+        codes = np.concatenate([np.zeros(0, dtype=np.int64), *(own for _, own, _ in plain)])
+        weights = np.concatenate([np.zeros(0), *(own for _, _, own in plain)])
+        total: Floats = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).astype(np.float64)
+        count = total.reshape(-1, _LABELS).T
+        pairs = np.array(list(self._pairs), dtype=np.int64).reshape(-1, 2)
+        used: Ints = np.flatnonzero(count.any(axis=0))
+        return pairs[used, 0], pairs[used, 1], count[at][:, used]
+
+    def _of_soft(self, labels: SoftLabels, at: Sequence[int]) -> _Counted:
+        phrases = np.array([self._phrases.number(p) for p in labels.phrases], dtype=np.int64)
+        things = [self._number_of(o) for o in labels.objects]
+        if Group.NAMES in self._groups:
+            seen = np.stack([self._with_facts(p, things, labels.objects) for p in phrases.tolist()])
+        else:
+            own = np.array([self._seen.number(_of_object(o, ())) for o in labels.objects], dtype=np.int64)
+            seen = np.broadcast_to(own, labels.active.shape)
+        which = np.flatnonzero(np.ones(labels.active.size, np.bool_) if labels.shown is None else labels.shown)
+        count = np.zeros((_LABELS, len(which)))
+        count[1 + Correspondence.INACTIVE] = labels.inactive.reshape(-1)[which]
+        count[1 + Correspondence.ACTIVE] = labels.active.reshape(-1)[which]
+        return np.repeat(phrases, len(things))[which], seen.reshape(-1)[which], count[at]
+
+    def _number_of(self, thing: Object) -> int:
+        return self._objects.setdefault(thing, len(self._objects))
+
+    def _with_facts(self, phrase: int, things: Sequence[int], objects: Sequence[Object]) -> Ints:
+        """(things,) what features see of them beside a phrase that says something of their names."""
+        known = self._of_phrase.get(phrase, np.zeros(0, dtype=np.int64))
+        if len(known) < len(self._objects):
+            known = np.pad(known, (0, 2 * len(self._objects) - len(known)), constant_values=-1)
+            self._of_phrase[phrase] = known
+        found: Ints = known[things]
+        for k in np.flatnonzero(found < 0).tolist():
+            more = facts(Said.of(self._phrases.keys[phrase]), [objects[k]], _UNSEEN)[0]
+            found[k] = known[things[k]] = self._seen.number(_of_object(objects[k], more))
+        return found
+
+    def _is_plain(self, example: Example) -> bool:
+        """Does what features see of its groundings depend on nothing but each by itself?"""
+        phrase, world = example.phrase, example.world
+        if phrase.kind is PhraseKind.MODIFIER:
+            return False
+        if phrase.kind is not PhraseKind.NOUN:
+            return True
+        if phrase.look or any(o.members for o in world.things):
+            return False
+        nowhere = not world.places and all(o.position is None for o in world.objects) and ranking(phrase) is None
+        return nowhere or Group.RELATION not in self._groups
+
+    def _encoded(self, example: Example) -> tuple[Ints, Floats]:
+        """(n,) the pair and label of each labelled factor, as one number, and its weight."""
+        phrase, kind = self._phrases.number(example.phrase), GROUNDING_OF[example.phrase.kind]
+        if kind is GroundingKind.OBJECT:
+            named, things = Group.NAMES in self._groups, example.world.things
+            more = facts(Said.of(example.phrase), things, _UNSEEN * len(things)) if named else [()] * len(things)
+            seen = [_of_object(thing, own) for thing, own in zip(things, more, strict=True)]
+        else:
+            seen = _of_children(example, kind)
+        labelled = [(j, label) for j, label in enumerate(example.correspondences) if label is not None]
+        pairs = [self._pairs.setdefault((phrase, self._seen.number(seen[j])), len(self._pairs)) for j, _ in labelled]
+        codes = [_LABELS * pair + label + 1 for pair, (_, label) in zip(pairs, labelled, strict=True)]
+        own = np.ones(len(codes)) if example.weights is None else np.array([example.weights[j] for j, _ in labelled])
+        return np.array(codes, dtype=np.int64), example.weight * own
+
+
+class _Columns:
+    """The columns that fire for each of some keys, as a bag; those of a key that is known in full stay for ever."""
+
+    def __init__(self) -> None:
+        self.keys: list[Any] = []
+        self._number: dict[Hashable, int] = {}
+        self._bag: Bag = np.zeros((0, 0), dtype=np.int64)
+        self._open: list[int] = []
+        self._done = 0
+        self._features: FeatureSet | None = None
+
+    def copy(self) -> _Columns:
+        """Another with the same keys."""
+        other = _Columns()
+        other.keys, other._number, other._bag = list(self.keys), dict(self._number), self._bag.copy()
+        other._open, other._done, other._features = self._open, self._done, self._features
+        return other
+
+    def number(self, key: Hashable) -> int:
+        """Its row."""
+        found = self._number.setdefault(key, len(self.keys))
+        if found == len(self.keys):
+            self.keys.append(key)
+        return found
+
+    def bag(self, features: FeatureSet, find: Callable[[Any, FeatureSet], tuple[list[int], bool]]) -> Bag:
+        """(keys, k) under the given columns, which only ever become more.
+
+        Args:
+            find: the columns of a key, and whether further columns can change them.
+        """
+        before = [] if features is self._features else self._open
+        todo = [*before, *range(self._done, len(self.keys))]
+        rows = [find(self.keys[k], features) for k in todo]
+        size, width = self._bag.shape
+        wider = max([0, *(len(columns) - width for columns, _ in rows)])
+        longer = len(self.keys) - size
+        if wider or longer > 0:
+            grown = (0, 2 * longer if longer > 0 else 0), (0, wider)
+            self._bag = np.pad(self._bag, grown, constant_values=-1)
+        for k, (columns, _) in zip(todo, rows, strict=True):
+            self._bag[k] = -1
+            self._bag[k, : len(columns)] = columns
+        still = [k for k, (_, may_change) in zip(todo, rows, strict=True) if may_change]
+        self._open = still if features is not self._features else [*self._open, *still]
+        self._done, self._features = len(self.keys), features
+        return self._bag[: len(self.keys)]
+
+
+def _of_object(thing: Object, more: Iterable[str]) -> Seen:
+    own = thing.type, thing.known, thing.hypothetical, thing.color, thing.attributes
+    return GroundingKind.OBJECT, own, tuple(more)
+
+
+def _of_children(example: Example, kind: GroundingKind) -> list[Seen]:
+    """What is seen of each grounding of a verb or a preposition: whether it is about the same object as a child's."""
+    relations = [
+        (
+            c.grounding.object.id,
+            *(child_feature(c.grounding.kind, c.correspondence, same)[1] for same in (False, True)),
+        )
+        for c in example.children
+    ]
+    return [
+        (kind, None, tuple(same if id_ == thing.id else other for id_, other, same in relations))
+        for thing in example.world.meanable
+    ]
+
+
+def _seen_columns(seen: Seen, features: FeatureSet) -> tuple[list[int], bool]:
+    kind, own, more = seen
+    names, may_change = [f"kind: {kind}"], False
+    if own is not None:
+        type_, known, hypothetical, color, attributes = own
+        names += features.object_names(Object("", type_, known, hypothetical, color, attributes=attributes))
+        names += [f"state: {attribute}" for attribute in sorted(attributes)]
+        met = not known or f"type: {type_}" in features.grounding
+        may_change = not met or bool(attributes) or (color is not None and f"color: {color}" not in features.grounding)
+    columns = (features.grounding.get(name) for name in (*names, *more))
+    return [c for c in columns if c is not None], may_change
+
+
+def _phrase_columns(phrase: Phrase, features: FeatureSet) -> tuple[list[int], bool]:
+    met = phrase.noun is None or features.knows_noun(phrase.noun)
+    named = phrase.color is None or f"color: {phrase.color}" in features.language
+    may_change = not (met and named) or bool(phrase.words or phrase.context)
+    return [features.language[name] for name in features.language_names(phrase)], may_change
