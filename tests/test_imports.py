@@ -26,7 +26,7 @@ LAYERS = (
     {"model", "watch"},
     {"dialogue", "evaluation", "experiment"},
     {"cli"},
-    {"__main__", "apps", "bench", "collect", "evaluate"},
+    {"__main__", "apps", "bench", "collect", "convert", "evaluate"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
@@ -48,6 +48,8 @@ ONLY = {
     "jinja2": {"apps.collect.page"},
     "sqlalchemy": {"apps.collect"},
     "uvicorn": {"apps.collect.program"},
+    "gymnasium": {"apps.gym"},
+    "defusedxml": {"storage.foreign"},
 }
 ROOT = "dcg_torch"
 

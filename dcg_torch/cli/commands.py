@@ -32,6 +32,7 @@ COMMANDS: Mapping[str, Command] = {
         "collect",
         ("fastapi", "jinja2", "sqlalchemy", "uvicorn"),
     ),
+    "convert": Command("convert", "scenes and commands of others as episode files"),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),

@@ -123,7 +123,7 @@ def read_episodes(path: Path) -> list[Episode]:
     for number, line in enumerate(text.split("\n"), start=1):
         if not line.strip():
             continue
-        episode = _parse(path, number, line)
+        episode = parse_episode(line, f"{path}, line {number}")
         first = lines.setdefault(episode.id, number)
         if first != number:
             raise EpisodeError(
@@ -154,8 +154,15 @@ _MEND = {
 """How to mend each key of a line."""
 
 
-def _parse(path: Path, number: int, line: str) -> Episode:
-    where = f"{path}, line {number}"
+def parse_episode(line: str, where: str) -> Episode:
+    """The episode of one line.
+
+    Args:
+        where: the line is, for the message.
+
+    Raises:
+        EpisodeError: it is not a valid episode.
+    """
     try:
         _check_keys(read_json(line), where)
     except EpisodeError:

@@ -1,7 +1,8 @@
 """Experiments: trials of Algorithm 1, the processes that run them, and the folder in which they leave their lines.
 
 plan     the worlds, commands and random numbers of a trial
-factory  settings -> model, robot, how it explores and asks
+factory  settings -> model, how it explores and asks
+robots   settings -> robot
 trial    Algorithm 1 over a list of commands, a record for each
 folder   the names in a run folder, and what of it is whole
 journal  the lines of all trials in one file

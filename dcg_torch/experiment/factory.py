@@ -1,18 +1,13 @@
-"""From settings to what they describe: the model, the robot, how it explores and asks."""
+"""From settings to what they describe: the model, how it explores and asks. `robots` makes the robot."""
 
 from __future__ import annotations
 
-import dataclasses
 import functools
-import json
 from collections.abc import Callable
 from dataclasses import replace
 
-import numpy as np
-
 from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.explore import Explorer, LookBefore, Worth
-from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.grounding.features import Group
 from dcg_torch.lessons import training_set
 from dcg_torch.model import GroundingModel, Variant
@@ -22,14 +17,9 @@ from dcg_torch.settings import (
     LearnerKind,
     ModelSettings,
     Names,
-    RobotKind,
     Settings,
     SettingsError,
-    SimulatorSettings,
 )
-from dcg_torch.simulator.fake import FakeRobot
-from dcg_torch.simulator.recogniser import Recogniser
-from dcg_torch.world.names import MORE_TYPES
 
 
 def variant(settings: ModelSettings) -> Variant:
@@ -76,27 +66,6 @@ def _made(chosen: Variant, lessons: int, learner: LearnerKind, names: Names, tra
     shipped = (chosen, lessons, training) == (VARIANT, LESSONS, None)
     model = pretrained() if shipped else train_open_world(training_set(training), chosen, lessons)
     return model if names is Names.words else without_names(model)
-
-
-def make_robot(settings: SimulatorSettings, types: int) -> SimulationRobot:
-    """This process's robot: made once, since a world's outcome does not depend on the worlds before it."""
-    return _robot(json.dumps(dataclasses.asdict(settings)), types)
-
-
-@functools.cache
-def _robot(described: str, types: int) -> SimulationRobot:
-    settings = SimulatorSettings(**json.loads(described))
-    recogniser = Recogniser(
-        min_pixels=settings.min_pixels,
-        wrong_class=settings.wrong_class,
-        missed=settings.missed,
-        types=MORE_TYPES[:types],
-    )
-    if settings.kind == RobotKind.fake:
-        return FakeRobot(recogniser.labels if settings.wrong_class or settings.missed else None)
-    from dcg_torch.simulator import SimulatedRobot  # here: PyBullet need not be there for the fake robot
-
-    return SimulatedRobot(recogniser=recogniser, rng=np.random.default_rng(0), gui=settings.gui)
 
 
 def make_explorer(settings: Settings, model: GroundingModel) -> Callable[[], Explorer] | None:

@@ -13,9 +13,10 @@ import torch
 
 from dcg_torch.agent.command import Look
 from dcg_torch.agent.robot import SimulationRobot
-from dcg_torch.experiment.factory import make_asking, make_explorer, make_model, make_robot
+from dcg_torch.experiment.factory import make_asking, make_explorer, make_model
 from dcg_torch.experiment.folder import MODEL, ORIGIN, animation_of, lexicon_of, part_of
 from dcg_torch.experiment.plan import trial_commands, trial_generators
+from dcg_torch.experiment.robots import make_robot
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parse, default_parser
 from dcg_torch.learning.lexicon import save_lexicon

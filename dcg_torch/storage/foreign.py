@@ -1,4 +1,4 @@
-"""Text, YAML and JSON that somebody else wrote: read without surprises, and spoken of in one short line."""
+"""Text, YAML, JSON and XML that somebody else wrote: read without surprises, and spoken of in one short line."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import unicodedata
 from collections.abc import Hashable, Sequence
 from pathlib import Path
 from typing import Any
+from xml.etree.ElementTree import Element, ParseError
 
 import yaml
 from pydantic import BaseModel, ValidationError
@@ -130,6 +131,25 @@ def read_json(text: str) -> Any:
         raise ValueError(f"no JSON at character {wrong.pos + 1}: {plain(wrong.msg)}") from None
     except RecursionError:
         raise ValueError("brackets within one another beyond all measure") from None
+
+
+def read_xml(path: Path, what: str, error: type[Exception]) -> Element:
+    """The root of an XML file without a document type, so without entities; arguments as in `read_text`."""
+    try:
+        from defusedxml import ElementTree, common  # here: of an extra, and few files are XML
+    except ModuleNotFoundError:
+        raise error(
+            f"{path}: XML needs defusedxml, of the extra convert: pip install 'dcg-torch[convert]', "
+            "in a checkout pip install -e '.[convert]'"
+        ) from None
+    text = read_text(path, what, error, "utf-8-sig")
+    try:
+        root: Element = ElementTree.fromstring(text, forbid_dtd=True)
+    except common.DefusedXmlException:
+        raise error(f"{path}: not read as XML: it declares a document type or entities; remove them") from None
+    except (ParseError, ValueError) as wrong:
+        raise error(f"{path}: not readable as XML: {plain(str(wrong), 120)}") from None
+    return root
 
 
 def problem_of(error: ValidationError, model: type[BaseModel]) -> str:
