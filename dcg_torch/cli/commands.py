@@ -27,6 +27,9 @@ COMMANDS: Mapping[str, Command] = {
     "evaluate": Command("evaluate", "ground the commands of episode files, perhaps after training on others"),
     "report": Command("report.__main__", "tables of runs and sweeps"),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
+    "ros": Command(
+        "ros", "a ROS 2 node: commands as messages, a robot that is known by its messages", "ros", ("rclpy",)
+    ),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }

@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable, Sequence
 
 from dcg_torch.apps.ros.options import Options
-from dcg_torch.apps.ros.senses import HaltedError, Senses
+from dcg_torch.apps.ros.senses import HaltedError, Senses, apart
 from dcg_torch.geometry import wrap_angle
 from dcg_torch.types import DriveResult, Percept, Pose
 
@@ -23,8 +23,8 @@ SendGoal = Callable[[Pose, int], None]
 class TopicRobot:
     """An `agent.robot.Robot` that is known by its messages alone. One thread may use it.
 
-    A goal is sent again while the robot stands where it stood. A drive has ended when the robot says so, or stands at
-    the goal. The way round obstacles is the robot's own affair.
+    A goal is sent again while the robot stands: it, or the first sign of it, may be lost. A drive has ended when the
+    robot says so, or stands at the goal. The way round obstacles is the robot's own affair.
 
     Args:
         senses: what it says.
@@ -85,7 +85,7 @@ class TopicRobot:
 
     def _go(self, goal: Pose) -> DriveResult:
         options, stamp = self._options(), next(self._last)
-        start, ends = self.pose, time.monotonic() + options.drive_timeout
+        before, ends = None, time.monotonic() + options.drive_timeout
 
         def result() -> DriveResult | None:
             said, here = self._senses.result(stamp), self._senses.here()
@@ -94,8 +94,9 @@ class TopicRobot:
 
         while True:
             here = self._senses.here()
-            if here is None or _close(here, start, options.near, options.near_angle):
+            if here is None or before is None or not apart(here, before):
                 self._send(goal, stamp)
+            before = here
             left = ends - time.monotonic()
             found = self._senses.wait(result, max(0.0, min(options.resend, left)))
             if found is not None:

@@ -60,7 +60,7 @@ class Senses:
             if seen is None:
                 return
             self._pose = (pose, seen)
-            if self._moved is None or _apart(pose, self._moved[0]):
+            if self._moved is None or apart(pose, self._moved[0]):
                 self._moved = (pose, seen)
             self._changed.notify_all()
 
@@ -162,7 +162,8 @@ class Senses:
         return f"; the last message was refused: {self.refused}" if self.refused else ""
 
 
-def _apart(one: Pose, other: Pose) -> bool:
+def apart(one: Pose, other: Pose) -> bool:
+    """Has the robot moved between these poses, by more than jitter?"""
     return math.dist((one.x, one.y), (other.x, other.y)) > _MOVED or abs(wrap_angle(one.yaw - other.yaw)) > _TURNED
 
 

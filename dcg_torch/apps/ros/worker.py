@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 import traceback
 from collections import deque
 from collections.abc import Callable
@@ -17,6 +18,7 @@ from dcg_torch.apps.ros.tasks import Outlet, Said, Tasks
 from dcg_torch.storage.errors import explain_os_error
 
 _REMEMBERED = 2_000  # notes with an id whose acknowledgement is kept
+_UNSAVED = 1.0  # seconds for which what is done may wait to be saved, while more is to do
 
 
 @dataclass(frozen=True)
@@ -65,6 +67,8 @@ class Worker:
         self._jobs: deque[_Job] = deque()
         self._now: _Job | None = None
         self._closed = False
+        self._done: list[Said] = []  # and not acknowledged yet
+        self._saved = 0.0
         self._do = {"command": tasks.command, "teach": tasks.teach, "correct": tasks.correct, "forget": tasks.forget}
 
     def accept(self, kind: str, data: str) -> None:
@@ -134,19 +138,30 @@ class Worker:
                 while not (self._jobs or self._closed):
                     self._changed.wait()
                 if self._closed:
-                    return
+                    break
                 self._now = job = self._jobs.popleft()
                 self._senses.go_on()
             said = job.acknowledged(self._outcome(job))
             with self._changed:
                 self._now = None
                 self._remember(job, said)
-            if self._store is not None:
-                saved, where = self.save()
-                if not saved:
-                    self._outlet.complain(where)
-                    said["unsaved"] = where
-            self._tasks.show()
+                more = bool(self._jobs)
+            self._done.append(said)
+            if self._store is None or not more or time.monotonic() - self._saved > _UNSAVED:
+                self._publish()
+        self._publish()
+
+    def _publish(self) -> None:
+        """Acknowledge what is done. Where there is a folder, only what is saved is said to be done."""
+        done, self._done = self._done, []
+        if self._store is not None and done:
+            saved, where = self.save()
+            self._saved = time.monotonic()
+            if not saved:
+                self._outlet.complain(where)
+                done = [{**said, "unsaved": where} for said in done]
+        self._tasks.show()
+        for said in done:
             self._acknowledge(said)
 
     def _outcome(self, job: _Job) -> Said:
