@@ -50,12 +50,11 @@ class Client:
         self.acknowledged: list[dict[str, Any]] = []
         self.understood: list[dict[str, Any]] = []
         self.goals: list[Any] = []
-        self.lexicon = ""
         self.words: list[str] = []
         self._processes: list[subprocess.Popen[bytes]] = []
         self._out: dict[str, Any] = {}
-        for topic, heard in (("acknowledgement", self.acknowledged), ("understood", self.understood)):
-            self._listen(String, f"dcg_torch/{topic}", lambda m, heard=heard: heard.append(json.loads(m.data)))
+        self._listen(String, "dcg_torch/acknowledgement", lambda m: self.acknowledged.append(json.loads(m.data)))
+        self._listen(String, "dcg_torch/understood", lambda m: self.understood.append(json.loads(m.data)))
         self._listen(PoseStamped, "goal_pose", self.goals.append)
         self._listen(MarkerArray, "dcg_torch/lexicon_markers", self._on_markers, depth=1)
 
@@ -204,7 +203,7 @@ def test_malformed_messages_are_left_out_and_the_node_restarts_in_the_middle(cli
     here, nowhere, giant = PoseStamped(), PoseStamped(), MarkerArray(markers=[Marker(text="x" * 50)] * 20_000)
     here.pose.orientation.w = 1.0
     nowhere.pose.position.x = float("inf")
-    for topic, bad in (("pose", nowhere), ("percepts", giant), ("goal_result", String(data="[" * 900))):
+    for topic, bad in (("pose", nowhere), ("percepts", giant), ("goal_result", String(data='{"goal": 1e999}'))):
         client.publish(topic, bad)
     for data in ("", "{", '{"text": 5}', "x" * 5_000):
         client.say("command", data)

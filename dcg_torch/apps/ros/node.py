@@ -50,7 +50,7 @@ from dcg_torch.model.checkpoint import load
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.storage.claim import claim
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import shown
+from dcg_torch.storage.foreign import plain, shown
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import DriveResult, Percept, Pose
 
@@ -134,14 +134,18 @@ class Node:
                 if len(data) > _MOST_BYTES:
                     raise ValueError(f"a message of {len(data)} bytes")
                 handle(deserialize_message(data, kind))
-            except ValueError as error:
-                self._refuse(topic, str(error))
+            except Exception as error:  # whatever a message holds, the next one must be heard
+                self._refuse(topic, plain(str(error) or type(error).__name__, 200))
 
         self.ros.create_subscription(kind, topic, on_bytes, BURST, raw=True)
 
     def _serve(self, name: str, act: Callable[[], tuple[bool, str]]) -> None:
         def on_call(_: Any, response: Any) -> Any:
-            response.success, response.message = act()
+            try:
+                response.success, response.message = act()
+            except Exception as error:  # as above
+                response.success, response.message = False, f"{type(error).__name__}: {plain(str(error), 200)}"
+                self.complain(response.message)
             return response
 
         self.ros.create_service(Trigger, f"~/{name}", on_call)
@@ -168,7 +172,7 @@ class Node:
         try:
             said = json.loads(data[:1_000])
             self.senses.put_result(int(said["goal"]), DriveResult(said["result"]))
-        except (KeyError, TypeError, RecursionError):
+        except (KeyError, TypeError, ArithmeticError, RecursionError):
             raise ValueError('write {"goal": STAMP, "result": "arrived"}') from None
 
 
@@ -182,7 +186,8 @@ def _first_model(name: str) -> GroundingModel:
 def _signals(close: Callable[[], None]) -> Iterator[None]:
     """End cleanly when the process is asked to end."""
     numbers = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    before = {n: signal.signal(n, lambda *_: threading.Thread(target=close).start()) for n in numbers}
+    heeded = [number for number in numbers if signal.getsignal(number) is not signal.SIG_IGN]  # not under nohup
+    before = {n: signal.signal(n, lambda *_: threading.Thread(target=close).start()) for n in heeded}
     try:
         yield
     finally:
