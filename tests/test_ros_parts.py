@@ -28,7 +28,7 @@ from dcg_torch.types import DriveResult, Percept, Pose
 
 CONE = Percept("cone", "traffic cone", "orange", (2.0, 0.0, 0.0))
 CUBE = Percept("cube", "cube", "blue", (2.0, 1.5, 0.0))
-SOON = Options(look_timeout=0.2, drive_timeout=0.3, resend=0.03, answer_timeout=0.3)
+SOON = Options(look_timeout=60.0, drive_timeout=0.3, resend=0.03, answer_timeout=0.3)
 
 
 def test_a_note_is_text_or_an_object_with_text() -> None:
@@ -214,7 +214,7 @@ class Heard:
 
     def wait(self, topic: str = "acknowledgement", **wanted: Any) -> dict[str, Any]:
         with self._changed:
-            assert self._changed.wait_for(lambda: self.of(topic, **wanted), 20.0), (wanted, self.texts)
+            assert self._changed.wait_for(lambda: self.of(topic, **wanted), 60.0), (wanted, self.texts)
         return self.of(topic, **wanted)[0]
 
 
@@ -265,7 +265,7 @@ def command(text: str, id_: str | None = None) -> str:
 
 
 def test_a_command_that_comes_twice_is_carried_out_once(start: Start, far: Far) -> None:
-    robotics = start(options=replace(SOON, look_timeout=5.0))
+    robotics = start()
     for _ in range(2):
         robotics.worker.accept("command", command("move towards the cone", "1"))
     done = robotics.heard.wait(id="1", state="done")
@@ -277,7 +277,7 @@ def test_a_command_that_comes_twice_is_carried_out_once(start: Start, far: Far) 
 
 
 def test_lessons_and_corrections(start: Start) -> None:
-    heard = (robotics := start(options=replace(SOON, look_timeout=5.0))).heard
+    heard = (robotics := start()).heard
     robotics.worker.accept("teach", '{"text": "this is a pylon", "pointing_at": "cone", "id": "1"}')
     assert heard.wait(id="1", state="done")["learned"] == {"pylon": "traffic cone"}
     robotics.worker.accept("correct", '{"text": "pylon = cube", "id": "2"}')
@@ -292,7 +292,7 @@ def test_lessons_and_corrections(start: Start) -> None:
 
 def test_more_than_may_wait_is_refused_and_a_stop_drops_the_rest(start: Start, far: Far) -> None:
     far.heeds = 1_000
-    robotics = start(options=replace(SOON, queue=2, drive_timeout=60.0, look_timeout=5.0))
+    robotics = start(options=replace(SOON, queue=2, drive_timeout=60.0))
     robotics.worker.accept("command", command("move towards the cone", "1"))
     robotics.heard.wait("understood", id="1")
     for id_ in "234":
@@ -309,18 +309,18 @@ def test_more_than_may_wait_is_refused_and_a_stop_drops_the_rest(start: Start, f
 
 
 def test_a_robot_that_is_silent_is_said_and_the_next_command_goes_on(start: Start, far: Far) -> None:
-    robotics = start()
+    robotics = start(options=replace(SOON, look_timeout=0.2))
     far.senses._pose = None
     robotics.worker.accept("command", command("move towards the cone", "1"))
     assert "no pose" in robotics.heard.wait(id="1", state="failed")["said"]
-    robotics.options = replace(SOON, look_timeout=5.0)
+    robotics.options = SOON
     far.stand_at(Pose(0.0, 0.0))
     robotics.worker.accept("command", command("move towards the cone", "2"))
     robotics.heard.wait(id="2", state="done")
 
 
 def test_an_error_of_the_program_ends_one_command_alone(start: Start, monkeypatch: pytest.MonkeyPatch) -> None:
-    robotics = start(options=replace(SOON, look_timeout=5.0))
+    robotics = start()
     with monkeypatch.context() as patch:
         patch.setattr("dcg_torch.apps.ros.tasks.carry_out", lambda *_, **__: 1 / 0)
         robotics.worker.accept("command", command("move towards the cone", "1"))
@@ -330,7 +330,7 @@ def test_an_error_of_the_program_ends_one_command_alone(start: Start, monkeypatc
 
 
 def test_what_is_no_order_is_said(start: Start) -> None:
-    robotics = start(options=replace(SOON, look_timeout=5.0))
+    robotics = start()
     robotics.worker.accept("command", command("what time is it?", "1"))
     assert robotics.heard.wait(id="1", state="failed")["said"]
     robotics.worker.accept("command", "")
@@ -342,20 +342,20 @@ def test_a_question_is_asked_until_it_is_answered(start: Start, far: Far) -> Non
 
     far.world = (Percept("a", "cube", "red", (2.0, 0.5, 0.0)), Percept("b", "cube", "red", (2.0, -0.5, 0.0)))
     far.stand_at(Pose(0.0, 0.0))
-    robotics = start(model=pretrained(), options=replace(SOON, look_timeout=5.0, answer_timeout=20.0))
+    robotics = start(model=pretrained(), options=replace(SOON, answer_timeout=20.0))
     robotics.worker.accept("command", command("go to the cube", "1"))
     asked = robotics.heard.wait("question", id="1")
     assert set(asked["candidates"]) == {"a", "b"}
     robotics.tasks.answer("banana")
     robotics.tasks.answer("b")
     assert robotics.heard.wait(id="1", state="done")["object"] == "b"
-    robotics.options = replace(SOON, look_timeout=5.0)
+    robotics.options = SOON
     robotics.worker.accept("command", command("go to the cube", "2"))
     assert "nobody answered" in robotics.heard.wait(id="2", state="failed")["said"]
 
 
 def test_a_node_goes_on_from_its_snapshot_and_does_nothing_twice(start: Start, far: Far, tmp_path: Path) -> None:
-    patient = replace(SOON, look_timeout=5.0)
+    patient = SOON
     first = start(store=Store(tmp_path), options=patient)
     first.worker.accept("command", command("move towards the cone", "1"))
     first.heard.wait(id="1", state="done")
@@ -386,7 +386,7 @@ def test_a_broken_snapshot_gives_way_to_the_one_before(tmp_path: Path, pupil: Ca
 
 
 def test_a_full_disk_is_said_and_stops_nothing(start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    robotics = start(store=(store := Store(tmp_path)), options=replace(SOON, look_timeout=5.0))
+    robotics = start(store=(store := Store(tmp_path)))
 
     def full(*_: Any) -> Path:
         raise OSError(28, "No space left on device")

@@ -74,10 +74,9 @@ def read_percepts(
         robot: where it is; None: unknown, and such markers are left out.
     """
     found: dict[str, Percept] = {}
-    wrong = "" if len(markers) <= most else f"a look at {len(markers)} objects, of which {most} are taken"
-    for marker in markers[:most]:
-        if marker.action not in (Marker.ADD, Marker.MODIFY):
-            continue
+    objects = [marker for marker in markers if marker.action == Marker.ADD]
+    wrong = "" if len(objects) <= most else f"a look at {len(objects)} objects, of which {most} are taken"
+    for marker in objects[:most]:
         try:
             percept = _percept(marker, frame, robot_frame, robot)
         except ValueError as error:
@@ -117,10 +116,11 @@ def percept_markers(
     percepts: Iterable[Percept], rgb: dict[str, tuple[float, float, float]], frame: str, stamp: int
 ) -> MarkerArray:
     """What a robot sees, as `read_percepts` reads it; `rgb` are the colours of objects by id, 0 to 1 each."""
-    markers = []
+    first = Marker(action=Marker.DELETEALL)  # so that a look at nothing has a stamp too
+    first.header.frame_id, first.header.stamp = frame, to_time(stamp)
+    markers = [first]
     for percept in percepts:
-        marker = Marker(ns=percept.id, type=Marker.CUBE, text=percept.type)
-        marker.header.frame_id, marker.header.stamp = frame, to_time(stamp)
+        marker = Marker(header=first.header, ns=percept.id, type=Marker.CUBE, text=percept.type)
         size = percept.size or (0.0, 0.0, 0.0)
         marker.scale.x, marker.scale.y, marker.scale.z = map(float, size)
         marker.pose.position.x, marker.pose.position.y = map(float, percept.position[:2])

@@ -164,7 +164,7 @@ class Node:
         markers = message.markers
         most = self.options().most_objects
         percepts, wrong = read_percepts(markers, self._frame, self._robot_frame, self.senses.here(), most)
-        self.senses.put_look(percepts, max((to_stamp(m.header.stamp) for m in markers[:most]), default=0))
+        self.senses.put_look(percepts, max((to_stamp(m.header.stamp) for m in markers[: most + 1]), default=0))
         if wrong:
             self._refuse("percepts", wrong)
 
