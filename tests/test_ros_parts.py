@@ -164,6 +164,20 @@ def test_a_drive_ends_as_the_robot_says(far: Far) -> None:
     assert TopicRobot(far.senses, far.send, lambda: SOON).drive_to("cone", far.world) is DriveResult.NO_WAY
 
 
+def test_where_the_robot_arrived_must_be_known_before_it_goes_on(far: Far) -> None:
+    far.says = DriveResult.ARRIVED
+
+    def late() -> None:  # the pose is lost at first
+        if len(far.sent) == 2:
+            far.stand_at(far.sent[-1][0])
+
+    far.on_goal = late
+    robot = TopicRobot(far.senses, far.send, lambda: SOON)
+    robot.spin(0.8)
+    assert len(far.sent) == 2
+    assert robot.pose.yaw == pytest.approx(0.8)
+
+
 def test_a_robot_that_does_not_come_is_told_to_stand(far: Far) -> None:
     far.heeds = 1_000
     assert TopicRobot(far.senses, far.send, lambda: SOON).drive_to("cone", far.world) is DriveResult.BLOCKED
@@ -356,14 +370,14 @@ def test_a_question_is_asked_until_it_is_answered(start: Start, far: Far) -> Non
 
 def test_a_node_goes_on_from_its_snapshot_and_does_nothing_twice(start: Start, far: Far, tmp_path: Path) -> None:
     patient = SOON
-    first = start(store=Store(tmp_path), options=patient)
+    first = start(store=Store(tmp_path))
     first.worker.accept("command", command("move towards the cone", "1"))
     first.heard.wait(id="1", state="done")
     first.close()
     (tmp_path / ".snapshot-00000009.ab.part").mkdir()  # what a killed writer leaves
     model, handled = Store(tmp_path).restore() or pytest.fail("nothing was saved")
     goals = far.goals
-    second = start(model=model, store=Store(tmp_path), handled=handled, options=patient)
+    second = start(model=model, store=Store(tmp_path), handled=handled)
     assert model.symbols["cone"].type == "traffic cone"
     second.worker.accept("command", command("move towards the cone", "1"))
     second.heard.wait(id="1", state="done", repeated=True)

@@ -90,7 +90,9 @@ class TopicRobot:
         def result() -> DriveResult | None:
             said, here = self._senses.result(stamp), self._senses.here()
             there = here is not None and _close(here, goal, options.near, options.near_angle)
-            return DriveResult.ARRIVED if said is None and there else said
+            if said is None or said is DriveResult.ARRIVED:  # from where it arrived it goes on, so that must be known
+                return DriveResult.ARRIVED if there or self._senses.settled(stamp) else None
+            return said
 
         while True:
             here = self._senses.here()

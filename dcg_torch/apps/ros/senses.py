@@ -14,6 +14,7 @@ from dcg_torch.types import DriveResult, Percept, Pose
 
 T = TypeVar("T")
 _MOVED, _TURNED = 0.02, 0.03  # metres, radians: less is the jitter of a robot that stands
+_SETTLED = 0.5  # seconds
 _SILENCE = 2.0  # seconds without a newer message, after which an older stamp is a clock that was set anew
 
 
@@ -48,7 +49,7 @@ class Senses:
         self._pose: tuple[Pose, _Seen] | None = None
         self._look: tuple[tuple[Percept, ...], _Seen] | None = None
         self._moved: tuple[Pose, _Seen] | None = None  # since when it has stood about where it stands
-        self._results: dict[int, DriveResult] = {}
+        self._result: tuple[int, DriveResult, float] | None = None
         self._number = 0
         self._halted = False
         self.refused = ""
@@ -75,7 +76,8 @@ class Senses:
     def put_result(self, goal: int, result: DriveResult) -> None:
         """The robot says how it fared with the goal of this stamp."""
         with self._changed:
-            self._results = {goal: result}
+            if self._result is None or self._result[0] != goal:
+                self._result = (goal, result, time.monotonic())
             self._changed.notify_all()
 
     def halt(self) -> None:
@@ -120,7 +122,13 @@ class Senses:
 
     def result(self, goal: int) -> DriveResult | None:
         """What the robot said of a goal, if it did; call it within `wait`."""
-        return self._results.get(goal)
+        return self._result[1] if self._result and self._result[0] == goal else None
+
+    def settled(self, goal: int) -> bool:
+        """Has a pose come so long after the robot's word on a goal that it is of that place? Within `wait`."""
+        if self._pose is None or self._result is None or self._result[0] != goal:
+            return False
+        return self._pose[1].came - self._result[2] > _SETTLED
 
     def here(self) -> Pose | None:
         """The newest pose, however old; call it within `wait`."""
