@@ -369,7 +369,6 @@ def test_a_question_is_asked_until_it_is_answered(start: Start, far: Far) -> Non
 
 
 def test_a_node_goes_on_from_its_snapshot_and_does_nothing_twice(start: Start, far: Far, tmp_path: Path) -> None:
-    patient = SOON
     first = start(store=Store(tmp_path))
     first.worker.accept("command", command("move towards the cone", "1"))
     first.heard.wait(id="1", state="done")
