@@ -149,8 +149,10 @@ def main() -> int:
         node = SimulatedNode(robot, world, arguments.rate, arguments.lose, arguments.double)
         executor = SingleThreadedExecutor()
         executor.add_node(node.ros)
-        threading.Thread(target=_spin, args=(executor,), daemon=True).start()
+        listener = threading.Thread(target=_spin, args=(executor,), daemon=True)
+        listener.start()
         node.run()
+        listener.join(5.0)  # what it uses goes away with this function
     return 0
 
 
