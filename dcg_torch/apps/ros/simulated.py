@@ -116,7 +116,11 @@ class SimulatedNode:
     def _publish(self, topic: str, message: Any) -> None:
         times = 0 if self._rng.random() < self._lose else 2 if self._rng.random() < self._double else 1
         for _ in range(times):
-            self._out[topic].publish(message)
+            try:
+                self._out[topic].publish(message)
+            except RuntimeError:  # rclpy's errors are no better told apart
+                if rclpy.ok():  # else it was asked to end meanwhile, and `run` is about to notice
+                    raise
 
     def _now(self) -> int:
         return int(self.ros.get_clock().now().nanoseconds)
