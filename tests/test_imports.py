@@ -26,7 +26,8 @@ LAYERS = (
     {"model", "watch"},
     {"dialogue", "evaluation", "experiment"},
     {"cli"},
-    {"__main__", "apps", "bench", "collect", "convert", "evaluate"},
+    {"apps"},
+    {"__main__", "bench", "collect", "convert", "evaluate", "ros"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
@@ -43,6 +44,12 @@ ONLY = {
     "tensorboard": {"report.board"},
     "sentence_transformers": {"names.embedding"},
     "transformers": {"names.embedding"},
+    "rclpy": {"apps.ros"},
+    "std_msgs": {"apps.ros"},
+    "std_srvs": {"apps.ros"},
+    "geometry_msgs": {"apps.ros"},
+    "nav_msgs": {"apps.ros"},
+    "visualization_msgs": {"apps.ros"},
     "sklearn": {"evaluation.baselines", "bench"},
     "fastapi": {"apps.collect.page"},
     "jinja2": {"apps.collect.page"},

@@ -34,6 +34,9 @@ COMMANDS: Mapping[str, Command] = {
     ),
     "convert": Command("convert", "scenes and commands of others as episode files"),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
+    "ros": Command(
+        "ros", "a ROS 2 node: commands as messages, a robot that is known by its messages", "ros", ("rclpy",)
+    ),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }
