@@ -22,7 +22,7 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.rows import BagRows, GridRows
+from dcg_torch.grounding.rows import GridRows, SparseRows
 from dcg_torch.grounding.threads import one_thread
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
@@ -107,7 +107,7 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
-    if isinstance(objective.rows, BagRows) and solver == "auto":
+    if isinstance(objective.rows, SparseRows) and solver == "auto":
         root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
