@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from dcg_torch.grounding.encode import Rows, design_matrices, firing, rows_of
+from dcg_torch.grounding.fit import Solver
 from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
 from dcg_torch.learning.learner import Experience, Taught
 from dcg_torch.learning.places import place_examples
@@ -48,7 +49,9 @@ def teach(
 
     def fit_once(rows: list[Rows], last: bool) -> None:
         designs = design_matrices([*kept, *rows], model.features, model.factor.correspondences)
-        model.fit_weights(designs, free=free, l2=l2, tolerance=1e-3, max_steps=_SETTLED if last else _ON_THE_WAY)
+        solver: Solver = "auto" if last else "lbfgs"
+        steps = _SETTLED if last else _ON_THE_WAY
+        model.fit_weights(designs, free=free, l2=l2, tolerance=1e-3, max_steps=steps, solver=solver)
         if last and not relations_only:
             model.held |= firing(designs, model.features.shape)
 
