@@ -67,3 +67,37 @@ SIDE_WORDS |= {
 }
 EITHER_END = frozenset({"back", "front"})
 """Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
+WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
+WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
+"""What people call all of a scene, where nothing that is there is called so."""
+GROUND_WORD = "board"
+SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
+SIDE_OF |= {"in the middle of": "middle"}
+"""Of the whole scene a preposition names a side: "on the right side of the table"."""
+LATERAL = frozenset({"left", "right"})
+VERTICAL = frozenset({"top", "bottom", "front", "back"})
+SIDED = LATERAL | VERTICAL
+DEGREES = frozenset({"far", "very", "extreme", "utmost", "farthest", "outer"})
+SYNONYMS = {
+    **{"smaller": "smallest", "littler": "smallest", "littlest": "smallest", "tiniest": "smallest"},
+    **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
+    **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "lone": "alone"},
+    **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},
+    **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
+}
+"""Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
+COMPASS = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
+COMPASS |= {f"{up}{side}": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
+COMPASS |= {f"{name}ern": sides for name, sides in COMPASS.items()}
+"""Of a picture or a map north is up."""
+_BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
+BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}
+SAME_RELATION = {"closer to": "closest to", "closest from": "closest to", "farther from": "farthest from"}
+SAME_RELATION |= {"before": "in front of", "beyond": "behind", "over": "above", "after": "behind", "along": "on"}
+"""Prepositions, and those that say the same."""
+LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": "near", "around": "near"}
+LIKE_RELATION |= {"surrounded by": "near", "with": "near", "in line with": "next to"}
+"""Prepositions, and those that say much the same: what is known of these holds for them too, until they are learned."""
+PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
+PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
+"""What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""

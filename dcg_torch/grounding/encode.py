@@ -9,15 +9,48 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, merge, stack_bags
-from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Ranking, Said, ranking
+from dcg_torch import scene
+from dcg_torch.grounding.design import DesignMatrix, distinct_rows, merge, stack_bags
+from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Ranking, Said, look_codes, padded, ranking
 from dcg_torch.grounding.psi import Bag
-from dcg_torch.scene import Layout, layout
-from dcg_torch.types import Correspondence, Example, GroundingKind, Phrase, WorldModel
+from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, WorldModel
+
+Ints = NDArray[np.int64]
+
+_FEW = 256
+"""Things up to which it does not pay to look for rows that are alike."""
+
+
+@dataclass(frozen=True)
+class Coded:
+    """The bag of n factors, rows that are alike once.
+
+    Attributes:
+        bag: (s, k).
+        code: (n,) the row of each factor; None: all have their own.
+    """
+
+    bag: Bag
+    code: Ints | None
+
+    @property
+    def rows(self) -> Bag:
+        """(n, k) written out."""
+        return self.bag if self.code is None else self.bag[self.code]
+
+    def beside(self, other: Coded) -> Coded:
+        """The columns of both."""
+        if self.code is None or other.code is None or len(self.code) <= _FEW:
+            return Coded(np.hstack([self.rows, other.rows]), None)
+        _, first, code = np.unique(self.code * len(other.bag) + other.code, return_index=True, return_inverse=True)
+        return Coded(np.hstack([self.bag[self.code[first]], other.bag[other.code[first]]]), code)
 
 
 class WorldEncoder:
     """The grounding bags of one world. What several phrases, examples or rounds have in common is encoded once.
+
+    Things that are alike (type, colour, state ...) are encoded once too, and nothing is worked out that no phrase asks
+    for. All that is kept goes with the encoder.
 
     Args:
         features: the columns.
@@ -27,31 +60,78 @@ class WorldEncoder:
     def __init__(self, features: FeatureSet, world: WorldModel) -> None:
         self.features = features
         self.world = world
-        self._said: dict[Said, Bag] = {}
-        self._placed: dict[tuple[tuple[int, ...], Ranking | None], NDArray[np.int16]] = {}
+        self.related = Group.RELATION in features.groups
+        self._said: dict[Said, Coded] = {}
+        self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
 
     @cached_property
-    def layout(self) -> Layout:
+    def all(self) -> tuple[Object, ...]:
+        """The things of the world."""
+        return self.world.things
+
+    @cached_property
+    def layout(self) -> scene.Layout:
         """Where the things of the world are."""
-        return layout(self.world)
+        return scene.layout(self.world)
 
     @cached_property
     def number(self) -> dict[str, int]:
         """Id of a thing -> its number."""
-        return {thing.id: j for j, thing in enumerate(self.world.things)}
+        return {thing.id: j for j, thing in enumerate(self.all)}
 
     @cached_property
-    def _objects(self) -> Bag:
-        return self.features.encode_things(self.world, self.layout)
+    def perceived(self) -> NDArray[np.bool_]:
+        """(things,) is it there, as far as the robot can tell?"""
+        return np.array([not o.hypothetical for o in self.all], dtype=np.bool_)
+
+    @cached_property
+    def _objects(self) -> tuple[Coded, list[int]]:
+        """What things are by themselves, and the first thing of each row."""
+        names, state = scene.state_signatures(self.layout) if self.related else ([()], None)
+        states = [0] * len(self.all) if state is None else state.tolist()
+        number: dict[tuple[object, ...], int] = {}
+        objects = len(self.world.objects)
+        keys = [
+            (o.type, o.color, o.known, o.hypothetical, o.attributes, k)
+            for o, k in zip(self.world.objects, states, strict=False)
+        ]
+        code = np.array([number.setdefault(key, len(number)) for key in keys], dtype=np.int64)
+        first = np.unique(code, return_index=True)[1].tolist() + list(range(objects, len(self.all)))
+        code = np.concatenate([code, np.arange(len(number), len(first))])
+        rows = [self._thing(j, names[states[j]]) for j in first]
+        return Coded(padded(rows), code), first
+
+    def _thing(self, j: int, states: tuple[str, ...]) -> list[int]:
+        thing, objects = self.all[j], len(self.world.objects)
+        colors: list[str] = []
+        if thing.members:
+            colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
+        if self.related and j >= objects:
+            states = (*states, "kind: group" if thing.members else "kind: place")
+        return self.features.thing_columns(thing, states, colors)
 
     def things(self, phrase: Phrase) -> Bag:
         """(things, k) bag of a noun phrase's factors, but for the ranks that it speaks of."""
+        return self.unranked(phrase).rows
+
+    def unranked(self, phrase: Phrase) -> Coded:
+        """The same, things that are alike once."""
+        objects, first = self._objects
         if Group.NAMES not in self.features.groups:
-            return self._objects
+            return objects
         said = Said.of(phrase)
         if said not in self._said:
-            self._said[said] = self.features.encode_said(self.world, said)
-        return np.hstack([self._objects, self._said[said]])
+            self._said[said] = self._of_names(said, objects, first)
+        return self._said[said]
+
+    def _of_names(self, said: Said, objects: Coded, first: list[int]) -> Coded:
+        looks = look_codes(said.look, self.all)
+        if looks is None or objects.code is None:
+            columns = self.features.said_columns(said, [self.all[j] for j in first], [-1] * len(first))
+            return Coded(np.hstack([objects.bag, padded(columns)]), objects.code)
+        _, one, code = np.unique(objects.code * 64 + looks + 1, return_index=True, return_inverse=True)
+        columns = self.features.said_columns(said, [self.all[j] for j in one.tolist()], looks[one].tolist())
+        return Coded(np.hstack([objects.bag[objects.code[one]], padded(columns)]), code)
 
     def ranked(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Bag:
         """(things, k) bag of a noun phrase's factors.
@@ -59,18 +139,33 @@ class WorldEncoder:
         Args:
             members: (things,) those among which it ranks; None: all.
         """
+        return self.noun(phrase, members).rows
+
+    def noun(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Coded:
+        """The same, things that are alike once."""
         counted = ranking(phrase)
-        if counted is None or Group.RELATION not in self.features.groups:
-            return self.things(phrase)
-        return np.hstack([self.things(phrase), self.features.encode_ranks(self.layout, counted, members)])
+        if counted is None or not self.related:
+            return self.unranked(phrase)
+        ranks = self.features.encode_ranks(self.layout, counted, members)
+        few = len(ranks) <= _FEW
+        return self.unranked(phrase).beside(Coded(ranks, None) if few else Coded(*distinct_rows(ranks)))
+
+    def relations(self, landmarks: Sequence[tuple[int, ...]], among: str) -> list[NDArray[np.int16]]:
+        """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
+        new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
+        step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
+        for start in range(0, len(new), max(1, step)):
+            part = new[start : start + step]
+            found = scene.relations(self.layout, part, among)
+            self._found.update({(of, among): one for of, one in zip(part, found, strict=True)})
+        return [self._found[of, among] for of in landmarks]
 
     def placed(self, landmarks: Sequence[tuple[int, ...]], counted: Ranking | None) -> Bag:
         """(landmarks, things, k) bag of a modifier's factors, to each tuple of numbers of landmarks."""
-        new = [of for of in dict.fromkeys(landmarks) if (of, counted) not in self._placed]
-        if new:
-            rows = self.features.encode_placed(self.layout, new, counted).astype(np.int16)
-            self._placed.update({(of, counted): bag for of, bag in zip(new, rows, strict=True)})
-        return np.stack([self._placed[of, counted] for of in landmarks]).astype(np.int64)
+        counted = counted or Ranking("all")
+        if not self.related:
+            return np.full((len(landmarks), len(self.all), 1), self.features.placed_column)
+        return self.features.relation_columns(np.stack(self.relations(landmarks, counted.among)), counted)
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of the factors of an example in this world."""

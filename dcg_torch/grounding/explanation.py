@@ -97,7 +97,7 @@ def _reasons(model: Weighted, hypothesis: Hypothesis, solution: Solution) -> Ite
     odds = model.factor.weight[sign] - model.factor.weight[zero]
     chosen = [thing.id for thing in world.things].index(child.grounding.object.id)
     encoder = WorldEncoder(model.features, world)
-    if phrase is solution.noun:
+    if phrase == solution.noun:
         row = encoder.ranked(phrase, solution.compared)[chosen]
     else:
         row = encoder.bag(Example(phrase, world, (), hypothesis.factor_children))[chosen]

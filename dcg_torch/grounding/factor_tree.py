@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
-from dcg_torch.vocabulary import ANYTHING, GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS, RANKING
+from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
+from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:
     """Does some noun phrase of the command speak of a group of objects?"""
-    return any(is_group(node.phrase) for node in tree.walk())
+    return any(in_group(node.phrase) for node in tree.walk())
 
 
 def path_to_object(tree: ParseTree) -> ParseTree:
@@ -22,11 +23,6 @@ def path_to_object(tree: ParseTree) -> ParseTree:
     if tree.phrase.kind is PhraseKind.NOUN:
         return replace(tree, children=())
     return replace(tree, children=tuple(map(path_to_object, tree.children[:1])))
-
-
-def is_group(phrase: Phrase) -> bool:
-    """Does a noun phrase speak of a group of objects?"""
-    return phrase.kind is PhraseKind.NOUN and any(w in GROUP_WORDS for w in (phrase.noun, *phrase.words))
 
 
 def coordinated(tree: ParseTree) -> list[ParseTree]:
@@ -41,13 +37,17 @@ def coordinated(tree: ParseTree) -> list[ParseTree]:
     return [replace(tree, children=(noun, *others)) for noun in nouns]
 
 
-def to_factor_tree(tree: ParseTree) -> ParseTree:
+def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTree:
     """The path to the object meant, with everything that describes the object.
 
     A preposition below a noun phrase becomes a MODIFIER, and phrases get their context: a noun phrase what is done
     with its object ("object of take") or that it is a landmark and of what; a modifier what its landmark is. Both are
     told what "the closest" is one of.
+
+    Args:
+        world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
+    tree = in_plain_words(tree, frozenset() if world is None else heads(o.type for o in world.objects if o.type))
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)
@@ -64,7 +64,7 @@ def to_factor_tree(tree: ParseTree) -> ParseTree:
 
 def comparison_set(phrase: Phrase, modifiers: Sequence[ParseTree] = ()) -> str:
     """What a noun phrase's object is one of: of those of its kind, type or colour, of all, or of its row."""
-    if any(m.phrase.words[0] in INSIDE and is_group(m.children[0].phrase) for m in modifiers):
+    if any(m.phrase.words[0] in INSIDE and in_group(m.children[0].phrase) for m in modifiers):
         return "row"
     if phrase.noun is not None:
         return "kind" if phrase.color is not None else "type"
@@ -74,7 +74,7 @@ def comparison_set(phrase: Phrase, modifiers: Sequence[ParseTree] = ()) -> str:
 def _landmark_context(tree: ParseTree) -> tuple[str, ...]:
     """What a modifier is relative to: things stand otherwise to a corner than to another thing."""
     phrase = tree.children[0].phrase
-    if is_group(phrase):
+    if in_group(phrase):
         return ("to a group",)
     return ("to a place", f"to {PLACE_WORDS[phrase.noun][0]}") if phrase.noun in PLACE_WORDS else ("to a thing",)
 

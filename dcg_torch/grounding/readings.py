@@ -8,12 +8,59 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.types import ParseTree, PhraseKind
+from dcg_torch.grounding.tables import Tables
+from dcg_torch.scene.workspace import with_groups
+from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
 NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
 _SENSELESS = math.log(1e-6)
+
+
+class SharedSearch:
+    """Grounds several trees in one world: what they have in common is encoded and scored once.
+
+    It remembers what it has scored, so it goes with the weights as they are, and lives as long as one command.
+
+    Args:
+        encoder: of the world.
+        factor: the weights.
+        beam: hypotheses of a phrase that its parent considers.
+    """
+
+    def __init__(self, encoder: WorldEncoder, factor: LogLinearFactor, beam: int) -> None:
+        self._tables = Tables(encoder.features, factor)
+        self._beam = beam
+        self._search = Search(encoder, self._tables, beam)
+        self._grouped: Search | None = None
+        self._solved: dict[tuple[ParseTree, bool], Solution] = {}
+
+    @property
+    def world(self) -> WorldModel:
+        """Upsilon, without groups."""
+        return self._search.encoder.world
+
+    def solve(self, tree: ParseTree, *, groups: bool = False) -> Solution:
+        """Of a tree of factors.
+
+        Args:
+            groups: are the groups that objects form there to be meant?
+        """
+        key = (tree, groups)
+        if key not in self._solved:
+            self._solved[key] = (self._of_groups() if groups else self._search).solve(tree)
+        return self._solved[key]
+
+    def _of_groups(self) -> Search:
+        if self._grouped is None:
+            encoder = self._search.encoder
+            world = with_groups(encoder.world)
+            self._grouped = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
+        return self._grouped
 
 
 def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Solution:

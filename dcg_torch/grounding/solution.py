@@ -41,7 +41,7 @@ class Hypothesis:
         return [self, *(h for child in self.children for h in child.walk())]
 
 
-_SLIP = 0.02
+SLIP = 0.02
 """Share of modifiers that say nothing."""
 
 
@@ -57,7 +57,7 @@ class ModifierFactor:
     with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
 
     People differ about what "beside" is, and some words are not known, so that no modifier says all: with a
-    probability `_SLIP` it says nothing.
+    probability `SLIP` it says nothing.
 
     Attributes:
         combos: hypotheses of the landmarks; one for each child.
@@ -76,7 +76,7 @@ class ModifierFactor:
     @cached_property
     def log_psi(self) -> NDArray[np.float64]:
         """(things,) log Psi(thing)."""
-        return np.logaddexp(math.log1p(-_SLIP) + self._log_sum, math.log(_SLIP))
+        return np.logaddexp(math.log1p(-SLIP) + self._log_sum, math.log(SLIP))
 
     @property
     def posterior(self) -> NDArray[np.float64]:

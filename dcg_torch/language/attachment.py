@@ -11,9 +11,9 @@ from dataclasses import replace
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import PLACING, SETS, VERBS
+from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import last_thing, settle_nothing
+from dcg_torch.language.predicates import last_thing, settle_each_other, settle_nothing
 from dcg_torch.language.saying import NounPhrases
 from dcg_torch.language.selection import is_superlative
 
@@ -34,6 +34,7 @@ class _Builder(NounPhrases):
         settle(self.clause, self.pending, supplied, decisions)
         for noun in self.nouns:
             settle_nothing(noun)
+            settle_each_other(noun)
             noun.noun = "thing" if noun.noun in SETS["nothing"] else noun.noun
         return self.clause
 
@@ -119,7 +120,9 @@ class _Builder(NounPhrases):
         # "the cube that is biggest", "the cube, big"
         predicate = self.forced or self.copula or (bare and name not in SETS["sides"])
         ranked = is_superlative(name) and name not in SETS["ordinals"]
-        predicate = name == "alone" or ranked or (predicate and name not in SETS["adverbs"])
+        predicate = (
+            name == "alone" or item.words[-1] == "each other" or ranked or (predicate and name not in SETS["adverbs"])
+        )
         before_rank = after is not None and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
         if name in SETS["ordinals"] and before_rank:
             predicate = True  # "the cone second from the left", "... second closest to the sphere"
@@ -156,6 +159,8 @@ class _Builder(NounPhrases):
         elif item.finite and self.clause.verb is None and self.clause.objects and not self.relative:
             self.clause.verb, self.clause.acting = item, True  # "the top box moves left"
         elif name == "be":
+            if self.joined and self.copula:  # "it is on the left and is touching the cone"
+                self.nouns += self.clause.objects[:1]
             self.copula = self.forced = True
             if self.clause.verb is None and not self.relative:
                 self.clause.statement = True
@@ -172,7 +177,7 @@ class _Builder(NounPhrases):
 
     def relation(self, item: Item) -> None:
         """ "The cube that has a cone on it", "the box facing the wall": a verb between two noun phrases."""
-        name = "with" if item.words[0] == "have" else item.words[0]
+        name = RELATION_VERBS.get(item.words[0], item.words[0])
         if self.denied:
             name = "without" if name == "with" else f"not {name}"
         self.denied, item.said = False, True

@@ -92,10 +92,16 @@ def _is_fragment(after: Sequence[Item]) -> bool:
 
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
     """ "The cone is behind the cube": the copula says something of the noun phrase before it."""
-    if items[k].words[0] != "be" or any(item.kind is Kind.VERB for item in clause):
+    verbs = [item for item in clause if item.kind is Kind.VERB]
+    if items[k].words[0] != "be" or any(verb.words[0] != "be" for verb in verbs):
         return False
+    if verbs:  # "it is on the left and is touching the cone"
+        return items[k - 1].kind is Kind.AND and _is_statement(
+            clause[: clause.index(verbs[0])], items, items.index(verbs[0])
+        )
     after = items[k + 1] if k + 1 < len(items) else None
     named = after is not None and after.kind is Kind.NOUN and after.noun is not None
+    named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
     return not named and any(item.kind is Kind.NOUN and item.noun not in SETS["someone"] for item in clause)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 
 class Kind(enum.Enum):
@@ -48,3 +48,7 @@ class Item:
         yield self
         for child in self.children:
             yield from child.walk()
+
+    def copy(self) -> Item:
+        """The same with all below it, to stand somewhere else as well."""
+        return replace(self, children=[child.copy() for child in self.children])

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import PLACING, PRONOUNS, SETS, VERBS
+from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, VERBS
 from dcg_torch.language.morphology import verb
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Reader, Token
@@ -88,7 +88,7 @@ class _Phrases(Reader):
         item.participle = token.tag == "VG" and not item.finite
         after = self.text(i + 1)
         stop = i + 1
-        if after in SETS["verb_particles"] and base in VERBS["lift"]:
+        if base in PARTICLE_VERBS.get(after, ()):
             item.words, stop = (f"{base} {after}",), i + 2
         elif after == "for" and base in VERBS["seek"]:
             item.words, stop = (f"{base} for",), i + 2

@@ -7,6 +7,7 @@ where the other way is possible.
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 from dcg_torch.language.clauses import Clause, main_object
@@ -35,13 +36,19 @@ class Pending:
 
 def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: Decisions) -> None:
     """Give each prepositional phrase its parent."""
+    pending = _sought(clause, pending)
+    for place, after in itertools.pairwise(pending):
+        if after.joined and not place.item.children and place.name not in PLACING["extremes"]:
+            place.item.children = [child.copy() for child in after.item.children]  # "above and touching the cone"
     full = [place for place in pending if place.item.children]
     target = main_object(clause)
     goal = _goal(clause, full, target, supplied, decisions)
     last: Item | None = None
     for place in pending:
         if not place.item.children:
-            if place.nouns and place.name in PLACING["bare"]:
+            if place.nouns and place.name in PLACING["mutual"] and place.nouns[-1].plural:
+                place.nouns[-1].words += (place.name, "each other")  # "the two cubes touching"
+            elif place.nouns and place.name in PLACING["bare"]:
                 place.nouns[-1].words += place.item.words
             elif place.nouns and place.name in PLACING["extremes"]:
                 place.nouns[-1].words += (place.name.split()[0],)  # "the one farthest away"
@@ -59,11 +66,40 @@ def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: De
             owner = _nearest(place, decisions)
         if owner is None:
             clause.places.append(place.item)
-        else:
+        elif not _compound(owner, place, decisions):
             _below(owner, place.item)
         last = owner
     if clause.verb is None and target is None:
         _unnamed(clause)
+
+
+def _sought(clause: Clause, pending: list[Pending]) -> list[Pending]:
+    """Make what is looked for the object of "search the room for the cone", "look in the corner for the cone"."""
+    sought = next((place for place in pending if place.name == "for" and place.item.children), None)
+    if clause.action not in VERBS["seek"] or sought is None or sought.item.children[0].noun in SETS["someone"]:
+        return pending
+    thing, rooms = sought.item.children[0], clause.objects
+    clause.objects = [thing]
+    for room in rooms:
+        thing.children.append(Item(Kind.PREPOSITION, room.start, room.start, "in", ("in",), children=[room]))
+    others = [place for place in pending if place is not sought]
+    for place in others:
+        place.nouns = place.nouns or [thing]
+    return others
+
+
+def _compound(owner: Item, place: Pending, decisions: Decisions) -> bool:
+    """Whether "a pallet of tires" is read as a tire pallet; then it has become one."""
+    child = place.item.children[0]
+    named = place.item.words == ("of",) and owner.stop == place.item.start and len(place.item.children) == 1
+    plain = child.noun is not None and not (child.determined or child.color or child.children or child.pronoun)
+    apart = SETS["places"] | SETS["aspects"] | SETS["someone"] | SETS["sides"] | SETS["anything"] | SETS["groups"]
+    if not (named and plain) or owner.noun is None or not apart.isdisjoint((owner.noun, child.noun or "")):
+        return False
+    if decisions.choose("of", CHOICES["of"]) != "compound":
+        return False
+    owner.noun, owner.stop = f"{child.noun} {owner.noun}", child.stop
+    return True
 
 
 def _goal(

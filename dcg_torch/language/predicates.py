@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dcg_torch.language.items import Item
+from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import PLACING, SETS
 from dcg_torch.language.selection import is_superlative
 
@@ -45,6 +45,16 @@ def settle_nothing(noun: Item) -> None:
             name = where.words[0]
             noun.words += (f"nothing {'on' if name in PLACING['upon'] else name}",)
             noun.children.remove(without)
+
+
+def settle_each_other(noun: Item) -> None:
+    """ "side by side" becomes the preposition "next to" with another such thing."""
+    if "each other" in noun.words[1:]:
+        at = noun.words.index("each other")
+        other = Item(Kind.NOUN, noun.stop, noun.stop, "", ("each other",), noun.noun, noun.color, pronoun=True)
+        place = Item(Kind.PREPOSITION, noun.stop, noun.stop, "", noun.words[at - 1 : at], children=[other])
+        noun.words = noun.words[: at - 1] + noun.words[at + 1 :]
+        noun.children.append(place)
 
 
 def is_edge_of(noun: Item, edge: Item) -> bool:

@@ -194,7 +194,7 @@ class _Lattice:
             name = (*self.words[i : i + length - 1], *map(singular, self.words[i + length - 1 : i + length]))
             spoken = tuple(self.words[i : i + length])
             if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
-                return [self._new(i, i + length, "N", "compound", name)]
+                return [self._new(i, i + length, tag, "compound", name) for tag in ("N", "NM")]
         return []
 
     def _names(self, i: int) -> list[tuple[Token, float]]:

@@ -9,6 +9,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
+from dcg_torch.language.references import arrive, describe_later, one_of_several, refer
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
@@ -85,9 +86,11 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         children = [chosen.noun, *_beside(chosen), *chosen.clause.places]
         if not chosen.clause.places:
             children += _later_destination(chosen, clauses)
-    _describe_later(chosen, clauses)
+    describe_later(chosen.noun, chosen.clause, clauses)
     if chosen.noun.noun is None:
-        _one_of_several(chosen.noun, clauses)
+        one_of_several(chosen.noun, clauses)
+    refer(chosen.noun, chosen.clause, clauses, decisions)
+    arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
     phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
@@ -137,39 +140,6 @@ def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]
         if clause.action in VERBS["put"] and clause.places and all(noun.pronoun for noun in clause.objects):
             return clause.places
     return []
-
-
-def _describe_later(chosen: Mention, clauses: Sequence[Clause]) -> None:
-    """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
-    for clause in clauses:
-        if clause is chosen.clause or not clause.objects or clause.verb is not None:
-            continue
-        more = clause.objects[0]
-        if not more.pronoun or not (clause.statement or len(clause.objects) == 1):
-            continue
-        if more.color is None or chosen.noun.color is None:
-            chosen.noun.color = chosen.noun.color or more.color
-            chosen.noun.words += more.words
-            chosen.noun.children += more.children
-
-
-def _one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
-    """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
-    places = [child for clause in clauses for place in clause.places for child in place.children]
-    named = [noun for clause in clauses for noun in clause.objects] + places
-    named += [child for noun in named for place in noun.children for child in place.children]
-    several = [noun for noun in named if noun.plural and noun.noun is not None and noun.start < one.start]
-    several = [noun for noun in several if all(node is not one for node in noun.walk())]
-    several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
-    if not several:
-        return
-    group = max(several, key=lambda noun: noun.start)
-    one.noun, one.pronoun = group.noun, False
-    one.color = one.color or group.color
-    if SETS["groups"].isdisjoint(group.words):
-        one.children += group.children
-    else:
-        one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
 
 
 def freeze(item: Item) -> ParseTree:

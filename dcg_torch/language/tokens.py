@@ -10,7 +10,7 @@ from collections.abc import Collection, Sequence
 from dcg_torch.language.candidates import is_plain_noun
 from dcg_torch.language.colors import color_names, single_colors
 from dcg_torch.language.lexicon import MISSPELT, PLACING, REWRITES, SETS, WORD
-from dcg_torch.language.morphology import is_english
+from dcg_torch.language.morphology import is_english, parts, singular
 from dcg_torch.language.spelling import Speller
 
 # Typographic quotes, dashes and the ellipsis, by code point.
@@ -45,12 +45,13 @@ def tokens(text: str) -> list[str]:
 
 
 def names(text: str) -> frozenset[str]:
-    """Words that are written like names: with a capital, inside a sentence of small letters.
+    """Words that are written like names: with a capital, inside a sentence of small letters. Plurals are none.
 
-    >>> sorted(names("Follow Jules to the TV."))
-    ['jules']
+    >>> sorted(names("Follow Jules to the two Orange Blocks."))
+    ['jules', 'orange']
     """
-    return frozenset(match.group().lower() for match in _NAME.finditer(text))
+    found = (match.group().lower() for match in _NAME.finditer(text))
+    return frozenset(word for word in found if singular(word) == word or "n" not in parts(singular(word)))
 
 
 def _swap(match: re.Match[str]) -> str:

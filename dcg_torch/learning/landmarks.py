@@ -1,13 +1,14 @@
 """Learning from commands whose objects are known: the landmarks that they speak of are not, and are inferred.
 
 Expectation-maximisation over the landmarks. A lesson says which object a command means, not which cube "next to the
-cube" speaks of. So, in turn: with the present model, p(landmark | object meant) for every modifier
-(`solution.ModifierFactor`); then examples weighted by it, and one fit of the log-linear factor on all of them. The
-first turn knows no relations and spreads over all landmarks that the words allow.
+cube" speaks of. So, in turn: with the present model, p(landmark) for every modifier and p(landmark | object meant)
+(`solution.ModifierFactor`); then one fit of the weights to all choices, of the objects and of their landmarks
+(`grounding.choices`). The first turn knows no relations and spreads over all landmarks that the words allow.
 """
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -15,9 +16,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import Rows, WorldEncoder
-from dcg_torch.grounding.factor_tree import coordinated, is_group, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.choices import Choice, Modified
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
+from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
@@ -29,21 +32,20 @@ from dcg_torch.types import (
     Example,
     Grounding,
     GroundingKind,
-    Object,
     ParseTree,
-    Phrase,
     PhraseKind,
     WorldModel,
 )
 
 Bools = NDArray[np.bool_]
+Floats = NDArray[np.float64]
 GroundEncoded = Callable[[ParseTree, WorldModel, WorldEncoder], Solution]
 """Grounds a tree of factors in a world whose encoder is given."""
 
 _NEGLIGIBLE = 0.02
-"""Landmarks less probable than this teach nothing."""
-_FAR_NEGATIVE = 0.1
-"""Weight of the objects that the noun phrase may rule out by itself, as negative examples of its modifiers."""
+"""Landmarks so much less probable than the best teach nothing."""
+_NEGLIGIBLE_CHANCE = 1e-3
+"""Objects so much less probable than the best teach nothing."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,7 @@ def fit_landmarks_em(
     parts: Sequence[Part],
     features: FeatureSet,
     ground: GroundEncoded,
-    fit: Callable[[list[Rows], bool], None],
+    fit: Callable[[list[Choice], bool], None],
     *,
     rounds: int,
     progress: Callable[[int], None] | None = None,
@@ -81,14 +83,14 @@ def fit_landmarks_em(
     Args:
         features: the columns; only weights change meanwhile, so what a world looks like is encoded once.
         ground: grounds with the present weights.
-        fit: fits them to labelled factors; told whether it is the last round, before which they are only on their way.
+        fit: fits them to choices; told whether it is the last round, before which they are only on their way.
         rounds: of expectation and maximisation.
         progress: called with the number of each round that is done.
     """
     encoders: dict[WorldModel, WorldEncoder] = {}
     encoded = [(part, encoders.setdefault(part.world, WorldEncoder(features, part.world))) for part in parts]
     for number in range(rounds):
-        fit([rows for part, encoder in encoded for rows in _expected(part, encoder, ground)], number == rounds - 1)
+        fit([choice for part, encoder in encoded for choice in _expected(part, encoder, ground)], number == rounds - 1)
         if progress is not None:
             progress(number)
 
@@ -98,7 +100,7 @@ def parts_of(lesson: Lesson) -> list[Part]:
     found = []
     trees = coordinated(lesson.tree)
     for tree in trees:
-        noun = target_of(to_factor_tree(tree))
+        noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
             world = with_groups(lesson.world) if speaks_of_groups(tree) else lesson.world
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
@@ -137,7 +139,7 @@ def path_examples(lessons: Iterable[Lesson]) -> list[Example]:
     for lesson in lessons:
         if len(lesson.targets) != 1 or len(coordinated(lesson.tree)) != 1:
             continue
-        path, node = [], to_factor_tree(lesson.tree)
+        path, node = [], to_factor_tree(lesson.tree, lesson.world)
         while node.phrase.kind is not PhraseKind.NOUN and node.children:
             path.append(node.phrase)
             node = node.children[0]
@@ -150,106 +152,74 @@ def path_examples(lessons: Iterable[Lesson]) -> list[Example]:
     return found
 
 
-def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Iterator[Rows]:
-    """The labelled factors of a noun phrase, weighted by what the present model takes its landmarks to be."""
-    world, noun = part.world, part.noun
-    solution = ground(noun, world, encoder)
-    targets = np.array([o.id in part.targets for o in world.meanable])
-    for chance, meant in _choices(part, solution):
-        share = chance * part.weight
-        alike = _alike(noun.phrase, world.meanable, [world.things[k] for k in meant])
-        label = np.zeros(len(targets), dtype=np.int64)
-        label[meant] = Correspondence.ACTIVE
-        # What the modifiers, or the other noun phrases, tell apart is no example.
-        kept = ~((alike & bool(noun.children)) | (targets & (not part.alone)))
-        kept[meant] = True
-        bag = encoder.ranked(noun.phrase, solution.compared)[: len(targets)][kept]
-        yield Rows(noun.phrase, bag, label[kept], np.full(len(bag), share))
-        for modifier in solution.modifiers:
-            yield from _placed(modifier, noun.phrase, encoder, share, meant, targets)
+def example_choices(examples: Iterable[Example], features: FeatureSet) -> list[Choice]:
+    """Hand-made examples of noun phrases as choices: each thing that may be meant has an equal share."""
+    found = []
+    for example in examples:
+        label = np.array([c == Correspondence.ACTIVE for c in example.correspondences], dtype=np.float64)
+        bag = WorldEncoder(features, example.world).bag(example)
+        found.append(Choice(example.phrase, bag, label / label.sum(), example.weight))
+    return found
 
 
-def _choices(part: Part, solution: Solution) -> list[tuple[float, list[int]]]:
-    """What a noun phrase may mean of what the lesson means, with weights: numbers of things.
+def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Iterator[Choice]:
+    """What a noun phrase and the phrases of its landmarks choose, as far as a lesson and the present model say."""
+    solution = ground(part.noun, part.world, encoder)
+    if solution.best is None:
+        return
+    meant = _meant(part, solution)
+    if meant is None:
+        return
+    n = len(part.world.meanable)
+    share = np.zeros(n)
+    share[meant] = np.array([solution.probabilities[part.world.things[j].id] for j in meant])
+    of_one = part.alone or part.noun.phrase.plural
+    chance = np.array([solution.probabilities[o.id] for o in part.world.meanable])
+    kept = chance >= _NEGLIGIBLE_CHANCE * chance.max()
+    kept[meant] = True
+    label = np.zeros(n)
+    label[meant] = 1.0 if of_one else share[meant] / max(share.sum(), 1e-300)
+    a_set = len(meant) > 1 and part.alone and part.noun.phrase.count is None
+    yield Choice(
+        part.noun.phrase,
+        encoder.ranked(part.noun.phrase, solution.compared)[:n][kept],
+        label[kept] if a_set else label[kept] / label[kept].sum(),
+        part.weight,
+        tuple(_modified(modifier, encoder, kept) for modifier in solution.modifiers),
+        a_set,
+    )
+    for modifier in solution.modifiers:
+        rests = modifier.posterior[:, meant].mean(axis=1)
+        yield from _landmarks(modifier.combos, rests, encoder, part.weight)
 
-    A phrase for a group means the group whose members are meant. Of several joined phrases, each means one of the
-    targets: which, the present model says.
-    """
+
+def _meant(part: Part, solution: Solution) -> list[int] | None:
+    """Numbers of the things that a noun phrase means; None where a group is meant that is not seen as one."""
     things = part.world.things
-    if is_group(part.noun.phrase):
-        groups = [j for j, o in enumerate(things) if o.members and part.targets == set(o.members)]
-        if groups:
-            return [(1.0, groups)]
-    meant = [j for j, o in enumerate(part.world.objects) if o.id in part.targets]
-    if part.alone or part.noun.phrase.plural:
-        return [(1.0, meant)]
-    shares = [solution.probabilities[things[j].id] for j in meant]
-    return [(s / sum(shares), [j]) for s, j in zip(shares, meant, strict=True) if s > _NEGLIGIBLE * sum(shares)]
+    if in_group(part.noun.phrase):
+        return [j for j, o in enumerate(things) if o.members and part.targets == set(o.members)][:1] or None
+    return [j for j, o in enumerate(part.world.objects) if o.id in part.targets] or None
 
 
-def _placed(
-    modifier: ModifierFactor, head: Phrase, encoder: WorldEncoder, share: float, meant: Sequence[int], spared: Bools
-) -> Iterator[Rows]:
-    """What a modifier and its landmarks teach: the things meant stand so, others that the head allows do not.
-
-    Of both, the landmarks are those that the present model takes them to rest on. So what speaks most for a wrong
-    thing is what is learned to speak against it.
-    """
-    world, phrase = encoder.world, modifier.tree.phrase
-    n = len(spared)
-    posterior = modifier.posterior[:, :n]
-    told_apart = not head.words  # "the second cube in the row": the others are in it too
-    near = _alike(head, world.meanable, [world.things[k] for k in meant]) & told_apart
-    weight = posterior * np.where(near, 1.0, _FAR_NEGATIVE) * ~spared
-    weight[:, meant] = posterior[:, meant] / len(meant)
-    stands, differs = Correspondence.ACTIVE, Correspondence.INACTIVE
-    if NOT in phrase.words:
-        stands, differs = differs, stands
-    label = np.full(n, int(differs))
-    label[meant] = int(stands)
-    kept = weight > _NEGLIGIBLE * _FAR_NEGATIVE
-    rests = posterior[:, meant].mean(axis=1)
-    combos = np.flatnonzero(kept.any(axis=1))
-    if len(combos):
-        landmarks = [modifier.landmarks(c, encoder.number) for c in combos.tolist()]
-        bag = encoder.placed(landmarks, ranking(phrase))[:, :n]
-        kept = kept[combos]
-        which = np.broadcast_to(label, kept.shape)[kept]
-        yield Rows(phrase, bag[kept], which, share * weight[combos][kept])
-    for c in np.flatnonzero(rests > _NEGLIGIBLE).tolist():
-        for landmark in modifier.combos[c]:
-            yield from _landmark(landmark, encoder, share * float(rests[c]))
+def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> Modified:
+    """A modifier's factors to the landmarks that are not too improbable."""
+    prior = np.array([sum(h.log_score for h in combo) for combo in modifier.combos])
+    prior -= np.logaddexp.reduce(prior)
+    combos = np.flatnonzero(prior >= prior.max() + math.log(_NEGLIGIBLE))
+    landmarks = [modifier.landmarks(c, encoder.number) for c in combos.tolist()]
+    phrase = modifier.tree.phrase
+    bag = encoder.placed(landmarks, ranking(phrase))[:, : len(kept)][:, kept]
+    return Modified(phrase, bag, prior[combos], NOT in phrase.words)
 
 
-def _landmark(landmark: Hypothesis, encoder: WorldEncoder, weight: float) -> Iterator[Rows]:
-    """What a phrase for a landmark teaches, and what is said of the landmark in turn."""
-    world, chosen = encoder.world, landmark.child.grounding.object
-    at = encoder.number[chosen.id]
-    label = np.zeros(len(world.things), dtype=np.int64)
-    label[at] = Correspondence.ACTIVE
-    yield Rows(landmark.tree.phrase, encoder.ranked(landmark.tree.phrase), label, np.full(len(label), weight))
-    kept = np.zeros(len(label), dtype=np.bool_)
-    kept[: len(world.meanable)] = _alike(landmark.tree.phrase, world.meanable, [chosen])
-    kept[at] = True
-    for below in landmark.children:
-        phrase = below.tree.phrase
-        stands, differs = Correspondence.ACTIVE, Correspondence.INACTIVE
-        if NOT in phrase.words:
-            stands, differs = differs, stands
-        of_thing = np.full(len(label), int(differs))
-        of_thing[at] = int(stands)
-        numbers = tuple(encoder.number[h.child.grounding.object.id] for h in below.children)
-        bag = encoder.placed([numbers], ranking(phrase))[0][kept]
-        yield Rows(phrase, bag, of_thing[kept], np.full(len(bag), weight))
-        for further in below.children:
-            yield from _landmark(further, encoder, weight)
-
-
-def _alike(head: Phrase, things: Sequence[Object], others: Sequence[Object]) -> Bools:
-    """Does the head of a noun phrase say the same of each thing as of one of some others, by type and colour?"""
-    kinds = {(o.type if head.noun is not None else None, o.color if head.color is not None else None) for o in others}
-    found = [
-        (o.type if head.noun is not None else None, o.color if head.color is not None else None) in kinds
-        for o in things
-    ]
-    return np.array(found, dtype=np.bool_)
+def _landmarks(
+    combos: Sequence[tuple[Hypothesis, ...]], rests: Floats, encoder: WorldEncoder, weight: float
+) -> Iterator[Choice]:
+    """What the phrases for the landmarks of a modifier choose, which rests on each tuple of them by so much."""
+    if not len(combos) or not combos[0]:
+        return
+    for k, first in enumerate(combos[0]):
+        share = np.zeros(len(encoder.world.things))
+        np.add.at(share, [encoder.number[of[k].child.grounding.object.id] for of in combos], rests)
+        phrase = first.tree.phrase
+        yield Choice(phrase, encoder.ranked(phrase), share / share.sum(), weight)

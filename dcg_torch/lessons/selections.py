@@ -13,8 +13,8 @@ import numpy as np
 from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
 from dcg_torch.types import Percept, Pose
 
-_ORDINALS = ("first", "second", "third", "fourth", "fifth")
-_NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
+ORDINALS = ("first", "second", "third", "fourth", "fifth")
+NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
 _CLEAR = 0.35  # metres by which a rank must be told apart
 _WHO = ("you", "the robot")
 
@@ -26,7 +26,7 @@ def half_scene(rng: np.random.Generator) -> Scene:
     front = _half(kind, "front", rng, 1.0, in_rows)
     behind = _half(kind, "behind", rng, -1.0, in_rows)
     others = [
-        _thing(f"other {k}", other, rng, (float(rng.uniform(-5.0, 6.0)), float(rng.uniform(-4.0, 4.0))))
+        thing(f"other {k}", other, rng, (float(rng.uniform(-5.0, 6.0)), float(rng.uniform(-4.0, 4.0))))
         for k in range(int(rng.integers(1, 4)))
     ]
     said = [*_of_half(kind, front, "in front of", rng), *_of_half(kind, behind, "behind", rng)]
@@ -40,7 +40,7 @@ def half_scene(rng: np.random.Generator) -> Scene:
                 ids = frozenset(o.id for o in half)
                 who = str(rng.choice(_WHO))
                 said += [(f"go to the row of {kind}s {where} {who}", ids)] * 2
-                said.append((f"go to the row of {_NUMBERS[len(half)]} {kind}s {where} {who}", ids))
+                said.append((f"go to the row of {NUMBERS[len(half)]} {kind}s {where} {who}", ids))
     return Scene((*front, *behind, *others), Pose(0.0, 0.0), None, tuple(said))
 
 
@@ -52,7 +52,7 @@ def size_scene(rng: np.random.Generator) -> Scene:
     for k, size in enumerate(sizes[: int(rng.integers(4, 9))].tolist()):
         at = (float(rng.uniform(1.5, 6.0)), float(rng.uniform(-4.0, 4.0)))
         of = kind if k < 3 or rng.random() < 0.6 else other
-        objects.append(_thing(f"o{k}", of, rng, at, size))
+        objects.append(thing(f"o{k}", of, rng, at, size))
     said = [told for color in (None, *COLORS) for told in _by_size(kind, color, objects)]
     return Scene(tuple(objects), Pose(0.0, 0.0), None, tuple(said))
 
@@ -65,7 +65,7 @@ def _half(kind: str, name: str, rng: np.random.Generator, sign: float, in_rows: 
         points = [(sign * x + float(rng.uniform(-0.12, 0.12)), float(y)) for y in ys]
     else:
         points = [(sign * float(rng.uniform(1.2, 6.0)), float(rng.uniform(-4.5, 4.5))) for _ in range(number)]
-    return [_thing(f"{name} {k}", kind, rng, point) for k, point in enumerate(points)]
+    return [thing(f"{name} {k}", kind, rng, point) for k, point in enumerate(points)]
 
 
 def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Generator) -> Iterator[Told]:
@@ -92,7 +92,7 @@ def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float,
     order = _ranked(things, lambda o: float(np.hypot(o.position[0] - at[0], o.position[1] - at[1])))
     if order is None:
         return
-    for k, ordinal in enumerate(_ORDINALS[1 : min(3, len(order))], start=1):
+    for k, ordinal in enumerate(ORDINALS[1 : min(3, len(order))], start=1):
         yield f"go to the {ordinal} closest {kind} to {name}", frozenset({order[k]})
         yield f"go to the {ordinal} farthest {kind} from {name}", frozenset({order[-1 - k]})
     yield f"go to the {kind} closest to {name}", frozenset({order[0]})
@@ -104,7 +104,7 @@ def _counted(kind: str, side: str, order: Sequence[str]) -> Iterator[tuple[str, 
     yield f"{side}most {kind}", order[0]
     yield f"{kind} farthest to the {side}", order[0]
     yield f"{kind} farthest to your {side}", order[0]
-    for k, ordinal in enumerate(_ORDINALS[: len(order)]):
+    for k, ordinal in enumerate(ORDINALS[: len(order)]):
         yield f"{ordinal} {kind} from the {side}", order[k]
     yield f"last {kind} from the {side}", order[-1]
     if len(order) > 1:
@@ -134,8 +134,7 @@ def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> lis
     return [o.id for o in ranked] if len(ranked) > 1 and (apart > _CLEAR).all() else None
 
 
-def _thing(
-    id_: str, kind: str, rng: np.random.Generator, at: tuple[float, float], size: float | None = None
-) -> Percept:
+def thing(id_: str, kind: str, rng: np.random.Generator, at: tuple[float, float], size: float | None = None) -> Percept:
+    """A thing of a colour by chance; `size` is its edge in metres."""
     extents = None if size is None else (size, size, size)
     return Percept(id_, kind, str(rng.choice(COLORS)), (*at, 0.0), extents)

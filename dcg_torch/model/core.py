@@ -20,7 +20,7 @@ from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, Solver, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.readings import NEGLIGIBLE, looking, sum_over
+from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
@@ -34,7 +34,7 @@ from dcg_torch.model.teach import RELATION_L2, teach
 from dcg_torch.model.teacher import Told, interpret
 from dcg_torch.model.variant import Variant, restrict
 from dcg_torch.scene.upsilon import with_known, world_model
-from dcg_torch.scene.workspace import Workspace, with_groups, with_places
+from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
 
 
@@ -147,8 +147,9 @@ class GroundingModel:
             world: of `world_model`.
         """
         world = with_known(world, self.known_types)
+        search = SharedSearch(WorldEncoder(self.features, world), self.factor, self.variant.beam)
         if isinstance(command, ParseTree):
-            return self._ground(command, world)
+            return self._ground(command, search)
         if isinstance(command, str):
             from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
@@ -159,17 +160,17 @@ class GroundingModel:
         kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
         seen = any(o.rgb is not None for o in world.objects)
         trees = [looking(r.tree, command.text) if seen else r.tree for r in kept]
-        return sum_over([self._ground(tree, world) for tree in trees], [r.log_weight for r in kept])
+        return sum_over([self._ground(tree, search) for tree in trees], [r.log_weight for r in kept])
 
-    def _ground(self, tree: ParseTree, world: WorldModel) -> Solution:
+    def _ground(self, tree: ParseTree, search: SharedSearch) -> Solution:
         """Of one reading."""
         if Group.RELATION not in self.variant.groups:
-            return self.solve(path_to_object(tree), world)
+            return search.solve(path_to_object(tree))
         first, *others = (
-            self.solve(to_factor_tree(part), with_groups(world) if speaks_of_groups(part) else world)
+            search.solve(to_factor_tree(part, search.world), groups=speaks_of_groups(part))
             for part in coordinated(tree)
         )
-        return replace(first, further=tuple(others))
+        return replace(first, further=tuple(others)) if others else first
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""

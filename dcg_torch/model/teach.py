@@ -6,9 +6,17 @@ from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from dcg_torch.grounding.encode import Rows, design_matrices, firing, rows_of
-from dcg_torch.grounding.fit import Solver
-from dcg_torch.learning.landmarks import Lesson, Part, fit_landmarks_em, parts_of, path_examples, said_of_words
+from dcg_torch.grounding.choices import Choice, fit_choices
+from dcg_torch.grounding.encode import encode, firing
+from dcg_torch.learning.landmarks import (
+    Lesson,
+    Part,
+    example_choices,
+    fit_landmarks_em,
+    parts_of,
+    path_examples,
+    said_of_words,
+)
 from dcg_torch.learning.learner import Experience, Taught
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import taught_mask
@@ -21,7 +29,7 @@ RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
 CORPUS_L2 = 0.2
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
-_ON_THE_WAY, _SETTLED = 75, 300
+_ON_THE_WAY, _SETTLED = 30, 60
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
 landmarks move it anyway."""
 
@@ -39,21 +47,22 @@ def teach(
     """See `GroundingModel.teach`."""
     parts = [part for lesson in lessons for part in parts_of(lesson)]
     _make_room(model, parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
-    if relations_only:
-        always, free, l2 = place_examples(), taught_mask(model.features), RELATION_L2
-    else:
+    free, l2 = (taught_mask(model.features), RELATION_L2) if relations_only else (None, CORPUS_L2)
+    kept = example_choices(place_examples(), model.features) if relations_only else []
+    if not relations_only:
         # What was known before gives way to as much evidence as any.
         model.prior = model.factor.weight.numpy().copy()
-        always, free, l2 = path_examples(lessons), None, CORPUS_L2
-    kept = rows_of(always, model.features)
+        paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
+        model.fit_weights(paths, free=None, l2=l2)
+        model.held |= firing(paths, model.features.shape)
 
-    def fit_once(rows: list[Rows], last: bool) -> None:
-        designs = design_matrices([*kept, *rows], model.features, model.factor.correspondences)
-        solver: Solver = "auto" if last else "lbfgs"
+    def fit_once(choices: list[Choice], last: bool) -> None:
         steps = _SETTLED if last else _ON_THE_WAY
-        model.fit_weights(designs, free=free, l2=l2, tolerance=1e-3, max_steps=steps, solver=solver)
+        fired = fit_choices(
+            model.factor, [*kept, *choices], model.features, free=free, l2=l2, prior=model.prior, max_steps=steps
+        )
         if last and not relations_only:
-            model.held |= firing(designs, model.features.shape)
+            model.held |= fired
 
     fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
     if not relations_only:

@@ -6,9 +6,10 @@ things      by itself: clear or covered, on the floor, held ...; among those ali
 relations   to a landmark: above, beside, at which distance and on which side, closest to it of those alike ...
 """
 
+from dcg_torch.scene.groups import groups
 from dcg_torch.scene.layout import Layout, layout
-from dcg_torch.scene.places import Bounds, groups, places, scene_bounds
-from dcg_torch.scene.ranks import RANKS, STATES, ranks, states
+from dcg_torch.scene.places import Bounds, places, scene_bounds
+from dcg_torch.scene.ranks import RANKS, STATES, ranks, state_signatures, states
 from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, relations
 
 __all__ = [
@@ -24,5 +25,6 @@ __all__ = [
     "ranks",
     "relations",
     "scene_bounds",
+    "state_signatures",
     "states",
 ]

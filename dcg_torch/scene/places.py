@@ -1,32 +1,21 @@
-"""What can be spoken of beside the objects: places, and groups of objects.
+"""What can be spoken of beside the objects: places.
 
 A place is never meant itself: corners, edges, the middle, the ground, the robot, the speaker, and the sides of the
-latter two ("on your left"). A group is: "the row of barrels" means all its members.
+latter two ("on your left").
 """
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from dcg_torch.geometry import from_robot_frame, to_robot_frame
-from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS, NEXT, SAME_SPOT, Bools, Floats
+from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS
 from dcg_torch.types import Object, Pose
 
 Bounds = tuple[float, float, float, float]
 """(near, far, right, left) of a workspace, seen from the robot, metres."""
-
-ROW, STACK, CLUSTER = "row", "stack", "cluster"
-_UNEVEN = 0.6
-"""How far the next of a row may stand from where it is due, as a share of the step."""
-_STEP = 2.0
-"""Neighbours in a row are at most so many times as far apart as the nearest ones."""
-_LEAST = 3
-"""Members of a row or cluster; a stack has two."""
-_MOST = 12
-"""Groups of one kind that are kept: the largest."""
 
 
 def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> Bounds:
@@ -70,113 +59,3 @@ def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> t
             for side in HEADINGS:
                 add(DIRECTION, x, y, (side, f"of {kind}"))
     return tuple(found)
-
-
-def groups(objects: Sequence[Object], unit: float = 1.0) -> tuple[Object, ...]:
-    """The groups that objects form: rows of evenly spaced ones, stacks, and clusters of neighbours.
-
-    They are looked for among all objects, among those of one type, and among those of one type and colour. A group
-    has the type and the colour that its members share, and says what it is and how many they are in its attributes.
-
-    Args:
-        objects: those without a position are in no group.
-        unit: metres in a unit of length, see `layout`.
-    """
-    there = [o for o in objects if o.position is not None]
-    if len(there) < 2:
-        return ()
-    position = np.array([o.position for o in there]).reshape(-1, 3) / unit
-    alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
-    for j, o in enumerate(there):
-        alike.setdefault((o.type,), []).append(j)
-        alike.setdefault((o.type, o.color), []).append(j)
-    found: dict[str, dict[frozenset[int], None]] = {ROW: {}, STACK: {}, CLUSTER: {}}
-    for among in alike.values():
-        found[ROW] |= dict.fromkeys(_rows(position, among))
-        found[CLUSTER] |= dict.fromkeys(_clusters(position, among))
-    found[STACK] = dict.fromkeys(_stacks(position))
-    return tuple(
-        _group(kind, [there[j] for j in sorted(members)])
-        for kind, of_kind in found.items()
-        for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
-    )
-
-
-def _group(kind: str, members: Sequence[Object]) -> Object:
-    ids = tuple(o.id for o in members)
-    types, colors = {o.type for o in members}, {o.color for o in members}
-    one_type = next(iter(types)) if len(types) == 1 else None
-    return Object(
-        id=f"{kind}: {' '.join(ids)}",
-        type=one_type,
-        known=one_type is not None and all(o.known for o in members),
-        color=next(iter(colors)) if len(colors) == 1 else None,
-        position=members[0].position,
-        attributes=frozenset({kind, f"of {len(members)}"}),
-        members=ids,
-    )
-
-
-def _rows(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
-    """Maximal runs of at least `_LEAST` in a straight line on one level, one step apart."""
-    if len(among) < _LEAST:
-        return
-    points = position[list(among)]
-    offset = points[None, :, :] - points[:, None, :]  # i -> j
-    distance = np.hypot(offset[..., 0], offset[..., 1])
-    level = np.abs(offset[..., 2]) < SAME_SPOT
-    apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
-    nearest = apart.min(axis=1)
-    follow = np.full((len(points), len(points)), -1, dtype=np.int64)  # (i, j) -> the one after j
-    steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
-    for i, j in steps:
-        miss = np.linalg.norm(points - (points[j] + offset[i, j]), axis=1)
-        best = int(miss.argmin())
-        if miss[best] < _UNEVEN * apart[i, j]:
-            follow[i, j] = best
-    for i, j in steps:
-        if follow[i, j] < 0 or follow[j, i] >= 0:
-            continue  # no row, or this is not its end
-        run = [int(i), int(j)]
-        while (after := int(follow[run[-2], run[-1]])) >= 0 and after not in run:
-            run.append(after)
-        if run[0] < run[-1]:
-            yield frozenset(among[k] for k in run)
-
-
-def _clusters(position: Floats, among: Sequence[int]) -> Iterable[frozenset[int]]:
-    """Connected neighbours on at least `_LEAST` spots."""
-    if len(among) < _LEAST:
-        return
-    points = position[list(among), :2]
-    offset = points[None] - points[:, None]
-    apart = np.hypot(offset[..., 0], offset[..., 1])
-    for members in _components(apart < NEXT):
-        if len(members) < _LEAST:
-            continue
-        spots = _components(apart[np.ix_(members, members)] < SAME_SPOT)
-        if len(list(spots)) >= _LEAST:
-            yield frozenset(among[k] for k in members)
-
-
-def _stacks(position: Floats) -> Iterable[frozenset[int]]:
-    """Things over one another."""
-    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
-    higher = np.abs(position[None, :, 2] - position[:, None, 2]) > 0.01
-    for members in _components(over & higher):
-        if len(members) >= 2:
-            yield frozenset(members)
-
-
-def _components(joined: Bools) -> Iterable[list[int]]:
-    neighbours = [row.nonzero()[0].tolist() for row in joined]
-    left = set(range(len(joined)))
-    while left:
-        front, members = [left.pop()], list[int]()
-        while front:
-            k = front.pop()
-            members.append(k)
-            new = [m for m in neighbours[k] if m in left]
-            left.difference_update(new)
-            front += new
-        yield sorted(members)

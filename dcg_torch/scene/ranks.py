@@ -6,7 +6,10 @@ import math
 
 import numpy as np
 
-from dcg_torch.scene.layout import HEADINGS, NEAREST, NEXT, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
+from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
+from dcg_torch.scene.layout import HEADINGS, NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.order import Alike
+from dcg_torch.scene.order import before as lower
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
@@ -15,7 +18,7 @@ AXES = (
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
     *(f"state: {s}" for s in ("beside something", "held", "in a row")),
-    *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", "row", "stack", "cluster")),
+    *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", ROW, STACK, CLUSTER, ACROSS, ALONG)),
     *(f"part: of {n}" for n in range(2, 11)),
 ]
 """The states of objects, and what places and groups are, that are always features; further attributes of objects become
@@ -28,33 +31,50 @@ RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "firs
 
 def states(where: Layout) -> list[list[str]]:
     """Names of the state features of every thing, and of the colours in its stack or group."""
-    things, solid = where.things, where.solid
-    with np.errstate(invalid="ignore"):
-        other = solid[None] & ~np.eye(len(things), dtype=np.bool_)
-        column = other & (where.apart < SAME_SPOT)
-        beside = other & (where.apart < NEXT)
-    above, below = where.over.sum(axis=0), where.over.sum(axis=1)
-    neighbours, stack, rows = beside.sum(axis=1), column.sum(axis=1), where.member.sum(axis=0)
-    out = []
-    for j, thing in enumerate(things):
-        names = [f"{'state' if solid[j] else 'part'}: {a}" for a in sorted(thing.attributes)]
-        if solid[j] and thing.position is not None:
-            names += [
-                "state: covered" if above[j] else "state: clear",
-                "state: on something" if below[j] else "state: on the floor",
-                "state: alone" if not neighbours[j] else "state: in a stack" if stack[j] else "state: beside something",
-            ]
-            if rows[j]:
-                names.append("state: in a row")
-            names += [f"stack color: {c}" for c in _colors(where, column[j])]
-        elif where.group[j]:
-            names += [f"group color: {c}" for c in _colors(where, where.member[j])]
-        out.append(names)
-    return out
+    distinct, which = state_signatures(where)
+    return [list(distinct[k]) for k in which.tolist()]
 
 
-def _colors(where: Layout, of: np.ndarray[tuple[int], np.dtype[np.bool_]]) -> list[str]:
-    return sorted({c for j in np.flatnonzero(of) if (c := where.things[j].color) is not None})
+def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
+    """The state features that things have together, each set once, and (n,) which of the sets each thing has."""
+    things, solid, near = where.things, where.solid, where.near
+    count = int(solid.sum())
+    there = np.isfinite(where.position[:count]).all(axis=1)
+    in_row = np.zeros(len(things), dtype=np.bool_)
+    for members in where.members.values():
+        in_row[members] = True
+    beside = np.where(near.stacked, 1, np.where(near.beside, 2, 0))
+    code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
+    code = np.where(there, code, 0)  # what is nowhere has attributes alone
+    number: dict[tuple[frozenset[str], int, tuple[int, ...] | None], int] = {}
+    attributes, around = [o.attributes for o in things], near.colors
+    keys = [(a, c, around.get(j)) for j, (a, c) in enumerate(zip(attributes, code.tolist(), strict=False))]
+    which = [number.setdefault(key, len(number)) for key in keys]
+    names = [_state_names(*key, where.colors) for key in number]
+    for j in range(count, len(things)):
+        own = [f"part: {a}" for a in sorted(attributes[j])]
+        if j in where.members:
+            inside = {things[m].color for m in where.members[j].tolist()}
+            own += [f"group color: {c}" for c in sorted(c for c in inside if c is not None)]
+        which.append(len(names))
+        names.append(tuple(own))
+    return names, np.array(which, dtype=np.int64)
+
+
+def _state_names(
+    attributes: frozenset[str], code: int, around: tuple[int, ...] | None, colors: tuple[str, ...]
+) -> tuple[str, ...]:
+    names = [f"state: {a}" for a in sorted(attributes)]
+    if code:
+        code -= 24
+        names += [
+            "state: covered" if code % 2 else "state: clear",
+            "state: on something" if code // 2 % 2 else "state: on the floor",
+            ("state: alone", "state: in a stack", "state: beside something")[code // 4 % 3],
+        ]
+        if code >= 12:
+            names.append("state: in a row")
+    return (*names, *(f"stack color: {colors[c]}" for c in around or ()))
 
 
 def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = None, count: int | None = None) -> Ints:
@@ -69,15 +89,12 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
         (n, k) bag of indices into `RANKS`, padded with -1.
     """
     compared = np.ones(len(where.things), dtype=np.bool_) if members is None else members
-    solid = where.solid
-    alike: Bools = np.outer(solid, solid) | np.outer(where.group, where.group)
-    alike &= np.outer(compared, compared).astype(np.bool_)
+    code = np.where(compared & ~where.place, where.group.astype(np.int64), -1)
+    alike = Alike(code, [np.flatnonzero(code == k) for k in range(2)])
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
-    with np.errstate(invalid="ignore"):
-        less = values[:, None, :] < values[:, :, None] - TIE  # (axes, j, k): is k before j?
-    before = (less & alike[None]).sum(axis=2)  # (axes, n)
-    there = np.isfinite(values) & alike.any(axis=1, keepdims=True).T
+    before = lower(values, alike, max(NEAREST, ordinal or 0, count or 0))
+    there = np.isfinite(values) & (code >= 0)
     first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
     out = [np.where(there & (before < NEAREST), first + before, -1)]
     if ordinal is not None:
@@ -102,9 +119,11 @@ def _values(where: Layout) -> Floats:
     return np.stack([*along, nothing, to_robot, -to_robot, to_speaker])
 
 
-def _from_middle(where: Layout, alike: Bools) -> Floats:
+def _from_middle(where: Layout, alike: Alike) -> Floats:
     """(n,) distance of every thing to the middle of those alike; NaN where there are none."""
-    with np.errstate(invalid="ignore", divide="ignore"):
-        middle = (alike @ np.nan_to_num(where.position)) / alike.sum(axis=1)[:, None]
-        distance: Floats = np.linalg.norm(where.position - middle, axis=1)
+    distance = np.full(len(where.things), math.nan)
+    for members in alike.members:
+        if len(members):
+            middle = np.nan_to_num(where.position[members]).sum(axis=0) / len(members)
+            distance[members] = np.linalg.norm(where.position[members] - middle, axis=1)
     return distance

@@ -11,7 +11,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.layout import NEAREST, ONE_LEVEL, SAME_SPOT, TIE, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
+from dcg_torch.scene.order import TIE, Alike
+from dcg_torch.scene.order import before as lower
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """The bounds of the distance features, in units of the world."""
@@ -57,15 +60,16 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
-    found = _families(where, [tuple(of) for of in landmarks], where.alike[among])
-    shape = (len(landmarks), len(where.things))
-    columns = [
-        np.where(found[f] >= 0, found[f] + _START[f], -1) if f in found else np.full((1, 1), -1) for f in RELATIONS
-    ]
-    return np.stack([np.broadcast_to(c, shape) for c in columns], axis=2).astype(np.int16)
+    found = _families(where, [tuple(of) for of in landmarks], where.alike(among))
+    out = np.full((len(landmarks), len(where.things), len(RELATIONS)), -1, dtype=np.int16)
+    for k, (family, start) in enumerate(_START.items()):
+        if family in found:
+            out[:, :, k] = found[family]
+            out[:, :, k] += start * (out[:, :, k] >= 0)
+    return out
 
 
-def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools) -> dict[str, Ints]:
+def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike) -> dict[str, Ints]:
     """family -> (c, n) number of the value that fires, -1 for none; a family that fires nowhere may be missing."""
     first = np.array([of[0] for of in landmarks], dtype=np.int64)
     position = where.position
@@ -73,7 +77,8 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools)
     flat = offset[..., :2]
     half = where.half[first][:, None, :]
     with np.errstate(invalid="ignore"):
-        flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
+        if half.any():
+            flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
         distance = np.hypot(flat[..., 0], flat[..., 1])
     exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
     solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
@@ -97,22 +102,23 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Bools)
     return found
 
 
-def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
-    same = distance < SAME_SPOT
-    value = np.select(
-        [
-            same & (up > ONE_LEVEL),
-            same & (up > 0.01),
-            same & (up < -ONE_LEVEL),
-            same & (up < -0.01),
-            up > 0.01,
-            up < -0.01,
-        ],
-        [VERTICAL.index(name) for name in ("higher over", "on top", "lower under", "right under", "above", "below")],
-        VERTICAL.index("level"),
+_OVER, _BESIDE = (
+    np.array([VERTICAL.index(name) for name in names])
+    for names in (
+        ("level", "on top", "higher over", "lower under", "right under"),
+        ("level", "above", "above", "below", "below"),
     )
-    on_ground = np.where(where.over.any(axis=1), VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
-    value = np.where(where.ground[first][:, None], on_ground, value)
+)
+"""Values of "vertical" for what is on the landmark's spot and what is not; an index below 0 counts from the end."""
+
+
+def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
+    # From -2, far below, to 2, far above; 0 is on a level.
+    step = (up > 0.01).astype(np.int64) + (up > ONE_LEVEL) - (up < -0.01) - (up < -ONE_LEVEL)
+    value = np.where(distance < SAME_SPOT, _OVER[step], _BESIDE[step])
+    if where.ground[first].any():
+        on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
+        value = np.where(where.ground[first][:, None], on_ground, value)
     out: Ints = np.where(exists & (where.solid | where.ground)[first][:, None], value, -1)
     return out
 
@@ -123,24 +129,26 @@ def _sides(where: Layout, first: Ints, flat: Floats, aside: Bools) -> dict[str, 
     bearing = np.arctan2(flat[..., 1], flat[..., 0])
     mark = where.position[first, :2]
     away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    found = {"side": np.where(sided, _sector(bearing), -1)}
-    found["side seen"] = np.where(sided & away, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None]), -1)
+    seen = sided & away
+    found = {"side": np.where(sided, _sector(bearing, sided), -1)}
+    found["side seen"] = np.where(seen, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None], seen), -1)
     if where.speaker is not None:
         view = mark - where.speaker
         near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
         view[near] = where.middle - where.speaker
-        found["side spoken"] = np.where(sided, _sector(bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]), -1)
+        spoken = bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]
+        found["side spoken"] = np.where(sided, _sector(spoken, sided), -1)
     across, along = np.abs(flat[..., 1]) < SAME_SPOT, np.abs(flat[..., 0]) < SAME_SPOT
     found["line"] = np.where(sided & along, 0, np.where(sided & across, 1, -1))
     return found
 
 
-def _sector(angle: Floats) -> Ints:
-    """Which of the eight `SECTORS`, as seen by who looks along angle 0."""
-    return np.round(np.nan_to_num(angle) / (math.pi / 4)).astype(np.int64) % 8
+def _sector(angle: Floats, kept: Bools) -> Ints:
+    """Which of the eight `SECTORS`, as seen by who looks along angle 0; any for what is not kept."""
+    return np.round(np.where(kept, angle, 0.0) / (math.pi / 4)).astype(np.int64) % 8
 
 
-def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Bools) -> dict[str, Ints]:
+def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> dict[str, Ints]:
     """The closest and the farthest of those alike; in a direction, the one that is farthest that way."""
     heading = np.nan_to_num(where.heading[first])
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
@@ -149,9 +157,8 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     found = {}
     for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
         signed = np.where(exists, sign * value, math.inf)
-        less = signed[:, None, :] < signed[:, :, None] - TIE
-        before = (less & alike[None]).sum(axis=2)
-        compared = exists & alike.any(axis=1, keepdims=True).T & (before < named)
+        before = lower(signed, alike, named)
+        compared = exists & (alike.code >= 0) & (before < named)
         found[order] = np.where(compared, before, -1)
     return found
 
@@ -188,8 +195,9 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
     for c, g in enumerate(first):
         if not where.group[g]:
             continue
-        inside = np.flatnonzero(where.member[g])
-        found["member"][c] = np.where(where.member[g], 0, 1)
+        inside = np.sort(where.members[int(g)])
+        found["member"][c] = 1
+        found["member"][c, inside] = 0
         height = where.position[inside, 2]
         found["member top"][c, inside] = np.where(height > height.max() - TIE, 0, 1)
         reach = np.linalg.norm(where.position[inside] - where.position[g], axis=1)

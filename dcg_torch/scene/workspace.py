@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from dcg_torch.scene.places import Bounds, groups, places, scene_bounds
+from dcg_torch.scene.groups import groups
+from dcg_torch.scene.places import Bounds, places, scene_bounds
 from dcg_torch.types import WorldModel
 
 
@@ -42,4 +43,4 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
 
 def with_groups(world: WorldModel) -> WorldModel:
     """A world with the groups that its objects form."""
-    return replace(world, groups=groups(world.objects, world.unit))
+    return replace(world, groups=groups(world.objects, world.unit, world.robot))

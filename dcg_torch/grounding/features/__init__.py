@@ -16,7 +16,7 @@ What is known is a fact about the columns: a noun or colour without a column of 
 feature instead. Columns are only ever appended, so old indices stay valid.
 """
 
-from dcg_torch.grounding.features.columns import FeatureSet
+from dcg_torch.grounding.features.columns import FeatureSet, padded
 from dcg_torch.grounding.features.given import give_odds
 from dcg_torch.grounding.features.names import (
     GROUNDING_OF,
@@ -28,7 +28,7 @@ from dcg_torch.grounding.features.names import (
     child_feature,
     ranking,
 )
-from dcg_torch.grounding.features.said import Said
+from dcg_torch.grounding.features.said import Said, look_codes
 
 __all__ = [
     "GROUNDING_OF",
@@ -41,5 +41,7 @@ __all__ = [
     "Said",
     "child_feature",
     "give_odds",
+    "look_codes",
+    "padded",
     "ranking",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -169,12 +170,12 @@ class FeatureSet:
 
     def encode_phrases(self, phrases: Sequence[Phrase]) -> Bag:
         """(len(phrases), k) bag of language columns."""
-        return _pad([[self.language[name] for name in self.language_names(phrase)] for phrase in phrases])
+        return padded([[self.language[name] for name in self.language_names(phrase)] for phrase in phrases])
 
     def encode_groundings(
         self, kind: GroundingKind, world: WorldModel, children: Sequence[Sequence[Child]]
     ) -> NDArray[np.int64]:
-        """Grounding columns of every grounding of `kind` in `world`, under every tuple of child groundings.
+        """Grounding columns of every region or action in `world`, under every tuple of child groundings.
 
         Args:
             children: c hypotheses, each a tuple of equally many child groundings; one empty tuple for a leaf.
@@ -182,58 +183,42 @@ class FeatureSet:
         Returns:
             (c, len(world.meanable), k) bag.
         """
-        objects = world.meanable
-        own = _pad(
-            [
-                [
-                    self.grounding[name]
-                    for name in (f"kind: {kind}", *(self.object_names(o) if kind is GroundingKind.OBJECT else ()))
-                    if name in self.grounding
-                ]
-                for o in objects
-            ]
-        )
-        slots = len(children[0])
-        bag = np.full((len(children), len(objects), own.shape[1] + slots), -1, dtype=np.int64)
-        bag[:, :, : own.shape[1]] = own
-        index = {o.id: j for j, o in enumerate(objects)}
-        for slot in range(slots):
-            column = own.shape[1] + slot
-            for c, hypothesis in enumerate(children):
-                child = hypothesis[slot]
-                other, same = (
-                    self.grounding.get(child_feature(child.grounding.kind, child.correspondence, which)[1], -1)
-                    for which in (False, True)
-                )
-                bag[c, :, column] = other
-                bag[c, index[child.grounding.object.id], column] = same
-        return bag
+        rows: list[list[int]] = []
+        for hypothesis in children:
+            about = [child.grounding.object.id for child in hypothesis]
+            none = self.action_columns(kind, hypothesis, [False] * len(about))
+            own = {id_: self.action_columns(kind, hypothesis, [id_ == a for a in about]) for id_ in about}
+            rows += [own.get(o.id, none) for o in world.meanable]
+        bag = padded(rows)
+        return bag.reshape(len(children), -1, bag.shape[1])
 
-    def encode_things(self, world: WorldModel, where: scene.Layout) -> Bag:
-        """Grounding columns of a noun phrase's groundings, groups and places included, whatever the phrase says.
+    def action_columns(self, kind: GroundingKind, children: Sequence[Child], same: Sequence[bool]) -> list[int]:
+        """Grounding columns of one region or action.
 
         Args:
-            where: the layout of `world`.
-
-        Returns:
-            (len(world.things), k) bag.
+            children: the child groundings.
+            same: of each, is it about the same object?
         """
-        members = {o.id: o.color for o in world.objects}
-        colors = [[c for m in o.members if (c := members[m]) is not None] for o in world.things]
-        names = [
-            [f"kind: {GroundingKind.OBJECT}", *self.object_names(o, of_members)]
-            for o, of_members in zip(world.things, colors, strict=True)
-        ]
-        if Group.RELATION in self.groups:
-            for own, more in zip(names, scene.states(where), strict=True):
-                own += more
-            for own, thing in zip(names[len(world.objects) :], world.things[len(world.objects) :], strict=True):
-                own.append("kind: group" if thing.members else "kind: place")
-        return self._bag(names)
+        names = [child_feature(c.grounding.kind, c.correspondence, s)[1] for c, s in zip(children, same, strict=True)]
+        return self._columns((f"kind: {kind}", *names))
 
-    def encode_said(self, world: WorldModel, said: Said) -> Bag:
-        """(len(world.things), k) bag: what the names of things say about a phrase."""
-        return self._bag(facts(said, world.things))
+    def thing_columns(self, thing: Object, states: Iterable[str] = (), colors: Sequence[str] = ()) -> list[int]:
+        """Grounding columns of a noun phrase's grounding, a group's and a place's too, whatever the phrase says.
+
+        Args:
+            states: names of what else is true of it.
+            colors: of a group, those of its members.
+        """
+        names = (f"kind: {GroundingKind.OBJECT}", *self.object_names(thing, colors), *states)
+        return self._columns(names)
+
+    def said_columns(self, said: Said, things: Sequence[Object], looks: Sequence[int]) -> list[list[int]]:
+        """Columns of what the names of things say about a phrase.
+
+        Args:
+            looks: of each thing, see `said.look_codes`.
+        """
+        return [self._columns(names) for names in facts(said, things, looks)]
 
     def encode_ranks(self, where: scene.Layout, ranking: Ranking, members: NDArray[np.bool_] | None) -> Bag:
         """(things, k) bag: the rank of every thing among those that are compared.
@@ -243,8 +228,10 @@ class FeatureSet:
         """
         return self._ranks[scene.ranks(where, members, ordinal=ranking.ordinal, count=ranking.count)]
 
-    def _bag(self, names: Iterable[Iterable[str]]) -> Bag:
-        return _pad([[self.grounding[name] for name in own if name in self.grounding] for own in names])
+    def _columns(self, names: Iterable[str]) -> list[int]:
+        """Each once, in the order of the columns."""
+        number = self.grounding.get
+        return sorted({column for name in names if (column := number(name)) is not None})
 
     def encode_placed(
         self, where: scene.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None
@@ -258,14 +245,33 @@ class FeatureSet:
         Returns:
             (c, things, k) bag.
         """
-        n, ranking = len(where.things), ranking or Ranking("all")
-        columns = [np.full((len(landmarks), n, 1), self.grounding[f"kind: {GroundingKind.PLACED}"], dtype=np.int64)]
-        if Group.RELATION in self.groups:
-            found = scene.relations(where, landmarks, ranking.among)
-            columns.append(self._relations[found])
-            if ranking.count is not None and ranking.count > 1:
-                columns.append(np.where(self._rank_of[found] < ranking.count, self._few[found], -1))
-        return np.concatenate(columns, axis=2)
+        ranking = ranking or Ranking("all")
+        if Group.RELATION not in self.groups:
+            bag = np.full((len(landmarks), len(where.things), 1), -1, dtype=np.int64)
+            bag[:] = self.placed_column
+            return bag
+        return self.relation_columns(scene.relations(where, landmarks, ranking.among), ranking)
+
+    def relation_columns(self, found: NDArray[np.int16], ranking: Ranking) -> NDArray[np.int64]:
+        """The same of relations (..., families) that have been found: indices into `scene.RELATION_NAMES`."""
+        columns = [np.full((*found.shape[:-1], 1), self.placed_column), self.relation_of[found]]
+        if (of_few := self.few_of(ranking)) is not None:
+            columns.append(of_few[found])
+        return np.concatenate(columns, axis=-1)
+
+    @property
+    def placed_column(self) -> int:
+        """Of every grounding of a modifier."""
+        return self.grounding[f"kind: {GroundingKind.PLACED}"]
+
+    def few_of(self, ranking: Ranking) -> NDArray[np.int64] | None:
+        """Index into `scene.RELATION_NAMES` -> column of "one of the first few", -1 for none; a last entry for -1.
+
+        None where the phrase counts no more than one.
+        """
+        if ranking.count is None or ranking.count < 2:
+            return None
+        return np.where(self._rank_of < ranking.count, self._few, -1)
 
     @cached_property
     def _ranks(self) -> NDArray[np.int64]:
@@ -273,7 +279,7 @@ class FeatureSet:
         return np.array([*(self.grounding.get(name, -1) for name in scene.RANKS), -1])
 
     @cached_property
-    def _relations(self) -> NDArray[np.int64]:
+    def relation_of(self) -> NDArray[np.int64]:
         """Index into `scene.RELATION_NAMES` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RELATION_NAMES), -1])
 
@@ -289,9 +295,7 @@ class FeatureSet:
         return np.array([*(k for names in scene.RELATIONS.values() for k in range(len(names))), 0])
 
 
-def _pad(rows: list[list[int]]) -> Bag:
+def padded(rows: Sequence[Sequence[int]]) -> Bag:
     """Rows of columns as one array, padded with -1."""
-    bag = np.full((len(rows), max(map(len, rows), default=0)), -1, dtype=np.int64)
-    for row, columns in zip(bag, rows, strict=True):
-        row[: len(columns)] = columns
-    return bag
+    filled = list(itertools.zip_longest(*rows, fillvalue=-1))
+    return np.array(filled, dtype=np.int64).reshape(len(filled), len(rows)).T.copy()

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, color_evidence
 from dcg_torch.names.colors import color_scores
@@ -72,20 +73,23 @@ def said_features() -> list[str]:
     return [f"said {name}" for name in names]
 
 
-def facts(said: Said, things: Sequence[Object]) -> list[list[str]]:
-    """The names of the features that fire for each thing."""
-    looks = _look_facts(said.look, things)
+def facts(said: Said, things: Sequence[Object], looks: Sequence[int]) -> list[list[str]]:
+    """The names of the features that fire for each thing.
+
+    Args:
+        looks: of each, see `look_codes`.
+    """
     return [_facts(said, thing, look) for thing, look in zip(things, looks, strict=True)]
 
 
-def _facts(said: Said, thing: Object, look: str | None) -> list[str]:
+def _facts(said: Said, thing: Object, look: int) -> list[str]:
     found: list[str] = []
     if said.noun is not None and thing.type is None and LOOKED_ROUND in thing.attributes:
         found.append(_ABSENT)
     if said.noun is not None and thing.type is not None and not thing.type.startswith(OPAQUE):
         found += evidence(said.noun, thing.type)
-    if look is not None:
-        found.append(look)
+    if look >= 0:
+        found.append(LOOK_FACTS[look])
     elif said.color is not None and thing.color is not None:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
@@ -93,15 +97,18 @@ def _facts(said: Said, thing: Object, look: str | None) -> list[str]:
     return [f"said {name}" for name in found]
 
 
-def _look_facts(words: tuple[str, ...], things: Sequence[Object]) -> list[str | None]:
-    """How far each thing that shows its colour stays behind the one that the words fit best."""
-    shown = [j for j, thing in enumerate(things) if thing.rgb is not None]
-    found: list[str | None] = [None] * len(things)
-    if not words or not shown:
-        return found
+def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:
+    """How far each thing that shows its colour stays behind the one that the words fit best.
+
+    Returns:
+        (things,) numbers of `LOOK_FACTS`, -1 for what shows none; None where the words say nothing of colours.
+    """
+    shown = [j for j, thing in enumerate(things) if thing.rgb is not None] if words else []
+    if not shown:
+        return None
     scores = color_scores(words, np.array([things[j].rgb for j in shown], dtype=np.float64))
-    if np.ptp(scores) <= 1e-9:  # the words say nothing of colours
-        return found
-    for j, behind in zip(shown, (scores.max() - scores).tolist(), strict=True):
-        found[j] = LOOK_FACTS[int(np.searchsorted(_LOOKS, behind, side="left"))]
+    if np.ptp(scores) <= 1e-9:
+        return None
+    found = np.full(len(things), -1, dtype=np.int64)
+    found[shown] = np.searchsorted(_LOOKS, scores.max() - scores, side="left")
     return found

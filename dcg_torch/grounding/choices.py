@@ -1,0 +1,267 @@
+"""Weights by the conditional likelihood of what is meant: which of the things of a scene, or which set of them.
+
+A fit of labelled factors asks of each thing alone whether a phrase describes it. A command asks which one it means:
+it may describe several, and one best. So commands whose objects are known are fitted by
+
+    log p(meant)  = sum_j y_j (s_j - log sum_i exp s_i)                        one thing is meant
+    log p(set)    = sum_j y_j log q_j + (1 - y_j) log(1 - q_j)                  all that is described is meant
+    s_j           = log Psi(ACTIVE) - log Psi(INACTIVE) + sum_m log Psi_m(j)    as the factor graph scores it
+    log q_j       = log Psi(ACTIVE) + sum_m log Psi_m(j)
+    Psi_m(j)      = (1 - slip) sum_c p(c) Psi(asserted | j, c) + slip           `solution.ModifierFactor`
+
+with p(c), the probability of a modifier's landmarks, as the model has it before. What moves is the difference of the
+weights of ACTIVE and INACTIVE; their mean stays, and so do the weights of other correspondences.
+
+Conventions
+    R rows of factors; N candidates, those of one choice after another; C choices
+    S terms of modifiers, those of one candidate and modifier (a slot) after another
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import csr_array
+
+from dcg_torch.grounding import solvers
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor
+from dcg_torch.grounding.solution import SLIP
+from dcg_torch.grounding.threads import one_thread
+from dcg_torch.types import Correspondence, Phrase
+
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Modified:
+    """What a modifier says of the candidates of a choice.
+
+    Attributes:
+        bag: (c, n, k) its factors to each tuple of landmarks, of every candidate.
+        log_prior: (c,) log p(c).
+        denied: is it negated, so that INACTIVE is asserted?
+    """
+
+    phrase: Phrase
+    bag: Bag
+    log_prior: Floats
+    denied: bool
+
+
+@dataclass(frozen=True)
+class Choice:
+    """One noun phrase, the candidates that it chooses from, and which it means.
+
+    Attributes:
+        bag: (n, k) its factors.
+        meant: (n,) the share of each candidate; of a set, 1 for every member.
+        weight: in the likelihood.
+        a_set: are all meant that the phrase describes?
+    """
+
+    phrase: Phrase
+    bag: Bag
+    meant: Floats
+    weight: float = 1.0
+    modifiers: tuple[Modified, ...] = ()
+    a_set: bool = False
+
+
+@dataclass
+class _Rows:
+    """Rows of factors as they are gathered, with a number for every phrase."""
+
+    phrases: dict[Phrase, int] = field(default_factory=dict)
+    bags: list[Bag] = field(default_factory=list)
+    phrase: list[Ints] = field(default_factory=list)
+    count: int = 0
+
+    def add(self, phrase: Phrase, bag: Bag) -> Ints:
+        """The numbers of new rows."""
+        number = self.phrases.setdefault(phrase, len(self.phrases))
+        self.bags.append(bag)
+        self.phrase.append(np.full(len(bag), number))
+        self.count += len(bag)
+        return np.arange(self.count - len(bag), self.count)
+
+
+class Likelihood:
+    """The penalised negative log-likelihood of choices, as a function of the differences of free weights.
+
+    Args:
+        choices: at least one.
+        free: (L, G) the features that may move; None: all.
+        l2: strength of the penalty on the distance from `prior`.
+        prior: (P, L, G) weights that cost nothing.
+    """
+
+    def __init__(
+        self,
+        choices: Sequence[Choice],
+        features: FeatureSet,
+        factor: LogLinearFactor,
+        *,
+        free: Bools | None,
+        l2: float,
+        prior: Floats,
+    ) -> None:
+        self._l2 = l2
+        rows = _Rows()
+        self._gather(choices, rows)
+        width = max(bag.shape[1] for bag in rows.bags)
+        languages, groundings = features.shape
+        bag = np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in rows.bags])
+        phrase = np.concatenate(rows.phrase)
+        self._cell = np.where(bag < 0, groundings, bag) + (phrase * (groundings + 1))[:, None]
+        self._shape = len(rows.phrases), groundings + 1
+        language = features.encode_phrases(list(rows.phrases))
+        at, k = np.nonzero(language >= 0)
+        fires = csr_array((np.ones(len(at)), (at, language[at, k])), shape=(len(rows.phrases), languages))
+        cells = np.zeros(math.prod(self._shape))
+        cells[self._cell] = 1.0
+        active = features.pairs & ((fires.T @ cells.reshape(self._shape))[:, :-1] > 0.0)
+        self.free: Bools = active if free is None else active & free
+        self._fires, self._back = fires, csr_array(fires.T)
+        weight = factor.weight.detach().cpu().numpy()
+        self._signs = correspondence_signs(factor)
+        self._fixed = [self._scores(w * features.pairs) for w in weight]
+        self._asserted = factor.correspondences.index(Correspondence.ACTIVE)
+        self._denied = factor.correspondences.index(Correspondence.INACTIVE)
+        self.start: Floats = (weight[self._asserted] - weight[self._denied])[self.free]
+        self._centre: Floats = (prior[self._asserted] - prior[self._denied])[self.free]
+
+    def _gather(self, choices: Sequence[Choice], rows: _Rows) -> None:
+        noun, term, slot, log_prior, denied, candidate = [], [], [], [], [], []
+        begins, slots = 0, 0
+        for choice in choices:
+            n = len(choice.meant)
+            noun.append(rows.add(choice.phrase, choice.bag))
+            for modifier in choice.modifiers:
+                c = len(modifier.log_prior)
+                own = rows.add(modifier.phrase, modifier.bag.reshape(c * n, -1))
+                term.append(own.reshape(c, n).T.ravel())
+                slot.append(np.repeat(np.arange(slots, slots + n), c))
+                log_prior.append(np.tile(modifier.log_prior, n))
+                denied.append(np.full(c * n, modifier.denied))
+                candidate.append(np.arange(begins, begins + n))
+                slots += n
+            begins += n
+        sizes = [len(choice.meant) for choice in choices]
+        self._noun = np.concatenate(noun)
+        self._begin = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
+        self._choice = np.repeat(np.arange(len(choices)), sizes)
+        self._meant = np.concatenate([choice.meant for choice in choices])
+        self._weight = np.array([choice.weight for choice in choices])
+        self._a_set = np.array([choice.a_set for choice in choices])
+        self._term = np.concatenate(term) if term else np.zeros(0, dtype=np.int64)
+        self._slot = np.concatenate(slot) if slot else np.zeros(0, dtype=np.int64)
+        self._log_prior = np.concatenate(log_prior) if term else np.zeros(0)
+        self._is_denied = np.concatenate(denied) if term else np.zeros(0, dtype=np.bool_)
+        self._candidate = np.concatenate(candidate) if term else np.zeros(0, dtype=np.int64)
+        self._slot_begin = np.searchsorted(self._slot, np.arange(slots))
+
+    def _scores(self, weight: Floats) -> Floats:
+        """(R,) the scores of all rows under weights (L, G)."""
+        cells = np.zeros(self._shape)
+        cells[:, :-1] = self._fires @ weight
+        total: Floats = cells.ravel().take(self._cell).sum(axis=1)
+        return total
+
+    def __call__(self, at: Floats) -> solvers.Point:
+        """Value and gradient where the differences of the free weights are `at`."""
+        move = np.zeros(self.free.shape)
+        move[self.free] = at - self.start
+        moved = self._scores(move)
+        table = np.stack([own + sign * moved for own, sign in zip(self._fixed, self._signs, strict=True)])
+        table -= np.logaddexp.reduce(table, axis=0)
+        # d log Psi(phi) / d move = sign(phi) - sum over phi' of sign(phi') Psi(phi')
+        mean = self._signs @ np.exp(table)
+        said, kept = self._modifiers(table)
+        value, by_noun, by_modifiers = self._choices(table, said)
+        slope = np.zeros(len(moved))
+        slope[self._noun] += by_noun[0] * (self._signs[self._asserted] - mean[self._noun])
+        slope[self._noun] += by_noun[1] * (self._signs[self._denied] - mean[self._noun])
+        sign = np.where(self._is_denied, self._signs[self._denied], self._signs[self._asserted])
+        slope[self._term] += by_modifiers[self._candidate][self._slot] * kept * (sign - mean[self._term])
+        weights = np.repeat(slope, self._cell.shape[1])
+        cells = np.bincount(self._cell.ravel(), weights=weights, minlength=math.prod(self._shape))
+        gradient = (self._back @ cells.reshape(self._shape)[:, :-1])[self.free]
+        distance = at - self._centre
+        value += 0.25 * self._l2 * float(distance @ distance)
+        gradient += 0.5 * self._l2 * distance
+        return solvers.Point(at, value, gradient, float(np.abs(gradient).max(initial=0.0)), np.zeros(0))
+
+    def _modifiers(self, table: Floats) -> tuple[Floats, Floats]:
+        """(N,) what all modifiers say of a candidate, and (S,) the share of each term in it."""
+        said = np.zeros(len(self._noun))
+        if not len(self._term):
+            return said, np.zeros(0)
+        log_psi = np.where(self._is_denied, table[self._denied, self._term], table[self._asserted, self._term])
+        summand = log_psi + self._log_prior
+        most = np.maximum.reduceat(summand, self._slot_begin)
+        total = np.log(np.add.reduceat(np.exp(summand - most[self._slot]), self._slot_begin)) + most
+        of_slot = np.logaddexp(math.log1p(-SLIP) + total, math.log(SLIP))
+        np.add.at(said, self._candidate, of_slot)
+        return said, np.exp(math.log1p(-SLIP) + summand - of_slot[self._slot])
+
+    def _choices(self, table: Floats, said: Floats) -> tuple[float, tuple[Floats, Floats], Floats]:
+        """The value, and its derivatives by log Psi(ACTIVE) and log Psi(INACTIVE) of the nouns and by `said`, (N,)."""
+        active, inactive = table[self._asserted, self._noun], table[self._denied, self._noun]
+        weight, in_set = self._weight[self._choice], self._a_set[self._choice]
+        score = active - inactive + said
+        most = np.maximum.reduceat(score, self._begin)
+        odds = np.exp(score - most[self._choice])
+        total = np.add.reduceat(odds, self._begin)
+        log_chance = score - most[self._choice] - np.log(total)[self._choice]
+        described = np.minimum(active + said, -1e-9)
+        log_not = np.log(-np.expm1(described))
+        of_set = self._meant * described + (1.0 - self._meant) * log_not
+        value = -float((weight * np.where(in_set, of_set, self._meant * log_chance)).sum())
+        by_one = -weight * (self._meant - odds / total[self._choice])
+        by_set = -weight * (self._meant - (1.0 - self._meant) * np.exp(described - log_not))
+        by_said = np.where(in_set, by_set, by_one)
+        return value, (by_said, np.where(in_set, 0.0, -by_one)), by_said
+
+
+def correspondence_signs(factor: LogLinearFactor) -> Floats:
+    """(P,) how far each correspondence's weight moves when the difference of ACTIVE and INACTIVE does."""
+    half = {Correspondence.ACTIVE: 0.5, Correspondence.INACTIVE: -0.5}
+    return np.array([half.get(c, 0.0) for c in factor.correspondences])
+
+
+def fit_choices(
+    factor: LogLinearFactor,
+    choices: Sequence[Choice],
+    features: FeatureSet,
+    *,
+    free: Bools | None,
+    l2: float,
+    prior: Floats,
+    tolerance: float = 1e-3,
+    max_steps: int = 60,
+) -> Bools:
+    """Move the free weights of a factor to the likeliest of choices, in place, by L-BFGS.
+
+    Args:
+        free, l2, prior: as for `Likelihood`.
+        tolerance: max-norm of the gradient.
+
+    Returns:
+        (L, G) the features that fired and were free.
+    """
+    if not choices:
+        return np.zeros(features.shape, dtype=np.bool_)
+    function = Likelihood(choices, features, factor, free=free, l2=l2, prior=prior)
+    with one_thread():
+        found = solvers.lbfgs(function, function.start, tolerance=tolerance, max_steps=max_steps)
+    weight = factor.weight.detach().cpu().numpy().copy()
+    for own, sign in zip(weight, correspondence_signs(factor), strict=True):
+        own[function.free] += sign * (found.point.at - function.start)
+    factor.set_weight(weight)
+    return function.free

@@ -1,0 +1,131 @@
+"""What people say in many ways, in the words that the shipped weights are for: "smaller" of two is "smallest", the far
+right is "closest to the right", the middle of a table that is no object of its own is the middle of the scene."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Iterable
+from dataclasses import replace
+
+from dcg_torch.names.normal import normalise
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
+from dcg_torch.vocabulary import (
+    BY_COMPASS,
+    COMPASS,
+    DEGREES,
+    GROUND_WORD,
+    GROUP_WORDS,
+    INSIDE,
+    LATERAL,
+    LIKE_RELATION,
+    OWNERS,
+    PICKED_FROM,
+    PLACE_WORDS,
+    SAME_RELATION,
+    SIDE_OF,
+    SIDED,
+    SYNONYMS,
+    VERTICAL,
+    WORKSPACE,
+)
+
+NEAREST = "closest to"
+
+
+@functools.lru_cache(4096)
+def _head(type_: str) -> str:
+    return normalise(type_).split()[-1] if normalise(type_) else ""
+
+
+def heads(types: Iterable[str]) -> frozenset[str]:
+    """The last words of the names of classes."""
+    return frozenset(map(_head, types))
+
+
+def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+    """A parse tree in plain words.
+
+    Args:
+        there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
+    """
+    phrase, below = tree.phrase, tuple(in_plain_words(child, there) for child in tree.children)
+    children = tuple(said for child in below for said in _placed(child, there))
+    if phrase.kind is not PhraseKind.NOUN:
+        return ParseTree(phrase, children)
+    if phrase.noun in COMPASS:
+        *words, noun = COMPASS[phrase.noun]
+        phrase = replace(phrase, noun=noun, words=(*words, *phrase.words))
+    if any(child.phrase.words[:1] == ("than",) for child in children):
+        return ParseTree(phrase, children)
+    picks = tuple(word for child in below if (word := _picks(child)) is not None)
+    words = tuple(
+        dict.fromkeys(
+            plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
+        )
+    )
+    sides = () if phrase.noun in PLACE_WORDS else _sides(words, children)
+    if sides:
+        words = tuple(word for word in words if word not in sides)
+        children = (*children, _near_side(sides))
+    return ParseTree(replace(phrase, words=words), children)
+
+
+def _picks(tree: ParseTree) -> str | None:
+    """The rank that a place in a group is: "on the right side of the row" is the rightmost in it."""
+    if len(tree.children) != 1 or not in_group(tree.children[0].phrase):
+        return None
+    name, beside = tree.phrase.words[0], tree.phrase.text.startswith(("to ", "left of", "right of", "behind"))
+    return None if beside else PICKED_FROM.get(name)
+
+
+def in_group(phrase: Phrase) -> bool:
+    """Does a noun phrase speak of a group of objects?"""
+    return phrase.kind is PhraseKind.NOUN and any(w in GROUP_WORDS for w in (phrase.noun, *phrase.words))
+
+
+def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:
+    """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
+    lateral = next((word for word in words if word in LATERAL), None)
+    vertical = next((word for word in words if word in VERTICAL), None)
+    grouped = any(child.phrase.words[0] in INSIDE for child in children)
+    if vertical is None or (grouped and lateral is None):
+        return ()
+    return (vertical,) if lateral is None else (vertical, lateral)
+
+
+def _near_side(sides: tuple[str, ...]) -> ParseTree:
+    noun = sides[0] if len(sides) == 1 else "corner"
+    place = ParseTree(Phrase(PhraseKind.NOUN, noun, sides if noun == "corner" else (), noun))
+    return ParseTree(Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (place,))
+
+
+def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
+    """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
+    if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
+        return (tree,)
+    landmark, name = tree.children[0], tree.phrase.words[0]
+    if name in BY_COMPASS:
+        words = BY_COMPASS[name]
+        return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
+    phrase = landmark.phrase
+    if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
+        if name in SIDE_OF:
+            name, phrase = "on", replace(phrase, noun=SIDE_OF[name], words=())
+        elif phrase.noun not in PLACE_WORDS:
+            phrase = replace(phrase, noun=GROUND_WORD)
+    if _picks(tree) is not None:
+        name = "in"
+    inside = name in ("on", "at", "to", "in", "towards")
+    if phrase.noun in SIDED:
+        sides = tuple(word for word in phrase.words if word not in DEGREES)
+        corner = _sides((*sides, phrase.noun), ())
+        if len(corner) == 2 and not set(sides) & OWNERS.keys():
+            phrase = replace(phrase, noun="corner", words=corner)
+        elif len(sides) < len(phrase.words) and inside:
+            name, phrase = NEAREST, replace(phrase, words=sides)
+    if phrase.noun in ("corner", "middle", "center") and inside and not landmark.children:
+        name = NEAREST
+    name = SAME_RELATION.get(name, name)
+    like = (LIKE_RELATION[name],) if name in LIKE_RELATION else ()
+    words = (name, *like, *tree.phrase.words[1:])
+    return (ParseTree(replace(tree.phrase, words=words), (replace(landmark, phrase=phrase),)),)

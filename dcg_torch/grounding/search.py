@@ -1,0 +1,276 @@
+"""Leaf-to-root inference over the trees of one command in one world; `graph` says what is sought."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import GROUNDING_OF, ranking
+from dcg_torch.grounding.patterns import Patterns
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution
+from dcg_torch.grounding.tables import Tables, exact_sum
+from dcg_torch.types import NOT, Child, Correspondence, Grounding, ParseTree, PhraseKind
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_IN_THE_SET = math.log(0.5)
+"""A thing is compared where it is described at least half as well as the best."""
+
+_FEW = 256
+"""Things up to which it does not pay to look for those whose scores are equal."""
+
+
+@dataclass(frozen=True)
+class _Scored:
+    """The scores of a phrase that picks.
+
+    Attributes:
+        combos: hypotheses of the children, a tuple for each choice of them.
+        meant: the correspondences that are not INACTIVE.
+        scores: (combos, groundings, meant) log-score of every configuration.
+        code: (groundings,) equal numbers for groundings whose scores are equal, whatever the combo; None: unknown.
+        modifiers: of a noun phrase; what follows is of use for one alone.
+        log_odds: (groundings,) of ACTIVE against INACTIVE, modifiers included.
+        log_fit: (groundings,) log Psi(ACTIVE) by itself, modifiers included.
+        named: (groundings,) log Psi(ACTIVE) without the modifiers.
+        compared: (things,) those among which the phrase ranks; None where it does not.
+    """
+
+    tree: ParseTree
+    combos: Sequence[tuple[Hypothesis, ...]]
+    meant: Sequence[Correspondence]
+    scores: Floats
+    code: NDArray[np.int64] | None = None
+    modifiers: Sequence[ModifierFactor] = ()
+    log_odds: Floats | None = None
+    log_fit: Floats | None = None
+    named: Floats | None = None
+    compared: Bools | None = None
+
+    def totals(self) -> Floats:
+        """(groundings,) of every configuration about each."""
+        if self.code is None or len(self.code) <= _FEW:
+            found: Floats = np.logaddexp.reduce(self.scores, axis=(0, 2))
+            return found
+        _, first, which = np.unique(self.code, return_index=True, return_inverse=True)
+        few: Floats = np.logaddexp.reduce(self.scores[:, first], axis=(0, 2))
+        return few[which]
+
+
+class Search:
+    """Leaf-to-root inference in one world. What several trees have in common is scored once.
+
+    Args:
+        encoder: of the world.
+        tables: of the phrases.
+        beam: hypotheses of a phrase that its parent considers.
+    """
+
+    def __init__(self, encoder: WorldEncoder, tables: Tables, beam: int) -> None:
+        self.encoder = encoder
+        self._tables = tables
+        self._beam = beam
+        self._nouns: dict[tuple[ParseTree, bool], _Scored] = {}
+        self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
+        self._modifiers: dict[ParseTree, ModifierFactor] = {}
+
+    def solve(self, tree: ParseTree) -> Solution:
+        """The best configuration, and the probabilities of all that it may be about."""
+        world = self.encoder.world
+        if not world.objects:
+            return Solution(tree, world, problem="there is nothing here to mean")
+        root = self._picked(tree, landmark=False)
+        ids = [o.id for o in world.meanable]
+        totals = root.totals()[: len(ids)]
+        best = self._best(root, 1)[0]
+        found = self._first_noun(tree)
+        noun = None if found is None else self._picked(found, landmark=False)
+
+        def by_id(values: Floats | None) -> dict[str, float]:
+            return {} if values is None else dict(zip(ids, values.tolist(), strict=True))
+
+        fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
+        odds = None if noun is None or noun.log_odds is None else np.exp(np.clip(noun.log_odds, -700.0, 700.0))
+        return Solution(
+            tree,
+            world,
+            best,
+            by_id(np.exp(totals - np.logaddexp.reduce(totals))),
+            by_id(fits),
+            by_id(odds),
+            self._runner_up(root, best),
+            () if noun is None else tuple(noun.modifiers),
+            None if noun is None else noun.compared,
+            1.0 if noun is None else self._named(noun),
+        )
+
+    def _first_noun(self, tree: ParseTree) -> ParseTree | None:
+        """The noun phrase nearest to the root, the first of several."""
+        return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+
+    def _named(self, noun: _Scored) -> float:
+        """How well the noun phrase names what it names best of all that is there."""
+        if noun.named is None:
+            return 0.0
+        seen = noun.named[: len(noun.scores[0])][self.encoder.perceived[: len(noun.scores[0])]]
+        return float(np.exp(seen.max())) if len(seen) else 0.0
+
+    def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
+        """The best configuration about another object; None if there is none."""
+        meant = best.meant.id
+        other = np.ones(root.scores.shape[:2], dtype=np.bool_)
+        own = self.encoder.number[meant]
+        for c, combo in enumerate(root.combos):
+            if root.tree.phrase.kind is PhraseKind.NOUN or not combo:
+                other[c, own : own + 1] = False
+            else:
+                other[c] = combo[0].meant.id != meant
+        scores = np.where(other[:, :, None], root.scores, -np.inf)
+        if not np.isfinite(scores).any():
+            return None
+        return self._best(replace(root, scores=scores), 1)[0]
+
+    def _picked(self, tree: ParseTree, *, landmark: bool) -> _Scored:
+        """The scores of a phrase that picks one grounding.
+
+        Args:
+            landmark: is it one of a modifier? It alone may be a place: what a command is about is an object.
+        """
+        key = (tree, landmark)
+        if key not in self._nouns:
+            below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
+            combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
+            is_noun = tree.phrase.kind is PhraseKind.NOUN
+            found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
+            self._nouns[key] = found if landmark else self._only_objects(found)
+        return self._nouns[key]
+
+    def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
+        key = (tree, landmark)
+        if key not in self._beams:
+            self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
+        return self._beams[key]
+
+    def _modifier(self, tree: ParseTree) -> ModifierFactor:
+        """The factor of a modifier, from its log Psi under every choice of landmarks."""
+        if tree not in self._modifiers:
+            number, tables = self.encoder.number, self._tables
+            combos = list(itertools.product(*(self._beam_of(child, landmark=True) for child in tree.children)))
+            landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
+            table = tables.placed(self.encoder, tree.phrase, landmarks)
+            asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
+            scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+            share = scores - np.logaddexp.reduce(scores)
+            mixture = table[tables.factor.correspondences.index(asserted)] + share[:, None]
+            self._modifiers[tree] = ModifierFactor(tree, combos, mixture)
+        return self._modifiers[tree]
+
+    def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
+        """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
+        modifiers = [self._modifier(c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        compared = self._comparison_set(tree, modifiers) if ranks(tree) else None
+        table = self._tables.noun(self.encoder, tree.phrase, compared)
+        correspondences = self._tables.factor.correspondences
+        inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
+        scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+        # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
+        base = (math.fsum(inactive.tolist()) + scores)[:, None]
+        placed = np.zeros(len(active))
+        for modifier in modifiers:
+            base = base + modifier.log_psi
+            placed = placed + modifier.log_psi
+        return _Scored(
+            tree,
+            combos,
+            [Correspondence.ACTIVE],
+            (base + active - inactive)[:, :, None],
+            None,
+            modifiers,
+            active - inactive + placed,
+            active + placed,
+            active,
+            compared,
+        )
+
+    def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
+        """Of a verb or preposition: all groundings but those of its children are alike."""
+        correspondences = self._tables.factor.correspondences
+        patterns = Patterns(len(self.encoder.world.meanable), self.encoder.number)
+        which = np.array([patterns.of(tuple(h.child for h in combo)) for combo in combos])
+        table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
+        inactive = table[correspondences.index(Correspondence.INACTIVE)]
+        base = np.array([sum(h.log_score for h in combo) for combo in combos]) + self._sums(inactive, which)
+        meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
+        odds = np.stack([base[:, None] + table[correspondences.index(phi)][which] for phi in meant], axis=2)
+        return _Scored(tree, combos, meant, odds - inactive[which][:, :, None], patterns.special)
+
+    def _sums(self, values: Floats, which: NDArray[np.int64]) -> Floats:
+        """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
+        known: dict[tuple[int, ...], float] = {}
+        out = np.empty(len(which))
+        for c, row in enumerate(which):
+            times = tuple(np.bincount(row, minlength=len(values)).tolist())
+            if times not in known:
+                known[times] = exact_sum(values.tolist(), times)
+            out[c] = known[times]
+        return out
+
+    def _comparison_set(self, tree: ParseTree, modifiers: Sequence[ModifierFactor]) -> Bools:
+        """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best."""
+        table = self._tables.unranked(self.encoder, replace(tree.phrase, words=()))
+        fit: Floats = table[self._tables.factor.correspondences.index(Correspondence.ACTIVE)]
+        for modifier in modifiers:
+            fit = fit + modifier.log_psi
+        fit = np.where(self.encoder.perceived, fit, -np.inf)
+        found: Bools = fit >= fit.max() + _IN_THE_SET
+        return found
+
+    def _only_objects(self, found: _Scored) -> _Scored:
+        """Without places, and without the objects that the speaker has ruled out."""
+        world = self.encoder.world
+        meanable = len(world.meanable)
+        scores = found.scores[:, :meanable]
+        odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))
+        code = found.code
+        if world.meant is not None:
+            out = np.array([o.id not in world.meant for o in world.meanable])
+            scores = np.where(out[None, :, None], -np.inf, scores)
+            odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
+            code = None
+        return replace(found, scores=scores, log_odds=odds, log_fit=fit, code=code)
+
+    def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
+        """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
+        kind = GROUNDING_OF[scored.tree.phrase.kind]
+        found = []
+        _, n, m = scored.scores.shape
+        for flat in highest(scored.scores.reshape(-1), beam).tolist():
+            (c, j), p = divmod(flat // m, n), flat % m
+            thing = self.encoder.all[j]
+            child = Child(Grounding(kind, thing), scored.meant[p])
+            below = (*scored.combos[c], *(modifier.hypothesis(j, thing) for modifier in scored.modifiers))
+            found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
+        return found
+
+
+def highest(values: Floats, count: int) -> NDArray[np.int64]:
+    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
+    if count == 1:
+        return np.array([values.argmax()])
+    if len(values) <= max(512, 2 * count):
+        return np.argsort(-values, kind="stable")[:count]
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    among = np.flatnonzero(values >= least)
+    return among[np.argsort(-values[among], kind="stable")[:count]]
+
+
+def ranks(tree: ParseTree) -> bool:
+    """Is it a noun phrase with words that may rank?"""
+    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None

@@ -1,0 +1,140 @@
+"""log Psi of the phrases of one command: tables over the things of a world.
+
+Rows of features that are alike are scored once. As in `LogLinearFactor.log_psi`, equal factors have equal bits wherever
+they stand: sums go column by column, in an order that depends on what fires alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from fractions import Fraction
+
+import numpy as np
+import torch
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import FeatureSet, Ranking, padded, ranking
+from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor, distinct
+from dcg_torch.types import Child, GroundingKind, Phrase
+
+_ENTRIES = 1 << 16
+"""Weights that are gathered at once; beyond, they are added column by column."""
+_FEW = 256
+"""Values up to which a sum is taken of them written out."""
+
+
+class Tables:
+    """The tables of several phrases under the weights as they are now; to be thrown away when these change.
+
+    Args:
+        features: the columns.
+        factor: the weights.
+    """
+
+    def __init__(self, features: FeatureSet, factor: LogLinearFactor) -> None:
+        self.features = features
+        self.factor = factor
+        weight = factor.weight
+        self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
+        self._sides: dict[Phrase, Floats] = {}
+
+    def noun(self, encoder: WorldEncoder, phrase: Phrase, members: np.ndarray | None = None) -> Floats:
+        """(P, things) of a noun phrase.
+
+        Args:
+            members: (things,) those among which it ranks; None: all.
+        """
+        coded = encoder.noun(phrase, members)
+        table = self._log_psi(phrase, coded.bag)
+        return table if coded.code is None else table[:, coded.code]
+
+    def unranked(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
+        """(P, things) of a noun phrase as if it ranked nothing."""
+        coded = encoder.unranked(phrase)
+        table = self._log_psi(phrase, coded.bag)
+        return table if coded.code is None else table[:, coded.code]
+
+    def placed(self, encoder: WorldEncoder, phrase: Phrase, landmarks: Sequence[tuple[int, ...]]) -> Floats:
+        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks."""
+        counted = ranking(phrase) or Ranking("all")
+        n = len(encoder.all)
+        if self._weight is None or not encoder.related:
+            bag = encoder.placed(landmarks, counted)
+            table = self._log_psi(phrase, bag.reshape(-1, bag.shape[2]))
+            return table.reshape(len(table), len(landmarks), n)
+        side = self._side(phrase)
+        tables = [side[:, self.features.relation_of]]
+        if (few := self.features.few_of(counted)) is not None:
+            tables.append(side[:, few])
+        first = side[:, self.features.placed_column]
+        out = np.empty((len(side), len(landmarks), n))
+        step = max(1, _ENTRIES // (n * 16))
+        for start in range(0, len(landmarks), step):
+            found = np.array(encoder.relations(landmarks[start : start + step], counted.among), dtype=np.int64)
+            flat = found.reshape(-1, found.shape[2]).T
+            total = np.zeros((len(side), flat.shape[1])) + first[:, None]
+            for table in tables:
+                _add(total, table, flat)
+            out[:, start : start + step] = _normal(total).reshape(len(side), -1, n)
+        return out
+
+    def patterns(
+        self, phrase: Phrase, kind: GroundingKind, patterns: Sequence[tuple[Sequence[Child], Sequence[bool]]]
+    ) -> Floats:
+        """(P, patterns) of regions or actions.
+
+        Args:
+            patterns: child groundings, and of each whether it is about the same object.
+        """
+        return self._log_psi(phrase, padded([self.features.action_columns(kind, *pattern) for pattern in patterns]))
+
+    def _side(self, phrase: Phrase) -> Floats:
+        """(P, G + 1) the weights that meet what fires for a phrase, summed; the last column is the padding's."""
+        found = self._sides.get(phrase)
+        if found is None:
+            assert self._weight is not None
+            found = np.zeros((len(self._weight), self._weight.shape[2] + 1))
+            names = set(self.features.language_names(phrase))
+            for column in sorted(self.features.language[name] for name in names):
+                found[:, :-1] += self._weight[:, column]
+            self._sides[phrase] = found
+        return found
+
+    def _log_psi(self, phrase: Phrase, bag: Bag) -> Floats:
+        """(P, n) of the rows (n, k) of a bag."""
+        if self._weight is None:
+            language = self.features.encode_phrases([phrase])
+            with torch.no_grad():
+                found = self.factor.log_psi(language, bag, np.zeros(len(bag), dtype=np.int64))
+            return found.cpu().numpy().T
+        side = self._side(phrase)
+        total = np.zeros((len(side), len(bag)))
+        _add(total, side, distinct(bag).T)
+        return _normal(total)
+
+
+def _add(total: Floats, table: Floats, columns: Bag) -> None:
+    """Add to (P, n) the entries (P, m) of a table that (k, n) columns name, in their order; in place."""
+    if columns.size * len(table) <= _ENTRIES:
+        gathered = table.take(columns, axis=1)
+        if len(columns):
+            gathered[:, 0] += total
+            gathered.sum(axis=1, out=total)
+        return
+    for column in columns:
+        total += table.take(column, axis=1)
+
+
+def _normal(total: Floats) -> Floats:
+    """Scores (P, n) as log-probabilities, in place."""
+    total -= total.max(axis=0)
+    total -= np.log(np.exp(total).sum(axis=0))
+    return total
+
+
+def exact_sum(values: Sequence[float], times: Sequence[int]) -> float:
+    """The sum of values, each so many times, rounded once: the order of things changes no bit of it."""
+    if sum(times) <= _FEW:
+        return math.fsum(v for v, t in zip(values, times, strict=True) for _ in range(t))
+    return float(sum(Fraction(v) * t for v, t in zip(values, times, strict=True)))

@@ -1,0 +1,133 @@
+"""What earlier and later sentences say of a noun phrase: pronouns, "those blocks", "the middle one", "It is ..."."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from dcg_torch.language.clauses import Clause, main_object
+from dcg_torch.language.decisions import Decisions
+from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+
+
+def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
+    """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
+    for clause in clauses:
+        if clause is own or not clause.objects or clause.verb is not None:
+            continue
+        more = clause.objects[0]
+        stands = more.text in SETS["stands_for"]
+        if not (more.pronoun or stands) or not (clause.statement or len(clause.objects) == 1):
+            continue
+        if stands or more.color is None or noun.color is None:
+            noun.color = noun.color or more.color
+            noun.words += more.words
+            noun.children += [child for child in more.children if child not in noun.children]
+
+
+def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
+    """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
+    several = [noun for noun in _mentions(clauses) if noun.plural and noun.noun is not None and noun.start < one.start]
+    several = [noun for noun in several if all(node is not one for node in noun.walk())]
+    several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
+    if not several:
+        return
+    group = max(several, key=lambda noun: noun.start).copy()
+    for row in [child for child in group.children if child.words == ("in",) and _is_bare_group(child.children[0])]:
+        group.children.remove(row)  # "three blocks in a row" are a row of three
+        group.words += (row.children[0].noun or "", *((f"of {group.count}",) if group.count else ()))
+        group.count = None
+    one.noun, one.pronoun = group.noun, False
+    one.color = one.color or group.color
+    if SETS["groups"].isdisjoint(group.words):
+        one.children += group.children
+    else:
+        one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
+
+
+def _is_bare_group(noun: Item) -> bool:
+    return noun.noun in SETS["groups"] and not (noun.children or noun.words or noun.color)
+
+
+def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
+    """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
+    blocks", "this group") all that was said of it there."""
+    earlier: list[Item] = []
+    for clause in clauses:
+        if clause is own:
+            break
+        main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
+        # What a sentence is about is rather meant again than what it only places that by.
+        earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
+        earlier += main
+    nodes = [(node, node.start) for node in target.walk()]
+    for node, before in nodes:
+        if node.kind is not Kind.NOUN or not _names_again(node) or (node is target and node.pronoun):
+            continue
+        named = [noun for noun in reversed(earlier) if noun.start < before and _may_be(node, noun)]
+        named = [noun for noun in named if all(below is not node for below in noun.walk())]
+        if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
+            named = [noun for noun in named if noun.words or noun.color or noun.children]
+        if named:
+            options = {f"mention {k}": -CHOICES["mention_step"] * k for k in range(len(named))}
+            meant = named[int(decisions.choose("mention", options).split()[1])]
+            _take_over(node, meant)
+            nodes += [(below, meant.start) for child in node.children for below in child.walk()]
+
+
+def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
+    """ "Walk to the sink. Pick up the cup.": what is handled is where the way leads, if nothing says where it is."""
+    apart = SETS["directions"] | SETS["someone"]
+    placed = any(below.noun not in SETS["places"] | apart for child in target.children for below in child.children)
+    if placed or own.action not in VERBS["take"]:
+        return
+    goal: Item | None = None
+    for clause in clauses[: next(k for k, clause in enumerate(clauses) if clause is own)]:
+        if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
+            continue
+        led = [clause.places[k].children[0] for k in range(len(clause.places)) if _leads(clause.places[k])]
+        named = (noun for noun in (main_object(clause), *led) if noun is not None)
+        goal = next((noun for noun in named if noun.noun not in apart and noun.noun and not noun.plural), goal)
+    if goal is not None and decisions.choose("route", CHOICES["route"]) == "there":
+        target.children.append(Item(Kind.PREPOSITION, goal.start, goal.start, "", ("near",), children=[goal.copy()]))
+
+
+def _leads(place: Item) -> bool:
+    return place.words[0] in PLACING["goals"] and place.words[0] not in PLACING["away"]
+
+
+def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:
+    """The noun phrases of clauses, without those that are places or persons."""
+    for clause in clauses:
+        for top in (*clause.objects, *clause.places):
+            yield from (n for n in top.walk() if n.kind is Kind.NOUN)
+
+
+def _names_again(node: Item) -> bool:
+    first = node.text.split()[0] if node.text else ""
+    if node.pronoun and node.noun is None:
+        bare = node.color is None and not node.words and not node.children
+        return bare and (first in SETS["stands_for"] or first in SETS["demonstratives"])
+    bare = not (node.color or node.words or node.children or node.count)
+    return first in SETS["demonstratives"] or (bare and first == "the")
+
+
+def _may_be(node: Item, noun: Item) -> bool:
+    """Whether a noun phrase may be what another names again."""
+    if noun.noun is None or noun.noun in SETS["places"] | SETS["someone"] or noun.pronoun:
+        return False
+    if node.noun in SETS["groups"]:
+        return noun.plural
+    same = node.noun is None or node.noun in SETS["anything"] or f" {noun.noun}".endswith(f" {node.noun}")
+    if not same:
+        return False
+    return node.color in (None, noun.color) and (node.plural == noun.plural or node.noun is None)
+
+
+def _take_over(node: Item, noun: Item) -> None:
+    grouped = node.noun in SETS["groups"] and SETS["groups"].isdisjoint(noun.words)
+    group = (node.noun, *((f"of {noun.count}",) if noun.count else ())) if grouped else ()
+    node.noun, node.color, node.count, node.plural = noun.noun, noun.color, noun.count, noun.plural
+    node.words = tuple(dict.fromkeys((*noun.words, *filter(None, group))))
+    node.count, node.pronoun = None if grouped else noun.count, False
+    node.children = node.children or [child.copy() for child in noun.children]

@@ -1,0 +1,162 @@
+"""Groups of objects that people speak of as one: rows, stacks, and what lies close together.
+
+A row is evenly spaced, or it is a group of neighbours that lie along a line. Groups of neighbours are the clusters of
+single linkage, at every distance at which one ends: what is closer to one another than to anything else alike.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from scipy.cluster.hierarchy import linkage
+from scipy.sparse.csgraph import connected_components
+
+from dcg_torch.geometry import to_robot_frame
+from dcg_torch.scene.layout import Bools, Floats
+from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.types import Object, Pose
+
+ROW, STACK, CLUSTER = "row", "stack", "cluster"
+ACROSS, ALONG = "lies across", "lies along"
+"""How a row lies for the robot: from its left to its right, or away from it."""
+_UNEVEN = 0.6
+"""How far the next of an even row may stand from where it is due, as a share of the step."""
+_STEP = 2.0
+"""Neighbours in an even row are at most so many times as far apart as the nearest ones."""
+_LEAST = 3
+"""Members of a row or cluster; a stack has two."""
+_MOST = 12
+"""Groups of one kind that are kept: the largest."""
+_ASIDE = 0.2
+"""How far from its line a member of a row may stand, as a share of half the row's length."""
+_CHUNK = 1024
+"""Steps that are looked at together."""
+_APART = 1.25
+"""A group's nearest neighbour is at least so many times as far as its members are from one another."""
+
+
+def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
+    """The groups that objects form.
+
+    They are looked for among all objects, among those of one type, and among those of one type and colour. A group
+    has the type and the colour that its members share, and says what it is, how many they are, and how a row lies, in
+    its attributes.
+
+    Args:
+        objects: those without a position are in no group.
+        unit: metres in a unit of length, see `layout`.
+        robot: for whom a row lies across or along.
+    """
+    there = [o for o in objects if o.position is not None]
+    if len(there) < 2:
+        return ()
+    position = np.array([o.position for o in there]).reshape(-1, 3)
+    position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
+    position /= unit
+    alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
+    for j, o in enumerate(there):
+        alike.setdefault((o.type,), []).append(j)
+        alike.setdefault((o.type, o.color), []).append(j)
+    found: dict[str, dict[frozenset[int], None]] = {ROW: {}, STACK: {}, CLUSTER: {}}
+    for among in alike.values():
+        near = [frozenset(among[k] for k in members) for members in _clusters(position[among])]
+        found[ROW] |= dict.fromkeys(frozenset(among[k] for k in row) for row in _even_rows(position[among]))
+        found[ROW] |= dict.fromkeys(members for members in near if _in_line(position[sorted(members)]))
+        found[CLUSTER] |= dict.fromkeys(near)
+    found[STACK] = dict.fromkeys(_stacks(position))
+    return tuple(
+        _group(kind, [there[j] for j in sorted(members)], position[sorted(members)])
+        for kind, of_kind in found.items()
+        for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
+    )
+
+
+def _group(kind: str, members: Sequence[Object], position: Floats) -> Object:
+    ids = tuple(o.id for o in members)
+    types, colors = {o.type for o in members}, {o.color for o in members}
+    one_type = next(iter(types)) if len(types) == 1 else None
+    deep, wide = np.ptp(position[:, :2], axis=0)
+    lies = {ACROSS if wide >= deep else ALONG} if kind == ROW else set()
+    return Object(
+        id=f"{kind}: {' '.join(ids)}",
+        type=one_type,
+        known=one_type is not None and all(o.known for o in members),
+        color=next(iter(colors)) if len(colors) == 1 else None,
+        position=members[0].position,
+        attributes=frozenset({kind, f"of {len(members)}", *lies}),
+        members=ids,
+    )
+
+
+def _even_rows(points: Floats) -> Iterable[list[int]]:
+    """Maximal runs of at least `_LEAST` in a straight line on one level, one step apart."""
+    if len(points) < _LEAST:
+        return
+    offset = points[None, :, :] - points[:, None, :]  # i -> j
+    distance = np.hypot(offset[..., 0], offset[..., 1])
+    level = np.abs(offset[..., 2]) < SAME_SPOT
+    apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
+    nearest = apart.min(axis=1)
+    steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
+    follow: dict[tuple[int, int], int] = {}  # (i, j) -> the one after j
+    for part in np.split(steps, range(_CHUNK, len(steps), _CHUNK)):
+        i, j = part.T
+        miss = np.linalg.norm(points[None] - (points[j] + offset[i, j])[:, None], axis=2)
+        best = miss.argmin(axis=1)
+        due = miss[np.arange(len(part)), best] < _UNEVEN * apart[i, j]
+        follow.update(zip(map(tuple, part[due].tolist()), best[due].tolist(), strict=True))
+    for i, j in follow:
+        if (j, i) in follow:
+            continue  # this is not an end of the row
+        run = [i, j]
+        while (after := follow.get((run[-2], run[-1]))) is not None and after not in run:
+            run.append(after)
+        if run[0] < run[-1]:
+            yield run
+
+
+def _clusters(points: Floats) -> Iterable[list[int]]:
+    """The clusters of single linkage, on at least `_LEAST` spots, that are closer together than to anything else."""
+    n = len(points)
+    if n < _LEAST:
+        return
+    merges = linkage(points[:, :2], "single")
+    members: list[list[int]] = [[k] for k in range(n)]
+    ends = np.full(2 * n - 1, np.inf)  # the distance at which a cluster becomes part of a larger one
+    for one, other, distance, _ in merges:
+        ends[[int(one), int(other)]] = distance
+        members.append(sorted(members[int(one)] + members[int(other)]))
+    for k in range(n, 2 * n - 1):
+        if ends[k] >= _APART * max(float(merges[k - n, 2]), SAME_SPOT) and _spots(points[members[k]]) >= _LEAST:
+            yield members[k]
+
+
+def _spots(points: Floats) -> int:
+    """How many places seen from above the points are at."""
+    apart = np.linalg.norm(points[None, :, :2] - points[:, None, :2], axis=2)
+    return int(connected_components(apart < SAME_SPOT)[0])
+
+
+def _in_line(points: Floats) -> bool:
+    """Do points lie along a line on one level?"""
+    if np.ptp(points[:, 2]) >= SAME_SPOT:
+        return False
+    flat = points[:, :2] - points[:, :2].mean(axis=0)
+    along, aside = np.abs(flat @ np.linalg.svd(flat, full_matrices=False)[2].T).max(axis=0)
+    return bool(aside <= _ASIDE * along)
+
+
+def _stacks(position: Floats) -> Iterable[frozenset[int]]:
+    """Things over one another."""
+    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
+    higher = np.abs(position[None, :, 2] - position[:, None, 2]) > 0.01
+    for members in _components(over & higher):
+        if len(members) >= 2:
+            yield frozenset(members)
+
+
+def _components(joined: Bools) -> Iterable[list[int]]:
+    number, label = connected_components(joined, directed=False)
+    return (np.flatnonzero(label == k).tolist() for k in range(number))

@@ -1,0 +1,109 @@
+"""What lies near what: things over, under and beside others, and what stands in one stack.
+
+Pairs are found with every distance written out where things are few, and with a tree where they are many, so that ten
+thousand things need no table of all pairs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+SAME_SPOT = 0.6
+"""Units between two feet, seen from above, within which one thing is over the other."""
+ONE_LEVEL = 1.2
+"""Units of height within which the upper one rests on the lower one."""
+NEXT = 1.6
+"""Units within which things are neighbours."""
+
+_FEW = 256
+"""Things up to which all distances are written out."""
+_PAIRS = 1 << 20
+"""About how many pairs are held at once where things are many."""
+_SLACK = 1e-9
+"""Share by which the tree looks too far: the bound itself is held against the same distance however it was found."""
+
+
+@dataclass(frozen=True)
+class Neighbours:
+    """Of n objects that stand somewhere.
+
+    Attributes:
+        covered: (n,) does something rest on it?
+        resting: (n,) does it rest on something?
+        beside: (n,) has it a neighbour?
+        stacked: (n,) is another on its spot?
+        colors: number of a stacked thing -> the numbers of the colours on its spot, its own apart, ascending.
+    """
+
+    covered: Bools
+    resting: Bools
+    beside: Bools
+    stacked: Bools
+    colors: dict[int, tuple[int, ...]]
+
+
+def neighbours(position: Floats, color: Ints) -> Neighbours:
+    """Who is near whom.
+
+    Args:
+        position: (n, 3) in units of the world; NaN where a thing stands nowhere.
+        color: (n,) the number of its colour, -1 for none.
+    """
+    n = len(position)
+    covered, resting, beside, stacked = (np.zeros(n, dtype=np.bool_) for _ in range(4))
+    found: dict[int, set[int]] = {}
+    there = np.flatnonzero(np.isfinite(position).all(axis=1))
+    for one, other, apart in _pairs(position[there, :2], NEXT):
+        i, j = there[one], there[other]
+        beside[i] = True
+        spot = apart < SAME_SPOT
+        i, j = i[spot], j[spot]
+        stacked[i] = True
+        up = position[i, 2] - position[j, 2]
+        over = (up > 0.01) & (up <= ONE_LEVEL)
+        resting[i[over]] = True
+        covered[j[over]] = True
+        colored = color[j] >= 0
+        for k, c in set(zip(i[colored].tolist(), color[j[colored]].tolist(), strict=True)):
+            found.setdefault(k, set()).add(c)
+    return Neighbours(covered, resting, beside, stacked, {k: tuple(sorted(c)) for k, c in found.items()})
+
+
+def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
+    """Numbers of two different points (m, 2) that are closer than a bound, both ways round, and how far apart."""
+    if len(points) <= _FEW:
+        offset = points[:, None] - points[None]
+        apart = np.hypot(offset[..., 0], offset[..., 1])
+        near = apart < bound
+        near.flat[:: len(points) + 1] = False
+        i, j = near.nonzero()
+        yield i, j, apart[i, j]
+        return
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    tree = cKDTree(points)
+    reach = bound * (1.0 + _SLACK)
+    if tree.count_neighbors(tree, reach) <= 2 * _PAIRS:
+        found = tree.query_pairs(reach, output_type="ndarray").astype(np.int64)
+        yield _close(points, np.concatenate([found[:, 0], found[:, 1]]), found[:, ::-1].T.reshape(-1), bound)
+        return
+    around = np.cumsum(tree.query_ball_point(points, reach, return_length=True)) // _PAIRS
+    for chunk in np.split(np.arange(len(points)), np.flatnonzero(np.diff(around)) + 1):
+        found = cKDTree(points[chunk]).sparse_distance_matrix(tree, reach, output_type="ndarray")
+        i, j = chunk[found["i"]], found["j"].astype(np.int64)
+        yield _close(points, i[i != j], j[i != j], bound)
+
+
+def _close(points: Floats, i: Ints, j: Ints, bound: float) -> tuple[Ints, Ints, Floats]:
+    offset = points[i] - points[j]
+    apart = np.hypot(offset[:, 0], offset[:, 1])
+    near = apart < bound
+    return i[near], j[near], apart[near]

@@ -1,0 +1,120 @@
+"""Who is compared with whom, and who comes before whom among those."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Bools = NDArray[np.bool_]
+
+TIE = 1e-6
+"""Values that differ by less are equal."""
+_FEW = 64
+"""Things up to which each is held against each."""
+_SORTED = 8
+"""Places that are counted to one by one; beyond, they are searched."""
+
+
+@dataclass(frozen=True)
+class Alike:
+    """Which of n things each is compared with: the members of its class, be it one of them or not.
+
+    Attributes:
+        code: (n,) the class of each, -1 for none.
+        members: of each class.
+    """
+
+    code: Ints
+    members: Sequence[Ints]
+
+    @classmethod
+    def by(cls, keys: Sequence[Hashable | None]) -> Alike:
+        """The class of a thing is that of its key; None: it has none."""
+        number: dict[Hashable, int] = {}
+        code = np.array([-1 if k is None else number.setdefault(k, len(number)) for k in keys], dtype=np.int64)
+        order = np.argsort(code, kind="stable")
+        bounds = np.searchsorted(code[order], np.arange(len(number) + 1)).tolist()
+        return cls(code, [order[a:b] for a, b in itertools.pairwise(bounds)])
+
+    @cached_property
+    def table(self) -> Bools:
+        """(n, n) is j one of those that i is compared with? For few things."""
+        inside = np.zeros((len(self.members) + 1, len(self.code)), dtype=np.bool_)
+        for k, members in enumerate(self.members):
+            inside[k, members] = True
+        found: Bools = inside[self.code]
+        return found
+
+    @cached_property
+    def asking(self) -> Sequence[Ints]:
+        """The things of each class; not its members where classes share some."""
+        order = np.argsort(self.code, kind="stable")
+        bounds = np.searchsorted(self.code[order], np.arange(len(self.members) + 1))
+        return [order[a:b] for a, b in itertools.pairwise(bounds.tolist())]
+
+    def among(self, kept: Bools) -> Alike:
+        """Of those that are kept alone: others are in no class."""
+        return Alike(np.where(kept, self.code, -1), [m[kept[m]] for m in self.members])
+
+
+def before(values: Floats, alike: Alike, most: int) -> Ints:
+    """How many of those alike have a value lower than a thing's by more than `TIE`, counted up to `most`.
+
+    Args:
+        values: (r, n); what is NaN comes before nothing, and nothing before it.
+
+    Returns:
+        (r, n); 0 for what is in no class. A count of `most` or more means as many or more.
+    """
+    if values.shape[1] <= _FEW:
+        with np.errstate(invalid="ignore"):
+            less = values[:, None, :] < values[:, :, None] - TIE
+        few: Ints = (less & alike.table[None]).sum(axis=2)
+        return few
+    with np.errstate(invalid="ignore"):
+        bound = values - TIE
+        if most > _SORTED:
+            return _searched(values, bound, alike)
+        out = np.zeros(values.shape, dtype=np.int64)
+        for lowest in _lowest(values, alike, most):
+            out += lowest[:, alike.code] < bound
+    return out
+
+
+def _lowest(values: Floats, alike: Alike, most: int) -> Iterator[Floats]:
+    """(r, classes + 1) the lowest value of each class, then the next ...; the last column is of what has no class."""
+    sizes = [len(members) for members in alike.members]
+    there = np.flatnonzero(sizes)
+    found = np.full((len(values), len(sizes) + 1), np.inf)
+    if not len(there):
+        return
+    inside = np.concatenate([alike.members[k] for k in there.tolist()])
+    counts = np.array(sizes)[there]
+    starts = np.cumsum(counts) - counts
+    left = values[:, inside]
+    left[np.isnan(left)] = np.inf
+    rows, numbers = np.arange(len(values))[:, None], np.arange(len(inside))
+    for _ in range(most):
+        lowest = np.minimum.reduceat(left, starts, axis=1)
+        found[:, there] = lowest
+        yield found
+        here = np.where(left == np.repeat(lowest, counts, axis=1), numbers, len(inside))
+        left[rows, np.minimum.reduceat(here, starts, axis=1)] = np.inf
+
+
+def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
+    """As `before`, however many come before."""
+    out = np.zeros(values.shape, dtype=np.int64)
+    for members, asking in zip(alike.members, alike.asking, strict=True):
+        if len(members) and len(asking):
+            ordered = np.sort(values[:, members], axis=1)  # NaN goes last
+            out[:, asking] = [np.searchsorted(v, b) for v, b in zip(ordered, bound[:, asking], strict=True)]
+    out[np.isnan(bound)] = 0
+    return out
