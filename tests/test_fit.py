@@ -20,7 +20,7 @@ from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.fit import Solver, fit, objective_at
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.reduction import reduce
-from dcg_torch.grounding.rows import ArrowheadRows, BagRows, GridRows
+from dcg_torch.grounding.rows import ArrowheadRows, GridRows, SparseRows
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
 
@@ -85,7 +85,7 @@ class TestRows:
 
     @pytest.mark.parametrize(
         ("solver", "grid", "kind"),
-        [("newton", False, ArrowheadRows), ("lbfgs", False, BagRows), ("lbfgs", True, GridRows)],
+        [("newton", False, ArrowheadRows), ("lbfgs", False, SparseRows), ("lbfgs", True, GridRows)],
     )
     @both_settings
     @pytest.mark.parametrize("masked", [False, True])

@@ -13,7 +13,7 @@ with p(c), the probability of a modifier's landmarks, as the model has it before
 weights of ACTIVE and INACTIVE; their mean stays, and so do the weights of other correspondences.
 
 Conventions
-    R rows of factors; N candidates, those of one choice after another; C choices
+    R rows of factors, distinct ones; N candidates, those of one choice after another; C choices
     S terms of modifiers, those of one candidate and modifier (a slot) after another
 """
 
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from dcg_torch.grounding import solvers
+from dcg_torch.grounding.design import row_hashes
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor
 from dcg_torch.grounding.solution import SLIP
@@ -113,19 +114,26 @@ class Likelihood:
     ) -> None:
         self._l2 = l2
         rows = _Rows()
-        self._gather(choices, rows)
+        noun, term = self._gather(choices, rows)
         width = max(bag.shape[1] for bag in rows.bags)
         languages, groundings = features.shape
         bag = np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in rows.bags])
         phrase = np.concatenate(rows.phrase)
-        self._cell = np.where(bag < 0, groundings, bag) + (phrase * (groundings + 1))[:, None]
-        self._shape = len(rows.phrases), groundings + 1
+        cell = np.where(bag < 0, -1, bag + (phrase * groundings)[:, None])
+        first, which = np.unique(row_hashes(cell), return_index=True, return_inverse=True)[1:]
+        self._noun: Ints = which[noun]  # rows that fire the same are one
+        self._term: Ints = which[term]
+        cell = cell[first]
+        self._shape = len(rows.phrases), groundings
+        row, k = np.nonzero(cell >= 0)
+        fired = cell[row, k]
+        self._rows = csr_array((np.ones(len(row)), (row, fired)), shape=(len(cell), math.prod(self._shape)))
         language = features.encode_phrases(list(rows.phrases))
         at, k = np.nonzero(language >= 0)
         fires = csr_array((np.ones(len(at)), (at, language[at, k])), shape=(len(rows.phrases), languages))
         cells = np.zeros(math.prod(self._shape))
-        cells[self._cell] = 1.0
-        active = features.pairs & ((fires.T @ cells.reshape(self._shape))[:, :-1] > 0.0)
+        cells[fired] = 1.0
+        active = features.pairs & (fires.T @ cells.reshape(self._shape) > 0.0)
         self.free: Bools = active if free is None else active & free
         self._fires, self._back = fires, csr_array(fires.T)
         weight = factor.weight.detach().cpu().numpy()
@@ -136,7 +144,8 @@ class Likelihood:
         self.start: Floats = (weight[self._asserted] - weight[self._denied])[self.free]
         self._centre: Floats = (prior[self._asserted] - prior[self._denied])[self.free]
 
-    def _gather(self, choices: Sequence[Choice], rows: _Rows) -> None:
+    def _gather(self, choices: Sequence[Choice], rows: _Rows) -> tuple[Ints, Ints]:
+        """The rows of all nouns and of all terms."""
         noun, term, slot, log_prior, denied, candidate = [], [], [], [], [], []
         begins, slots = 0, 0
         for choice in choices:
@@ -153,24 +162,21 @@ class Likelihood:
                 slots += n
             begins += n
         sizes = [len(choice.meant) for choice in choices]
-        self._noun = np.concatenate(noun)
         self._begin = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
         self._choice = np.repeat(np.arange(len(choices)), sizes)
         self._meant = np.concatenate([choice.meant for choice in choices])
         self._weight = np.array([choice.weight for choice in choices])
         self._a_set = np.array([choice.a_set for choice in choices])
-        self._term = np.concatenate(term) if term else np.zeros(0, dtype=np.int64)
         self._slot = np.concatenate(slot) if slot else np.zeros(0, dtype=np.int64)
         self._log_prior = np.concatenate(log_prior) if term else np.zeros(0)
         self._is_denied = np.concatenate(denied) if term else np.zeros(0, dtype=np.bool_)
         self._candidate = np.concatenate(candidate) if term else np.zeros(0, dtype=np.int64)
         self._slot_begin = np.searchsorted(self._slot, np.arange(slots))
+        return np.concatenate(noun), np.concatenate(term) if term else np.zeros(0, dtype=np.int64)
 
     def _scores(self, weight: Floats) -> Floats:
         """(R,) the scores of all rows under weights (L, G)."""
-        cells = np.zeros(self._shape)
-        cells[:, :-1] = self._fires @ weight
-        total: Floats = cells.ravel().take(self._cell).sum(axis=1)
+        total: Floats = self._rows @ (self._fires @ weight).ravel()
         return total
 
     def __call__(self, at: Floats) -> solvers.Point:
@@ -184,14 +190,13 @@ class Likelihood:
         mean = self._signs @ np.exp(table)
         said, kept = self._modifiers(table)
         value, by_noun, by_modifiers = self._choices(table, said)
-        slope = np.zeros(len(moved))
-        slope[self._noun] += by_noun[0] * (self._signs[self._asserted] - mean[self._noun])
-        slope[self._noun] += by_noun[1] * (self._signs[self._denied] - mean[self._noun])
+        of_noun = by_noun[0] * (self._signs[self._asserted] - mean[self._noun])
+        of_noun += by_noun[1] * (self._signs[self._denied] - mean[self._noun])
         sign = np.where(self._is_denied, self._signs[self._denied], self._signs[self._asserted])
-        slope[self._term] += by_modifiers[self._candidate][self._slot] * kept * (sign - mean[self._term])
-        weights = np.repeat(slope, self._cell.shape[1])
-        cells = np.bincount(self._cell.ravel(), weights=weights, minlength=math.prod(self._shape))
-        gradient = (self._back @ cells.reshape(self._shape)[:, :-1])[self.free]
+        of_term = by_modifiers[self._candidate][self._slot] * kept * (sign - mean[self._term])
+        slope = np.bincount(self._noun, of_noun, minlength=len(moved))
+        slope += np.bincount(self._term, of_term, minlength=len(moved))
+        gradient = (self._back @ (self._rows.T @ slope).reshape(self._shape))[self.free]
         distance = at - self._centre
         value += 0.25 * self._l2 * float(distance @ distance)
         gradient += 0.5 * self._l2 * distance

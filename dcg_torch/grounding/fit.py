@@ -22,7 +22,7 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.rows import BagRows, GridRows
+from dcg_torch.grounding.rows import GridRows, SparseRows
 from dcg_torch.grounding.threads import one_thread
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
@@ -70,8 +70,9 @@ def fit(
         prior: (P, L, G) the weights that cost no penalty; None: zero.
         tolerance: stop when the max-norm of the objective's gradient falls below it; absolute, not per example.
         max_steps: of the solver, at the most.
-        solver: "auto" takes what measurements say is fastest: Newton's method where few weights move, Newton-CG on a
-            grid, L-BFGS else. "newton" and "lbfgs" insist; "lbfgs-torch" is torch.optim.LBFGS.
+        solver: "auto" takes what measurements say is fastest: Newton's method where rows share few weights, else
+            Newton-CG. "newton" insists on the former; "lbfgs" is for few steps that need not arrive; "lbfgs-torch" is
+            torch.optim.LBFGS.
 
     Raises:
         ValueError: l2 is not positive.
@@ -107,14 +108,14 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
-    if isinstance(objective.rows, BagRows) and solver == "auto":
+    sparse = isinstance(objective.rows, SparseRows)
+    if solver == "lbfgs" and sparse:
         root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
-    if isinstance(objective.rows, GridRows) and solver != "lbfgs":
-        return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
     if solver != "lbfgs":
-        return solvers.newton(objective, objective.newton_step, start, tolerance=tolerance, max_steps=max_steps)
+        step = objective.newton_cg_step if sparse or isinstance(objective.rows, GridRows) else objective.newton_step
+        return solvers.newton(objective, step, start, tolerance=tolerance, max_steps=max_steps)
     return solvers.lbfgs(objective, start, tolerance=tolerance, max_steps=max_steps)
 
 

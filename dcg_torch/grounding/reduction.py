@@ -16,10 +16,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.arrowhead import Split, split
-from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, distinct_rows, stack
+from dcg_torch.grounding.cells import cell_rows, together
+from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.grounding.objective import Objective, likelihood
 from dcg_torch.grounding.psi import Bag, Floats, binary, scores
-from dcg_torch.grounding.rows import ArrowheadRows, BagRows, GridRows
+from dcg_torch.grounding.rows import ArrowheadRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes, row_keys
 
 Mask = NDArray[np.bool_]
@@ -28,8 +29,6 @@ _FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which symmetry is looked for at once, and rows are written out."""
 _NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
-_GRID = 0.25
-"""Share of phrases and groundings that occur together from which on the whole product is the faster way."""
 
 
 @dataclass(frozen=True)
@@ -248,7 +247,7 @@ def _factored(
 ) -> Reduced:
     """Rows as cells of the phrases' side times the weights."""
     design = stack(designs)
-    fires = (binary(design.language, active.shape[0]).T @ _together(design, active.shape[1]) > 0.0) & active
+    fires = (binary(design.language, active.shape[0]).T @ together(design, active.shape[1]) > 0.0) & active
     left, right = (np.flatnonzero(fires.any(axis=axis)) for axis in (1, 0))
     narrow = (len(left), len(right)) != active.shape
     kept = _kept(left, active.shape[0]), _kept(right, active.shape[1])
@@ -258,7 +257,7 @@ def _factored(
     else:
         offset, design = None, concatenate([design.renamed(*kept) if narrow else design])
     own, whole = fires[np.ix_(left, right)], bool(active[np.ix_(left, right)].all())
-    rows, cells = _rows(design, own, whole=whole, unique=offset is None or not narrow)
+    rows, cells = cell_rows(design, own, whole=whole, unique=offset is None or not narrow)
     count, constant = design.count, 0.0
     if isinstance(rows, GridRows):
         size = len(rows.language) * len(rows.grounding)
@@ -269,42 +268,12 @@ def _factored(
         constant = _constant(count, offset, unmoved)
         count, offset = count[:, cells], None if offset is None else offset[:, cells]
     columns = (left[:, None] * active.shape[1] + right).reshape(-1)
-    if rows.active is not None:
+    if not isinstance(rows, GridRows):
+        columns = columns[np.flatnonzero(own)]
+    elif rows.active is not None:
         columns = columns[rows.active]
     start = _differences(weight, fixed, columns).reshape(-1)
     return Reduced(Objective(rows, count, offset, strength.reshape(-1)[columns]), start, constant, fixed, columns, None)
-
-
-def _rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -> tuple[GridRows | BagRows, Ints]:
-    """What fires, and where the design's rows are in the grid, or which of them are left.
-
-    Args:
-        fires: (L, G) the pairs that move.
-        whole: all pairs may move, whether they fire or not; to a grid they are all the same.
-        unique: no two rows fire the same.
-    """
-    language, active = binary(design.language, len(fires)), np.flatnonzero(fires)
-    things, thing = distinct_rows(design.grounding)
-    if unique and len(thing) >= _GRID * len(language) * len(things):
-        grid = GridRows(language, binary(things, fires.shape[1]), None if whole else active)
-        return grid, design.phrase * len(things) + thing
-    phrases, groundings = len(language), fires.shape[1]
-    moving = np.zeros((phrases, groundings + 1), dtype=np.bool_)
-    moving[:, :-1] = language @ fires > 0.0
-    used = moving[design.phrase[:, None], design.grounding]
-    rows = np.flatnonzero(used.any(axis=1))
-    cells = np.where(used[rows], design.grounding[rows] + design.phrase[rows, None] * groundings, phrases * groundings)
-    cells.sort(axis=1)  # the padding comes last, and columns of padding alone go
-    cells = np.ascontiguousarray(cells[:, : int(used.sum(axis=1).max(initial=1))].T)
-    return BagRows(design.language, cells, fires.shape, None if fires.all() else active), rows
-
-
-def _together(design: DesignMatrix, groundings: int) -> Floats:
-    """(A, G) does a grounding column fire in some row of a phrase?"""
-    found = np.zeros((len(design.language), groundings + 1))
-    for column in design.grounding.T:
-        found[design.phrase, column] = 1.0
-    return found[:, :-1]
 
 
 def _kept(columns: Ints, size: int) -> Ints:

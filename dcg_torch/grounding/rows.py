@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
-import torch
+from scipy.sparse import csr_array
 
 from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import Bag, Floats
+from dcg_torch.grounding.psi import Floats
 
 
 class Rows(Protocol):
@@ -139,58 +139,43 @@ class GridRows:
 
 
 @dataclass(frozen=True)
-class BagRows:
-    """Rows that are some cells of A d, which is the sum of the rows of d that each phrase names.
-
-    Sums go a column of a bag at a time: so every numpy operation is about all rows or all phrases.
+class SparseRows:
+    """Rows that are sums of cells, and cells that are sums of variables: a cell is a phrase with a grounding column.
 
     Attributes:
-        language: (A, k) bag of the phrases.
-        cells: (k', N) cells of (A, G), column after column; A * G where a row has fewer.
-        shape: (L, G).
-        active: (K,) which cells of (L, G) the variables are; None: all.
+        rows: (N, cells) binary, CSR.
+        cells: (cells, K) binary, CSR.
     """
 
-    language: Bag
-    cells: Ints
-    shape: tuple[int, int]
-    active: Ints | None
+    rows: csr_array
+    cells: csr_array
+
+    @classmethod
+    def of(cls, row_cells: tuple[Ints, Ints], cell_variables: tuple[Ints, Ints], shape: tuple[int, int, int]) -> Self:
+        """From which cells each row has, and which variables each cell.
+
+        Args:
+            row_cells: (N + 1,) where each row's begin, and their numbers.
+            cell_variables: the same of the variables.
+            shape: N, cells, K.
+        """
+        (starts, cells), (cell_starts, variables) = row_cells, cell_variables
+        return cls(_ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:]))
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        return np.stack([self._scores(own) for own in spread(d, self.active, self.shape)])
-
-    def _scores(self, d: Floats) -> Floats:
-        by_phrase = np.zeros((len(self.language) + 1, self.shape[1]))
-        padded = np.concatenate([d, np.zeros((1, self.shape[1]))])
-        for column in self.language.T:
-            by_phrase[:-1] += padded.take(column, axis=0, mode="wrap")
-        flat = by_phrase.reshape(-1)
-        total: Floats = flat.take(self.cells[0])
-        for column in self.cells[1:]:
-            total += flat.take(column)
-        return total
+        found: Floats = np.ascontiguousarray((self.rows @ (self.cells @ d.T)).T)
+        return found
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        return gathered(np.stack([self._gradient(own) for own in residual]), self.active)
+        found: Floats = np.ascontiguousarray((self.cells.T @ (self.rows.T @ residual.T)).T)
+        return found
 
-    def _gradient(self, residual: Floats) -> Floats:
-        phrases, columns = self._by_column
-        size = len(self.language) * self.shape[1] + 1
-        weights = np.broadcast_to(residual, self.cells.shape).reshape(-1)
-        cells = np.bincount(self.cells.reshape(-1), weights, minlength=size)[:-1].reshape(-1, self.shape[1])
-        whole = torch.zeros(self.shape, dtype=torch.float64)  # numpy's sums of rows take twice as long
-        whole.index_add_(0, columns, torch.from_numpy(cells).index_select(0, phrases))
-        gradient: Floats = whole.numpy()
-        return gradient
 
-    @cached_property
-    def _by_column(self) -> tuple[torch.Tensor, torch.Tensor]:
-        """The phrases that each language column fires in, column after column, and the columns."""
-        fires = self.language.reshape(-1)
-        order = np.argsort(fires, kind="stable")[np.count_nonzero(fires < 0) :]
-        return torch.from_numpy(order // max(1, self.language.shape[1])), torch.from_numpy(fires[order])
+def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+    small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
+    return csr_array((np.ones(len(numbers)), numbers.astype(small), starts.astype(small)), shape=shape)
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
-from dcg_torch.grounding.fit import FitResult, fit
+from dcg_torch.grounding.fit import FitResult, Solver, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over
@@ -265,15 +266,8 @@ class GroundingModel:
             rounds: of expectation and maximisation.
             progress: called with the number of each round that is done.
         """
-        teach(
-            self,
-            lessons,
-            relations_only=relations_only,
-            known_types=known_types,
-            known_colors=known_colors,
-            rounds=rounds,
-            progress=progress,
-        )
+        known: dict[str, Any] = {"known_types": known_types, "known_colors": known_colors}
+        teach(self, lessons, relations_only=relations_only, **known, rounds=rounds, progress=progress)
 
     def save(self, directory: Path | str) -> None:
         """Write the model into a folder, which is made if need be; `dcg_torch.load` reads it."""
@@ -315,9 +309,9 @@ class GroundingModel:
         l2: float,
         tolerance: float = 1e-7,
         max_steps: int = 500,
+        solver: Solver = "auto",
     ) -> FitResult:
-        """Fit the free weights to labelled factors, in place."""
-        self.fitted = fit(
-            self.factor, designs, l2=l2, free=free, prior=self.prior, tolerance=tolerance, max_steps=max_steps
-        )
+        """Fit the free weights to labelled factors, in place: see `fit`."""
+        how: dict[str, Any] = {"tolerance": tolerance, "max_steps": max_steps, "solver": solver}
+        self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior, **how)
         return self.fitted

@@ -1,0 +1,33 @@
+"""Weights that one row alone has: what elimination gives is what the whole system gives."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from factors import both_settings
+
+from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.reduction import reduce
+from dcg_torch.grounding.rows import ArrowheadRows
+from dcg_torch.types import Correspondence
+
+
+@both_settings
+@pytest.mark.parametrize("many", [False, True])
+def test_the_step_solves_the_whole_system(correspondences: tuple[Correspondence, ...], many: bool) -> None:
+    """Nouns by types, each pair once, so that it has a weight of its own beside those that all share."""
+    rng, words, q = np.random.default_rng(4), 260 if many else 6, len(correspondences) - 1
+    types = 260 if many else 5
+    language = np.stack([np.zeros(words, dtype=np.int64), np.arange(1, words + 1)], axis=1)
+    grounding = np.stack([np.zeros(types, dtype=np.int64), np.arange(1, types + 1)], axis=1)
+    pairs = np.ones((words + 1, types + 1), dtype=np.bool_)
+    pairs[0, 1:] = pairs[1:, 0] = False
+    phrase, thing = np.divmod(np.arange(words * types), types)
+    design = DesignMatrix(language, grounding[thing], phrase, rng.uniform(0.1, 2.0, size=(q + 1, len(phrase))))
+    weight, strength = np.zeros((q + 1, *pairs.shape)), rng.uniform(0.5, 2.0, size=pairs.shape)
+    objective = reduce([design], weight, weight, pairs, strength).objective
+    assert isinstance(objective.rows, ArrowheadRows)
+    assert len(objective.rows.own) == words * types
+    point = objective(rng.normal(size=q * len(objective.strength)) * 0.3)
+    step = objective.newton_step(point).reshape(q, -1)
+    assert objective.product(point, step).reshape(-1) == pytest.approx(-point.gradient, abs=1e-8)
