@@ -23,21 +23,20 @@ from rich import box
 from rich.table import Table as Grid
 
 from dcg_torch.bench.fits import bench_fits
+from dcg_torch.bench.grounding import bench_grounding
 from dcg_torch.bench.result import Result, milliseconds, repeated, result
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.trial import run_trial
-from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.language import default_parser
 from dcg_torch.lessons import initial_training
-from dcg_torch.lessons.generated import generated_lessons
-from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.model import GroundingModel
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import FakeRobot, SimulatedRobot
 from dcg_torch.storage.resources import resource
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 from dcg_torch.world.files import load_worlds
-from dcg_torch.world.generator import COLORS, TYPES
+from dcg_torch.world.generator import TYPES
 
 _COLD = (
     "from dcg_torch.language import default_parser; from dcg_torch.lessons import initial_training; "
@@ -47,7 +46,7 @@ _COLD = (
 
 
 def bench_model() -> Iterator[Result]:
-    """Training, retraining as a trial goes on, grounding, parsing."""
+    """Training, retraining as a trial goes on, parsing."""
     training = initial_training()
     yield repeated("initial training", lambda: GroundingModel.trained(training), 15, goal=50)
 
@@ -63,57 +62,9 @@ def bench_model() -> Iterator[Result]:
     yield result("one retraining in the loop", retraining, goal=50)
 
     model = GroundingModel.trained(training)
-    percepts = [
-        Percept(f"{color} {kind}", kind, color, (1.0 + k, 0.5 * j, 0.0))
-        for k, kind in enumerate(TYPES)
-        for j, color in enumerate(COLORS)
-    ]
-    tree = parse("move towards the red cube", model.symbols).tree
-    assert tree is not None
-    yield repeated(
-        f"grounding, {len(percepts)} objects and all hypotheticals",
-        lambda: model.ground(tree, model.world_model(percepts, Pose(0.0, 0.0))),
-        50,
-        goal=5,
-    )
     texts = [command.text for command in commands] * 5
     parse(texts[0], model.symbols)
     yield result("parsing a command", [milliseconds(parse, text, model.symbols) for text in texts])
-
-
-_RELATED = (
-    "go to the red cube next to the blue sphere",
-    "go to the sphere behind the green cylinder on your left",
-    "go to the second cube from the left in the row",
-    "go to the two cylinders between the red cube and the blue sphere",
-)
-
-
-def bench_relations() -> Iterator[Result]:
-    """Grounding of relational commands; each time the objects stand otherwise, as nothing of a world may be known."""
-    parse, rng = default_parser().parse, np.random.default_rng(0)
-    groups = PAPER | {Group.RELATION}
-    model = GroundingModel.trained(initial_training(), Variant(groups=groups, hypothetical=False, ternary=False))
-    model.teach(generated_lessons(parse, 200), relations_only=True, rounds=1)
-    kinds = [("cube", "sphere", "cylinder")[k % 3] for k in range(25)]
-    for text in _RELATED:
-        tree = parse(text, model.symbols).tree
-        assert tree is not None
-        spent = []
-        for _ in range(40):
-            percepts = [
-                Percept(
-                    f"{k}",
-                    kind,
-                    COLORS[int(rng.integers(3))],
-                    (float(rng.uniform(-5.0, 5.0)), float(rng.uniform(-5.0, 5.0)), 0.0),
-                )
-                for k, kind in enumerate(kinds)
-            ]
-            spent.append(
-                milliseconds(lambda p, t: model.ground(t, model.world_model(p, Pose(0.0, 0.0))), percepts, tree)
-            )
-        yield result(f"grounding among {len(kinds)}, {text.removeprefix('go to ')!r}", spent[5:], goal=5)
 
 
 _SCRAPS = """
@@ -194,7 +145,7 @@ def run_benchmarks() -> Iterator[Result]:
     torch.set_num_threads(1)
     yield bench_start()
     yield from bench_model()
-    yield from bench_relations()
+    yield from bench_grounding()
     yield bench_hostile()
     yield from bench_robot()
     yield peak_memory()

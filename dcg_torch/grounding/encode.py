@@ -87,17 +87,21 @@ class WorldEncoder:
     @cached_property
     def _objects(self) -> tuple[Coded, list[int]]:
         """What things are by themselves, and the first thing of each row."""
-        names, state = scene.state_signatures(self.layout) if self.related else ([()], None)
-        states = [0] * len(self.all) if state is None else state.tolist()
-        number: dict[tuple[object, ...], int] = {}
-        objects = len(self.world.objects)
-        keys = [
-            (o.type, o.color, o.known, o.hypothetical, o.attributes, k)
-            for o, k in zip(self.world.objects, states, strict=False)
-        ]
-        code = np.array([number.setdefault(key, len(number)) for key in keys], dtype=np.int64)
-        first = np.unique(code, return_index=True)[1].tolist() + list(range(objects, len(self.all)))
-        code = np.concatenate([code, np.arange(len(number), len(first))])
+        objects, n = self.world.objects, len(self.all)
+        names, state = scene.state_signatures(self.layout) if self.related else ([()], np.zeros(n, dtype=np.int64))
+        first: list[int] = []
+        code = np.zeros(0, dtype=np.int64)
+        if objects:
+            first, code = scene.signatures(
+                [o.type for o in objects],
+                [o.color for o in objects],
+                [(2 * o.known + o.hypothetical) for o in objects],
+                [o.attributes for o in objects],
+                state[: len(objects)],
+            )
+        code = np.concatenate([code, np.arange(len(first), len(first) + n - len(objects))])
+        first += range(len(objects), n)
+        states = state.tolist()
         rows = [self._thing(j, names[states[j]]) for j in first]
         return Coded(padded(rows), code), first
 

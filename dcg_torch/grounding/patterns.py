@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.types import Child
 
@@ -24,15 +23,14 @@ class Patterns:
         self._number = number
         self._index: dict[tuple[tuple[tuple[str, int], ...], tuple[bool, ...]], int] = {}
 
-    def of(self, children: tuple[Child, ...]) -> NDArray[np.int64]:
-        """(groundings,) the number of the pattern of each."""
-        kinds = tuple((c.grounding.kind.value, c.correspondence.value) for c in children)
+    def of(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
+        """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
+        kinds = tuple([(c.grounding.kind.value, c.correspondence.value) for c in children])
         about = [self._number[c.grounding.object.id] for c in children]
-        found = np.full(len(self.special), self._of(children, kinds, (False,) * len(about)))
-        for j in dict.fromkeys(about):
-            found[j] = self._of(children, kinds, tuple(j == a for a in about))
+        special = {j: self._of(children, kinds, tuple([j == a for a in about])) for j in about}
+        for j in special:
             self.special[j] = j + 1
-        return found
+        return self._of(children, kinds, (False,) * len(about)), special
 
     def _of(self, children: tuple[Child, ...], kinds: tuple[tuple[str, int], ...], same: tuple[bool, ...]) -> int:
         number = self._index.setdefault((kinds, same), len(self.known))

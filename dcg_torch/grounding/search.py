@@ -203,24 +203,28 @@ class Search:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
         patterns = Patterns(len(self.encoder.world.meanable), self.encoder.number)
-        which = np.array([patterns.of(tuple(h.child for h in combo)) for combo in combos])
+        found = [patterns.of(tuple([h.child for h in combo])) for combo in combos]
+        which = np.empty((len(combos), len(patterns.special)), dtype=np.int64)
+        which[:] = np.array([rest for rest, _ in found])[:, None]
+        for row, (_, special) in zip(which, found, strict=True):
+            for j, number in special.items():
+                row[j] = number
         table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
         inactive = table[correspondences.index(Correspondence.INACTIVE)]
-        base = np.array([sum(h.log_score for h in combo) for combo in combos]) + self._sums(inactive, which)
+        base = np.array([sum(h.log_score for h in combo) for combo in combos]) + self._sums(inactive, found)
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         odds = np.stack([base[:, None] + table[correspondences.index(phi)][which] for phi in meant], axis=2)
         return _Scored(tree, combos, meant, odds - inactive[which][:, :, None], patterns.special)
 
-    def _sums(self, values: Floats, which: NDArray[np.int64]) -> Floats:
+    def _sums(self, values: Floats, found: Sequence[tuple[int, dict[int, int]]]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
         known: dict[tuple[int, ...], float] = {}
-        out = np.empty(len(which))
-        for c, row in enumerate(which):
-            times = tuple(np.bincount(row, minlength=len(values)).tolist())
-            if times not in known:
-                known[times] = exact_sum(values.tolist(), times)
-            out[c] = known[times]
-        return out
+        n, own = len(self.encoder.world.meanable), values.tolist()
+        keys = [(rest, *sorted(special.values())) for rest, special in found]
+        for rest, *special in dict.fromkeys(keys):
+            times = [n - len(special), *(1 for _ in special)]
+            known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
+        return [known[key] for key in keys]
 
     def _comparison_set(self, tree: ParseTree, modifiers: Sequence[ModifierFactor]) -> Bools:
         """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best."""

@@ -8,6 +8,7 @@ relations   to a landmark: above, beside, at which distance and on which side, c
 
 from dcg_torch.scene.groups import groups
 from dcg_torch.scene.layout import Layout, layout
+from dcg_torch.scene.order import signatures
 from dcg_torch.scene.places import Bounds, places, scene_bounds
 from dcg_torch.scene.ranks import RANKS, STATES, ranks, state_signatures, states
 from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, relations
@@ -25,6 +26,7 @@ __all__ = [
     "ranks",
     "relations",
     "scene_bounds",
+    "signatures",
     "state_signatures",
     "states",
 ]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.geometry import to_robot_frame
 from dcg_torch.scene.neighbours import Neighbours, neighbours
-from dcg_torch.scene.order import TIE, Alike
+from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.types import Object, Pose, WorldModel
 
 Floats = NDArray[np.float64]
@@ -79,12 +79,16 @@ class Layout:
         return tuple(sorted({o.color for o in self.things if o.color is not None}))
 
     @functools.cached_property
+    def color(self) -> Ints:
+        """(n,) the number of each colour in `colors`, -1 for none."""
+        number: dict[str | None, int] = {color: k for k, color in enumerate(self.colors)} | {None: -1}
+        return np.array([number[o.color] for o in self.things], dtype=np.int64)
+
+    @functools.cached_property
     def near(self) -> Neighbours:
-        """Of the objects, which come first: who is near whom. Colours are numbers of `colors`."""
-        number = {color: k for k, color in enumerate(self.colors)}
+        """Of the objects, which come first: who is near whom."""
         n = int(self.solid.sum())
-        color = np.array([-1 if o.color is None else number[o.color] for o in self.things[:n]], dtype=np.int64)
-        return neighbours(self.position[:n], color)
+        return neighbours(self.position[:n], self.color[:n])
 
     @functools.cached_property
     def resting(self) -> Bools:
@@ -94,21 +98,23 @@ class Layout:
     def alike(self, among: str) -> Alike:
         """Which of `SETS` each thing is compared with, by the name of the set."""
         if among not in self._alike:
-            self._alike[among] = self._row if among == "row" else Alike.by(self._keys(among))
+            self._alike[among] = self._row if among == "row" else Alike.by(self._class_of(among))
         return self._alike[among]
 
     @functools.cached_property
     def _alike(self) -> dict[str, Alike]:
         return {}
 
-    def _keys(self, among: str) -> list[tuple[object, ...] | None]:
-        typed, colored = among in ("kind", "type"), among in ("kind", "color")
-        objects, groups = len(self.things) - len(self.members) - int(self.place.sum()), len(self.members)
-        return [
-            *((o.type if typed else None, o.color if colored else None) for o in self.things[:objects]),
-            *(("group", o.type, o.color if colored else None) for o in self.things[objects : objects + groups]),
-            *(None for _ in self.things[objects + groups :]),
-        ]
+    @functools.cached_property
+    def _type(self) -> Ints:
+        return numbered(o.type for o in self.things)
+
+    def _class_of(self, among: str) -> Ints:
+        """(n,) groups are compared with those of their type alone."""
+        code = np.where((among in ("kind", "type")) | self.group, self._type, 0)
+        if among in ("kind", "color"):
+            code = code * (len(self.colors) + 1) + self.color + 1
+        return np.where(self.place, -1, 2 * code + self.group)
 
     @functools.cached_property
     def _row(self) -> Alike:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable, Iterator, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -35,13 +35,13 @@ class Alike:
     members: Sequence[Ints]
 
     @classmethod
-    def by(cls, keys: Sequence[Hashable | None]) -> Alike:
-        """The class of a thing is that of its key; None: it has none."""
-        number: dict[Hashable, int] = {}
-        code = np.array([-1 if k is None else number.setdefault(k, len(number)) for k in keys], dtype=np.int64)
-        order = np.argsort(code, kind="stable")
-        bounds = np.searchsorted(code[order], np.arange(len(number) + 1)).tolist()
-        return cls(code, [order[a:b] for a, b in itertools.pairwise(bounds)])
+    def by(cls, code: Ints) -> Alike:
+        """The class of a thing is that of its code; -1: it has none."""
+        known, which = np.unique(code, return_inverse=True)
+        none = int(len(known) > 0 and known[0] < 0)
+        order = np.argsort(which, kind="stable")
+        bounds = np.searchsorted(which[order], np.arange(none, len(known) + 1)).tolist()
+        return cls(which - none, [order[a:b] for a, b in itertools.pairwise(bounds)])
 
     @cached_property
     def table(self) -> Bools:
@@ -62,6 +62,29 @@ class Alike:
     def among(self, kept: Bools) -> Alike:
         """Of those that are kept alone: others are in no class."""
         return Alike(np.where(kept, self.code, -1), [m[kept[m]] for m in self.members])
+
+
+def numbered(values: Iterable[Hashable]) -> Ints:
+    """Equal values get equal numbers, from 0."""
+    number: dict[Hashable, int] = {}
+    return np.array([number.setdefault(value, len(number)) for value in values], dtype=np.int64)
+
+
+def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
+    """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
+    n = len(columns[0])
+    if n <= _FEW:
+        code = numbered(zip(*columns, strict=True))
+    else:  # without a tuple for each of many things
+        code = np.zeros(n, dtype=np.int64)
+        for column in columns:
+            further = column if isinstance(column, np.ndarray) else numbered(column)
+            more = int(further.max()) + 1
+            if int(code.max()) + 1 > (1 << 62) // more:
+                code = np.unique(code, return_inverse=True)[1]
+            code = code * more + further
+    _, first, kind = np.unique(code, return_index=True, return_inverse=True)
+    return first.tolist(), kind
 
 
 def before(values: Floats, alike: Alike, most: int) -> Ints:

@@ -8,7 +8,7 @@ import numpy as np
 
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, NEAREST, Bools, Floats, Ints, Layout
-from dcg_torch.scene.order import Alike
+from dcg_torch.scene.order import Alike, signatures
 from dcg_torch.scene.order import before as lower
 
 AXES = (
@@ -46,11 +46,11 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     beside = np.where(near.stacked, 1, np.where(near.beside, 2, 0))
     code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
     code = np.where(there, code, 0)  # what is nowhere has attributes alone
-    number: dict[tuple[frozenset[str], int, tuple[int, ...] | None], int] = {}
-    attributes, around = [o.attributes for o in things], near.colors
-    keys = [(a, c, around.get(j)) for j, (a, c) in enumerate(zip(attributes, code.tolist(), strict=False))]
-    which = [number.setdefault(key, len(number)) for key in keys]
-    names = [_state_names(*key, where.colors) for key in number]
+    attributes = [o.attributes for o in things]
+    around = [near.colors.get(j) for j in range(count)] if near.colors else [None] * count
+    first, kind = signatures(attributes[:count], code, around) if count else ([], np.zeros(0, dtype=np.int64))
+    names = [_state_names(attributes[j], int(code[j]), around[j], where.colors) for j in first]
+    which = kind.tolist()
     for j in range(count, len(things)):
         own = [f"part: {a}" for a in sorted(attributes[j])]
         if j in where.members:
