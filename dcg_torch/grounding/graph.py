@@ -26,8 +26,9 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
+from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import LogLinearFactor
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.types import (
     NOT,
     Child,
@@ -201,11 +202,15 @@ class FactorGraph:
         return PhraseKind.MODIFIER in above
 
     def _only_objects(self, found: _Scored) -> _Scored:
-        """Without places, and without the objects that the speaker has ruled out."""
+        """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         meanable = len(self.world.meanable)
         scores, odds, fit = found.scores[:, :meanable], found.log_odds[:meanable], found.log_fit[:meanable]
-        if self.world.meant is not None:
-            out = np.array([o.id not in self.world.meant for o in self.world.meanable])
+        meant, noun = self.world.meant, target_of(self.tree)
+        single = noun is not None and not noun.phrase.plural and not in_group(noun.phrase)
+        out = np.array(
+            [bool(o.members and single) or not (meant is None or o.id in meant) for o in self.world.meanable]
+        )
+        if out.any():
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = np.where(out, -np.inf, odds), np.where(out, -np.inf, fit)
         return replace(found, scores=scores, log_odds=odds, log_fit=fit)
