@@ -53,8 +53,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if phrase.noun in COMPASS:
-        *words, noun = COMPASS[phrase.noun]
-        phrase = replace(phrase, noun=noun, words=(*words, *phrase.words))
+        *first, noun = COMPASS[phrase.noun]
+        phrase = replace(phrase, noun=noun, words=(*first, *phrase.words))
     if any(child.phrase.words[:1] == ("than",) for child in children):
         return ParseTree(phrase, children)
     picks = tuple(word for child in below if (word := _picks(child)) is not None)
