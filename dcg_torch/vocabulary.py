@@ -86,7 +86,7 @@ SYNONYMS = {
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
 """Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
-COMPASS = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
+COMPASS: dict[str, tuple[str, ...]] = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
 COMPASS |= {f"{up}{side}": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 COMPASS |= {f"{name}ern": sides for name, sides in COMPASS.items()}
 """Of a picture or a map north is up."""

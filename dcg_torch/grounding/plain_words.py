@@ -53,8 +53,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if phrase.noun in COMPASS:
-        *words, noun = COMPASS[phrase.noun]
-        phrase = replace(phrase, noun=noun, words=(*words, *phrase.words))
+        sides = COMPASS[phrase.noun]
+        phrase = replace(phrase, noun=sides[-1], words=(*sides[:-1], *phrase.words))
     if any(child.phrase.words[:1] == ("than",) for child in children):
         return ParseTree(phrase, children)
     picks = tuple(word for child in below if (word := _picks(child)) is not None)
@@ -63,10 +63,10 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
-    sides = () if phrase.noun in PLACE_WORDS else _sides(words, children)
-    if sides:
-        words = tuple(word for word in words if word not in sides)
-        children = (*children, _near_side(sides))
+    named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
+    if named:
+        words = tuple(word for word in words if word not in named)
+        children = (*children, _near_side(named))
     return ParseTree(replace(phrase, words=words), children)
 
 

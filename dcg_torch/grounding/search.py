@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, ranking
 from dcg_torch.grounding.patterns import Patterns
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution
+from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.types import NOT, Child, Correspondence, Grounding, ParseTree, PhraseKind
 
@@ -149,7 +150,7 @@ class Search:
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
             found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            self._nouns[key] = found if landmark else self._only_objects(found)
+            self._nouns[key] = found if landmark else self._only_objects(tree, found)
         return self._nouns[key]
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
@@ -236,15 +237,18 @@ class Search:
         found: Bools = fit >= fit.max() + _IN_THE_SET
         return found
 
-    def _only_objects(self, found: _Scored) -> _Scored:
-        """Without places, and without the objects that the speaker has ruled out."""
+    def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
+        """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
         meanable = len(world.meanable)
         scores = found.scores[:, :meanable]
         odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))
-        code = found.code
-        if world.meant is not None:
-            out = np.array([o.id not in world.meant for o in world.meanable])
+        code, noun = found.code, target_of(tree)
+        single = noun is not None and not noun.phrase.plural and not in_group(noun.phrase)
+        if world.meant is not None or (single and world.groups):
+            out = np.array(
+                [bool(o.members and single) or not (world.meant is None or o.id in world.meant) for o in world.meanable]
+            )
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
             code = None

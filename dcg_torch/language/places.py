@@ -168,11 +168,11 @@ def _below(owner: Item, place: Item) -> None:
 
 def _nearest(place: Pending, decisions: Decisions) -> Item:
     """The noun phrase just before, passing over "me", "you" and sides, which nobody describes further."""
-    apart = SETS["someone"] | SETS["measures"]
+    apart = SETS["someone"] | SETS["measures"] | SETS["robot"]
     candidates = [noun for noun in place.nouns if noun.noun not in apart] or place.nouns
     if place.name == "of":
         return candidates[-1]
-    solid = [noun for noun in candidates if noun.noun not in SETS["places"]] or candidates
+    solid = [noun for noun in candidates if noun.noun not in SETS["places"] | SETS["groups"]] or candidates
     if len(solid) > 1 and solid[0].children + solid[-1].children != []:
         far = decisions.choose("owner", CHOICES["owner"]) == "far"
         return solid[0] if far else solid[-1]

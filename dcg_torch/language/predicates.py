@@ -57,7 +57,24 @@ def settle_each_other(noun: Item) -> None:
         noun.children.append(place)
 
 
-def is_edge_of(noun: Item, edge: Item) -> bool:
-    """Whether the edge says from where something is counted: "the second from the left"."""
-    ordered = any(is_superlative(word) for word in noun.words)
+def settle_row(noun: Item) -> None:
+    """ "Three cubes in a row" are a row of three."""
+    for place in noun.children:
+        row = place.children[0] if place.words == ("in",) and noun.plural and len(place.children) == 1 else noun
+        bare = not (row.children or row.words or row.color) and not row.text.startswith("the ")
+        if bare and row.noun in SETS["groups"] and SETS["groups"].isdisjoint(noun.words):
+            noun.words += (row.noun, *((f"of {noun.count}",) if noun.count else ()))
+            noun.count = None
+            noun.children.remove(place)
+            place.said = row.said = True
+            return
+
+
+def is_edge_of(noun: Item, edge: Item, place: Item) -> bool:
+    """Whether the edge says from where something is counted: "the second from the left", "the third on the left"."""
+    ordered = any(
+        word in SETS["ordinals"] or (is_superlative(word) and place.words == ("from",)) for word in noun.words
+    )
+    if place.words != ("from",) and ("last" in noun.words or edge.noun not in SETS["left_right"] or edge.words):
+        return False
     return ordered and edge.noun in SETS["ends"] | SETS["someone"]

@@ -33,10 +33,6 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     if not several:
         return
     group = max(several, key=lambda noun: noun.start).copy()
-    for row in [child for child in group.children if child.words == ("in",) and _is_bare_group(child.children[0])]:
-        group.children.remove(row)  # "three blocks in a row" are a row of three
-        group.words += (row.children[0].noun or "", *((f"of {group.count}",) if group.count else ()))
-        group.count = None
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
     if SETS["groups"].isdisjoint(group.words):

@@ -95,9 +95,15 @@ class NounPhrases:
             place.words = ("without",) if place.words[0] == "with" else place.words
         if place.children:
             share_noun(place.children[-1], item)
-        elif place.words[0] == "from" and self.nouns and is_edge_of(self.nouns[-1], item):
+        elif place.words[0] in PLACING["ranks_from"] and self.nouns and is_edge_of(self.nouns[-1], item, place):
             article = "the " if item.noun in SETS["sides"] else ""
             self.nouns[-1].words += (f"from {article}{item.noun}",)  # "the second from the left"
+            self.pending.pop()
+            self.preposition = None
+            item.said = True
+            return
+        elif item.noun is None and item.words and self.nouns and all(word.endswith("most") for word in item.words):
+            self.say(last_thing(self.nouns), item.words)  # "the cone on the rightmost"
             self.pending.pop()
             self.preposition = None
             item.said = True
