@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from dcg_torch.agent.command import CommandParser, ParsedCommand
 from dcg_torch.evaluation.episodes import Episode, workspace
+from dcg_torch.grounding.readings import looking
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.model import GroundingModel
@@ -137,7 +138,8 @@ def train(
         for episode in training.kept(corpus):
             tree = parse(episode.text, ()).tree
             if tree is not None and episode.target:
-                lessons.append(Lesson(tree, lesson_world(model, episode, where), frozenset(episode.target)))
+                world = test_world(model, episode, where)
+                lessons.append(Lesson(looking(tree, episode.text, world), world, frozenset(episode.target)))
     model.teach(
         lessons,
         known_types=training.known_types,
@@ -146,12 +148,6 @@ def train(
         progress=progress,
     )
     return time.perf_counter() - began
-
-
-def lesson_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
-    """Upsilon of an episode whose objects meant are known: nothing in it is hypothetical."""
-    world = test_world(model, episode, where)
-    return replace(world, objects=tuple(o for o in world.objects if not o.hypothetical))
 
 
 def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:

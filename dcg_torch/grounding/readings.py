@@ -99,9 +99,18 @@ def _sense(solution: Solution) -> float:
     return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
 
 
-def looking(tree: ParseTree, text: str) -> ParseTree:
-    """The tree whose first noun phrase is also told the words of the command, to judge colours that are seen by."""
-    words = tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
+def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
+    """The tree whose first noun phrase is also told the words of the command, to judge colours that are seen by.
+
+    Args:
+        world: where nothing shows how it looks, the tree stays as it is.
+    """
+    if all(o.rgb is None for o in world.objects):
+        return tree
+    return _told(tree, tuple(re.findall(r"\w+|[^\w\s]", text.lower())))
+
+
+def _told(tree: ParseTree, words: tuple[str, ...]) -> ParseTree:
     if tree.phrase.kind is PhraseKind.NOUN:
         return replace(tree, phrase=replace(tree.phrase, look=words))
-    return replace(tree, children=(*(looking(c, text) for c in tree.children[:1]), *tree.children[1:]))
+    return replace(tree, children=(*(_told(c, words) for c in tree.children[:1]), *tree.children[1:]))

@@ -158,8 +158,7 @@ class GroundingModel:
         if not readings:
             return Solution(None, world, problem=command.problem)
         kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
-        seen = any(o.rgb is not None for o in world.objects)
-        trees = [looking(r.tree, command.text) if seen else r.tree for r in kept]
+        trees = [looking(r.tree, command.text, world) for r in kept]
         return sum_over([self._ground(tree, search) for tree in trees], [r.log_weight for r in kept])
 
     def _ground(self, tree: ParseTree, search: SharedSearch) -> Solution:

@@ -20,12 +20,13 @@ from dcg_torch.learning.landmarks import (
 from dcg_torch.learning.learner import Experience, Taught
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import taught_mask
+from dcg_torch.scene.upsilon import with_known
 from dcg_torch.types import Example, Symbol
 
 if TYPE_CHECKING:
     from dcg_torch.model.core import GroundingModel as Teachable
 
-RELATION_L2 = 1.0
+RELATION_L2 = 0.3
 """Penalty on the weights that are taught by generated lessons."""
 CORPUS_L2 = 0.2
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
@@ -47,6 +48,7 @@ def teach(
     """See `GroundingModel.teach`."""
     parts = [part for lesson in lessons for part in parts_of(lesson)]
     _make_room(model, parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
+    parts = [replace(part, world=with_known(part.world, model.known_types)) for part in parts]
     free, l2 = (taught_mask(model.features), RELATION_L2) if relations_only else (None, CORPUS_L2)
     kept = example_choices(place_examples(), model.features) if relations_only else []
     if not relations_only:

@@ -28,6 +28,8 @@ _COLOR_ODDS = {"equal": 4.0, "same hue": 2.0, "alike": 2.5, "near": -1.0, "shade
 _ATTRIBUTE_ODDS = {"equal": 4.0, "alike": 4.0, "contrary": -4.0, "silent": -0.5}
 _LOOKS = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Bounds of how far a colour's score stays behind the best in view."""
+_LOOK_ODDS = 3.0
+"""Of the colour that the words fit best: without them, what was never seen would be as likely."""
 LOOK_FACTS = tuple(f"look: {k}" for k in range(len(_LOOKS) + 1))
 
 
@@ -57,7 +59,7 @@ def fact_odds() -> dict[str, float]:
     odds[f"said {_ABSENT}"] = _ABSENT_ODDS
     odds |= {f"said color: {name}": value for name, value in _COLOR_ODDS.items()}
     odds |= {f"said attribute: {name}": value for name, value in _ATTRIBUTE_ODDS.items()}
-    return odds | {f"said {fact}": -_behind(k) for k, fact in enumerate(LOOK_FACTS)}
+    return odds | {f"said {fact}": _LOOK_ODDS - _behind(k) for k, fact in enumerate(LOOK_FACTS)}
 
 
 def _behind(k: int) -> float:
