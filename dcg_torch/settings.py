@@ -192,6 +192,21 @@ class EvaluateSettings:
     save: bool = _setting(True, "write the model as it is at the end into model/; not with folds")
 
 
+@dataclass
+class TalkSettings:
+    """The page to talk to the robot."""
+
+    world: str = _setting("laboratory", "name of a committed world, generated, or a world file")
+    model: str | None = _setting(None, "folder of a saved model; none: the shipped one")
+    session: str | None = _setting(None, "file that keeps the session; one that is there goes on. None: a new one")
+    simulator: RobotKind = _setting(RobotKind.pybullet, "physics, or pure geometry")
+    seed: int = _setting(0, "of a generated world", Bounds(0, 1e15))
+    host: str = _setting("127.0.0.1", "address to listen on; all but the loopback address ask for a token")
+    port: int = _setting(8080, "to listen on; 0 takes a free one", Bounds(0, 65_535))
+    token: str | None = _setting(None, "what visitors need; none: made by chance, where one is needed")
+    open: bool = _setting(True, "open the page in the browser")
+
+
 def described(schema: type, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:
     """(dotted name, default, what it means, bounds) of every setting of a schema."""
     yield from ((prefix + name, value, text, bounds) for name, value, text, bounds in _walk(schema()))
@@ -206,8 +221,8 @@ def _walk(settings: Any, prefix: str = "") -> Iterator[tuple[str, Any, str, Boun
             yield prefix + one.name, value, one.metadata["help"], one.metadata["bounds"]
 
 
-def check_bounds(settings: Settings | EvaluateSettings) -> None:
-    """See that every number lies within its bounds, and that the model has features.
+def check_bounds(settings: Settings | EvaluateSettings | TalkSettings) -> None:
+    """See that every number lies within its bounds, and that a model that is described has features.
 
     Raises:
         SettingsError: one does not.
@@ -217,7 +232,7 @@ def check_bounds(settings: Settings | EvaluateSettings) -> None:
             raise SettingsError(f"{name}={_short(value)}: give a number {bounds}")
         if isinstance(value, str) and ("\0" in value or len(value) > 4_000):
             raise SettingsError(f"{name}: a text of {len(value)} characters makes no sense here; give a shorter one")
-    if not settings.model.groups:
+    if not isinstance(settings, TalkSettings) and not settings.model.groups:
         raise SettingsError("model.groups=[]: a model needs features; give some, [dcg,unknown] for one")
 
 

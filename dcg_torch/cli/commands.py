@@ -26,6 +26,7 @@ COMMANDS: Mapping[str, Command] = {
     "run": Command("cli.run", "one experiment, or a sweep of them with -m (the default)"),
     "evaluate": Command("evaluate", "ground the commands of episode files, perhaps after training on others"),
     "report": Command("report.__main__", "tables of runs and sweeps"),
+    "talk": Command("talk", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),

@@ -23,6 +23,7 @@ from dcg_torch.settings import (
     Settings,
     SettingsError,
     SimulatorSettings,
+    TalkSettings,
     check,
     check_bounds,
     described,
@@ -45,6 +46,7 @@ def register() -> None:
     store = ConfigStore.instance()
     store.store(name="schema", node=Settings)
     store.store(name="evaluate_schema", node=EvaluateSettings)
+    store.store(name="talk_schema", node=TalkSettings)
     store.store(group="model", name="schema", node=ModelSettings)
     store.store(group="simulator", name="schema", node=SimulatorSettings)
 
@@ -68,6 +70,14 @@ def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     _refuse_choices()
     _refuse_added(config, EvaluateSettings)
     settings = cast(EvaluateSettings, OmegaConf.to_object(config))
+    check_bounds(settings)
+    return settings
+
+
+def talk_settings_of(config: DictConfig) -> TalkSettings:
+    """The same for `talk`."""
+    _refuse_added(config, TalkSettings)
+    settings = cast(TalkSettings, OmegaConf.to_object(config))
     check_bounds(settings)
     return settings
 
