@@ -164,22 +164,25 @@ def carry_out(
     if reading.tree is None:
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
     explorer = explorer or TurnInPlace(spin_step)
-    command = _Command(reading, model, robot, start, percepts, clock)
+    command = CommandUnderWay(reading, model, robot, start, percepts, clock)
     solution, asked = command.ask(command.look(explorer, watch), asking, listener)
     drive = command.act(solution)
     return Outcome(reading, solution, in_view, tuple(percepts.values()), drive, looked=explorer.looked, asked=asked)
 
 
 @dataclass
-class _Command:
-    """A command under way; `percepts`, by id, grow with every look."""
+class CommandUnderWay:
+    """A command under way; `percepts`, by id, grow with every look.
+
+    `carry_out` takes its steps one after the other; a conversation, which waits for answers, takes them by itself.
+    """
 
     said: ReadCommand
     model: Grounder
     robot: Robot
     start: Pose
     percepts: dict[str, Percept]
-    clock: Stopwatch
+    clock: Stopwatch = field(default_factory=Stopwatch)
 
     def look(self, explorer: Explorer, watch: Callable[[Look], None] | None) -> Solution:
         """Ground what is seen, and look on until the explorer is content."""
@@ -207,9 +210,13 @@ class _Command:
         while len(asked) < policy.questions and (ids := candidates(solution, policy)):
             asking = question(ids, tuple(self.percepts.values()), self.start, self.model.sure_names())
             asked.append((asking, listener(asking)))
-            with self.clock("ground"):
-                solution = self.model.ground(self.said, _told(solution.world, *asked[-1]))
+            solution = self.told(solution, *asked[-1])
         return solution, tuple(asked)
+
+    def told(self, solution: Solution, asked: Question, reply: Reply) -> Solution:
+        """Ground anew with the answer to a question."""
+        with self.clock("ground"):
+            return self.model.ground(self.said, _told(solution.world, asked, reply))
 
     def act(self, solution: Solution) -> DriveResult | None:
         """Drive to what is meant, or away from it; None: nothing that was seen is meant."""

@@ -104,6 +104,12 @@ class LookBefore:
     TURNS = math.ceil((math.tau - FIELD_OF_VIEW) / math.radians(52.0))
     STEP = (math.tau - FIELD_OF_VIEW) / TURNS + 1e-3
 
+    @classmethod
+    def resumed(cls, meanings: Callable[[str], Mapping[str, float]], worth: Worth, places: list[Point]) -> LookBefore:
+        """One that has looked all round at these places for an earlier command, and adds its own to them."""
+        complete = bool(places)
+        return cls(meanings, worth, places, cls.TURNS if complete else 0, complete)
+
     @property
     def looked(self) -> bool:
         """Has it come full circle, at least once?"""

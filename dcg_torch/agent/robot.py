@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -69,4 +69,22 @@ class SimulationRobot(Robot, Protocol):
     @property
     def seconds(self) -> float:
         """Simulated seconds that it has moved since `load`."""
+        ...
+
+
+class InteractiveRobot(SimulationRobot, Protocol):
+    """One that can be watched and stopped while it moves, as both of `simulator` can."""
+
+    on_tick: Callable[[Pose], None] | None
+
+    def stop(self) -> None:
+        """End the motion under way, and do nothing more until `resume` or `load`; any thread may call it."""
+        ...
+
+    def resume(self) -> None:
+        """Move again when asked to."""
+        ...
+
+    def close(self) -> None:
+        """Let go of what it holds."""
         ...

@@ -23,7 +23,7 @@ VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam
 _ASSUMED = Assumptions(nouns=Prior(names=True))
 LESSONS = 1000
 _ROUNDS = 2
-_SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
+SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
 
 def pretrained(*, opaque: bool = False) -> GroundingModel:
@@ -32,7 +32,7 @@ def pretrained(*, opaque: bool = False) -> GroundingModel:
     Args:
         opaque: the names of classes say nothing of what people call them, as in the paper's experiments.
     """
-    model = load(_SHIPPED)
+    model = load(SHIPPED)
     return without_names(model) if opaque else model
 
 
@@ -68,9 +68,9 @@ def train_open_world(
 
 def main() -> int:
     """Make the shipped model anew."""
-    save(train_open_world(initial_training()), _SHIPPED)
-    size = sum(path.stat().st_size for path in _SHIPPED.iterdir())
-    print(f"{_SHIPPED}: {size / 1e6:.2f} MB")
+    save(train_open_world(initial_training()), SHIPPED)
+    size = sum(path.stat().st_size for path in SHIPPED.iterdir())
+    print(f"{SHIPPED}: {size / 1e6:.2f} MB")
     return 0
 
 

@@ -20,7 +20,6 @@ _ACCELERATION, _TURN_ACCELERATION = 1.2, 6.0  # m/s2, rad/s2
 _TICK_STEPS = 4
 TICK = _TICK_STEPS * STEP
 """Seconds between two commands to the wheels (30 Hz)."""
-_OBSERVED_TICKS = 3  # ticks between two calls of the observer (10 Hz)
 _WHEEL_RADIUS, _HALF_TRACK = 0.038, 0.115  # metres, as in robot.urdf
 _WHEELS = ("left_wheel_joint", "right_wheel_joint")
 _MODEL = Path(__file__).parent / "models" / "robot.urdf"
@@ -43,11 +42,13 @@ class Base:
     """The robot's body in a physics client, driven by the velocities of its wheels alone.
 
     `path_length` (metres), `turned` (radians, both directions positive) and `collisions` (how often it came to
-    touch an object) count from the start. `heading` is the yaw without its wrap at pi.
+    touch an object) count from the start. `heading` is the yaw without its wrap at pi. `on_tick` is called with the
+    pose at every `observed`-th tick.
     """
 
-    def __init__(self, client: Client, start: Pose) -> None:
+    def __init__(self, client: Client, start: Pose, observed: int = 3) -> None:
         self._client = client
+        self._observed = observed
         self.body = add_robot(client.id, start)
         names = [
             pybullet.getJointInfo(self.body, joint, physicsClientId=client.id)[1].decode()
@@ -103,7 +104,7 @@ class Base:
         self._touching = touching
         self.seconds += TICK
         self._ticks += 1
-        if self.on_tick is not None and self._ticks % _OBSERVED_TICKS == 0:
+        if self.on_tick is not None and self._ticks % self._observed == 0:
             self.on_tick(now)
 
 

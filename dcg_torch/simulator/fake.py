@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+import threading
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -17,6 +18,7 @@ Labels = Callable[[Sequence[str], np.random.Generator], Sequence[str | None]]
 """What objects of some types are recognised as, see `Recogniser.labels`."""
 _LEAVE = 2.0  # metres that it drives to leave an object
 _SPEED, _TURN = 0.65, 2.0  # m/s and rad/s that its seconds are reckoned with
+_TICK = 1.0 / 30.0  # seconds between two poses on the way
 
 
 @dataclass
@@ -30,7 +32,7 @@ class _State:
 class FakeRobot:
     """A robot of pure geometry: it sees through objects, turns exactly, and is where it is sent at once.
 
-    It is an `agent.robot.SimulationRobot`.
+    It is an `agent.robot.InteractiveRobot`: with `on_tick` it passes through poses on the way, 30 to a second of its.
 
     Args:
         labels: what the objects of a world, given their types in order, are recognised as (None: not at all); by
@@ -40,11 +42,14 @@ class FakeRobot:
     def __init__(self, labels: Labels | None = None) -> None:
         self._labels = labels
         self._now: _State | None = None
+        self._stopped = threading.Event()
         self.collisions = 0
+        self.on_tick: Callable[[Pose], None] | None = None
 
     def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
         """Stand at the start pose of `world`."""
         self._now = _State(world, world.start)
+        self._stopped.clear()
         types = [o.type for o in world.objects]
         if self._labels is None:
             self._recognised: dict[str, str | None] = {o.id: o.type for o in world.objects}
@@ -96,9 +101,12 @@ class FakeRobot:
             ValueError: more than `limits.MAX_SPIN`.
         """
         check_spin(angle)
-        state = self._state
-        state.pose = Pose(state.pose.x, state.pose.y, wrap_angle(state.pose.yaw + angle))
-        state.turned += abs(angle)
+        state, start = self._state, self.pose
+        share = 0.0
+        for share in self._shares(abs(angle) / _TURN):
+            state.pose = Pose(start.x, start.y, wrap_angle(start.yaw + share * angle))
+            self._tick()
+        state.turned += share * abs(angle)
 
     def drive_to(self, target: str, percepts: Sequence[Percept]) -> DriveResult:
         """Face the target and go straight until it is within reach."""
@@ -121,8 +129,34 @@ class FakeRobot:
         if not distance <= MAX_DISTANCE:
             return DriveResult.TOO_FAR
         self.spin(bearing(self.pose, *towards))
-        state, distance = self._state, max(0.0, distance)
-        pose = state.pose
-        state.path_length += distance
-        state.pose = Pose(pose.x + distance * math.cos(pose.yaw), pose.y + distance * math.sin(pose.yaw), pose.yaw)
-        return DriveResult.ARRIVED
+        state, start, distance = self._state, self.pose, max(0.0, distance)
+        share = 0.0
+        for share in self._shares(distance / _SPEED):
+            way = share * distance
+            state.pose = Pose(start.x + way * math.cos(start.yaw), start.y + way * math.sin(start.yaw), start.yaw)
+            self._tick()
+        state.path_length += share * distance
+        return DriveResult.ARRIVED if share == 1.0 else DriveResult.STOPPED
+
+    def _shares(self, seconds: float) -> Iterator[float]:
+        """The shares of a motion that are done by and by, the last one 1, until somebody stops the robot."""
+        steps = max(1, math.ceil(seconds / _TICK)) if self.on_tick is not None else 1
+        for step in range(1, steps + 1):
+            if self._stopped.is_set():
+                return
+            yield step / steps
+
+    def _tick(self) -> None:
+        if self.on_tick is not None:
+            self.on_tick(self.pose)
+
+    def stop(self) -> None:
+        """End the motion under way, and do nothing more until `resume` or `load`; any thread may call it."""
+        self._stopped.set()
+
+    def resume(self) -> None:
+        """Move again when asked to."""
+        self._stopped.clear()
+
+    def close(self) -> None:
+        """Nothing: it holds nothing."""

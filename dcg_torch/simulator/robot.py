@@ -58,9 +58,11 @@ class SimulatedRobot:
         recogniser: how well it names what it sees; perfect by default.
         rng: draws the recogniser's mistakes at each `load`; needed only if it makes any.
         gui: open PyBullet's window.
+        on_tick: called with the pose while the robot moves.
+        observed: ticks between two of these calls, at 30 ticks to a simulated second.
 
     Attributes:
-        on_tick: called with the pose about ten times per simulated second while the robot moves.
+        on_tick: see above; it may be changed at any time.
 
     Raises:
         SimulatorError: there is no screen for the window.
@@ -75,6 +77,7 @@ class SimulatedRobot:
         rng: np.random.Generator | None = None,
         gui: bool = False,
         on_tick: Callable[[Pose], None] | None = None,
+        observed: int = 3,
     ) -> None:
         self.camera = camera or Camera()
         self.recogniser = recogniser or Recogniser()
@@ -82,6 +85,7 @@ class SimulatedRobot:
             raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
         self._rng = rng or np.random.default_rng(0)
         self.on_tick = on_tick
+        self._observed = observed
         self.client = Client(gui=gui, options=OPTIONS)
         self._window = Window(self.client.id) if gui else None
         self._loaded: _Visit | None = None
@@ -118,7 +122,7 @@ class SimulatedRobot:
         self._loaded = None
         self._stop.clear()
         self.client.empty()
-        base = Base(self.client, world.start)
+        base = Base(self.client, world.start, self._observed)
         labels = self.recogniser.labels([o.type for o in world.objects], rng)
         self._by_body, self._noticed = {}, {}
         for item, label in zip(world.objects, labels, strict=True):

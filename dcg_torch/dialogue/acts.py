@@ -1,0 +1,104 @@
+"""What a person's text does: a command, an answer, a lesson, a question, a motion, or nothing that the robot does."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from importlib.resources import files
+from typing import Any
+
+import yaml
+
+from dcg_torch.language import Parse, parse_command
+from dcg_torch.language.requests import (
+    Answer,
+    Motion,
+    Question,
+    read_answer,
+    read_forget,
+    read_motion,
+    read_question,
+)
+from dcg_torch.language.teaching import Teaching, read_teaching
+from dcg_torch.language.tokens import tokens
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Stop, or never mind."""
+
+
+@dataclass(frozen=True, slots=True)
+class Lesson:
+    """A teacher's sentence."""
+
+    teaching: Teaching
+
+
+@dataclass(frozen=True, slots=True)
+class Forget:
+    """A word is to be forgotten."""
+
+    word: str
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """No order about a thing, and nothing else that the robot does; what it answers."""
+
+    text: str
+
+
+Act = Stop | Answer | Lesson | Forget | Question | Motion | Parse | Refused
+"""A `Parse` is a command, and has a tree."""
+
+
+@functools.cache
+def replies() -> Mapping[str, Any]:
+    """`data/replies.yaml`."""
+    found: dict[str, Any] = yaml.safe_load(files(__package__).joinpath("data", "replies.yaml").read_text("utf-8"))
+    return found
+
+
+def is_stop(text: str) -> bool:
+    """Does this text stop the robot at once ("stop", "halt!", "please wait")?"""
+    return parse_command(text).refused in replies()["stop"]
+
+
+def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
+    """What a text does.
+
+    Args:
+        vocabulary: the nouns known to the robot.
+        asked: does a question of the robot wait for an answer?
+    """
+    parse = parse_command(text, vocabulary)
+    if parse.refused in replies()["stop"]:
+        return Stop()
+    for read in (read_forget, read_teaching, read_motion, read_question):
+        if asked and read is read_teaching and (answer := _answer(text, parse)) is not None:
+            return answer
+        if (found := read(text)) is not None:
+            if isinstance(found, str):
+                return Forget(found)
+            return Lesson(found) if isinstance(found, Teaching) else found
+    if parse.tree is None:
+        reason = parse.refused if tokens(text) else replies()["greeting"]  # "hello" is left out as a filler
+        return Refused(replies()["refused"].get(reason) or f"I can't do that: {parse.problem}.")
+    if parse.tree.phrase.words == ("be",):
+        return Refused(replies()["refused"][replies()["telling"]])
+    return parse
+
+
+def _answer(text: str, parse: Parse) -> Answer | None:
+    """A text as an answer; None if it is an order, a question, or nothing that answers."""
+    answer = read_answer(text)
+    if answer is None or answer.phrase is None:
+        return answer
+    if parse.tree is not None and parse.tree.phrase.words not in ((), ("be",), ("mean",)):
+        return None
+    if read_question(text) or read_motion(text):
+        return None
+    own = parse_command(answer.phrase).tree
+    return answer if own is not None and own.phrase.words == () else None
