@@ -17,6 +17,7 @@ from dcg_torch.apps.talk.host import Change
 from dcg_torch.dialogue.export import export_episodes, export_gif
 from dcg_torch.dialogue.session import Session
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.whole import remove
 from dcg_torch.world.files import load_world
 
 MOST = 64_000_000
@@ -74,8 +75,12 @@ def with_model(file: Path, content: bytes) -> Change:
 
     def make(session: Session, fresh: Path) -> Session:
         model = _free(file, "-model", "")
-        _unpack(content, model)
-        return Session(session.world, model, file=fresh, simulator=session.header.simulator)
+        try:
+            _unpack(content, model)
+            return Session(session.world, model, file=fresh, simulator=session.header.simulator)
+        except BaseException:
+            remove(model)
+            raise
 
     return lambda session: _exchange(session, file, make)
 

@@ -71,9 +71,10 @@ class Host:
     Args:
         file: that keeps the session.
         new: makes it, where the file is not there.
+        pace: times as fast as the robot that it is shown; 0: as fast as can be.
     """
 
-    def __init__(self, file: Path, new: Callable[[], Session]) -> None:
+    def __init__(self, file: Path, new: Callable[[], Session], pace: float = 1.0) -> None:
         self.file = file
         self.state = State()
         self._new = new
@@ -82,7 +83,9 @@ class Host:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._listeners: list[Callable[[str], None]] = []
         self._stopped = threading.Event()  # ends the pace of a replay
-        self._pace = 0.0  # times as fast as the robot; 0: as fast as can be
+        self._usual = pace
+        self._pace = 0.0  # now
+        self._hurries = False  # what is under way may be brought to its end at once
         self._due, self._moves = 0.0, 0
         self._digest = hashlib.sha256()  # of all events of the session
 
@@ -207,8 +210,10 @@ class Host:
             self._session = Session.open(self.file, watch)
         else:
             self._session = self._new()
-        self._pace = 1.0
+        self._pace = self._usual
         self._refresh(self._session)
+        world = self._session.model.world_model(self._session.memory, self._session.pose)
+        self._session.model.ground("go to the cube", world)  # the first grounding of a process takes long
 
     def _deal(self, do: Callable[[Session], object]) -> None:
         session = self._session
@@ -231,7 +236,7 @@ class Host:
         again, inputs = Session.replayed(self.file)
         before, self._digest, present = self._digest, hashlib.sha256(), self._session
         try:
-            self._session, self._pace = again, _REPLAY
+            self._session, self._pace, self._hurries = again, _REPLAY * self._usual, True
             self._clear()
             self._refresh(again)
             lines = with_stops(inputs)
@@ -242,7 +247,8 @@ class Host:
             verdict = "the same to the last byte" if same else "NOT the same as when it happened"
             self._write(Line("note", f"replay over: {len(lines)} inputs, all that followed from them {verdict}"))
         finally:
-            self._session, self._pace, self._digest = present, 1.0, before
+            self._session, self._digest = present, before
+            self._pace, self._hurries = self._usual, False
             again.close()
 
     def _refresh(self, session: Session) -> None:
@@ -273,7 +279,7 @@ class Host:
                 self._post("pose", pose=pose)
 
     def _moved(self, pose: Pose) -> None:
-        if not self._pace or (self._pace != 1.0 and self._stopped.is_set()):
+        if not self._pace or (self._hurries and self._stopped.is_set()):
             return
         self._post("pose", pose=pose)
         self._moves += 1

@@ -8,17 +8,19 @@ from html import escape
 from dcg_torch.dialogue.events import Candidate
 
 _ROWS = 9
-"""Of each table's groups, so that it stays short in a large world."""
+_LEAST = 0.005
+"""At most so many rows, and of at least this probability, so that the table stays short in a large world."""
 
 
 def candidates_table(rows: Sequence[Candidate]) -> str:
     """A bar for every object that may be meant, the most probable first."""
     if not rows:
         return '<p class="none">Nothing was said of an object yet.</p>'
-    shown, rest = rows[:_ROWS], rows[_ROWS:]
+    shown = [row for k, row in enumerate(rows[:_ROWS]) if k < 2 or row.probability >= _LEAST]
+    rest = rows[len(shown) :]
     lines = [_bar(_candidate_name(row), row.probability, "unseen" if row.hypothetical else "seen") for row in shown]
     if rest:
-        lines.append(_bar(f"<i>{len(rest)} others</i>", sum(row.probability for row in rest), "seen"))
+        lines.append(_bar(f"<i>{len(rest)} more</i>", sum(row.probability for row in rest), "seen"))
     return f'<table class="bars"><tbody>{"".join(lines)}</tbody></table>'
 
 

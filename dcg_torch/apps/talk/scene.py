@@ -131,8 +131,8 @@ class WorldView:
         radius = radius_of(item.type)
         with self.scene, self.scene.group().with_name(item.id) as group:
             self.scene.gltf(object_url(item)).with_name(item.id)
-            meant = self.scene.ring(radius + 0.05, radius + 0.16, theta_segments=48).move(z=0.006).visible(False)
-            pointed = self.scene.ring(radius + 0.18, radius + 0.24, theta_segments=48).move(z=0.006)
+            meant = self.scene.ring(radius + 0.05, radius + 0.16, theta_segments=48).move(z=0.02).visible(False)
+            pointed = self.scene.ring(radius + 0.18, radius + 0.24, theta_segments=48).move(z=0.02)
             pointed.material(_POINTED).visible(False)
             label = self.scene.text(item.type, _LABEL + _UNSEEN).move(z=height_of(item.type) + 0.16)
         group.draggable(self._by_hand)
