@@ -24,7 +24,7 @@ LAYERS = (
     {"learning"},
     {"agent", "lessons"},
     {"model", "watch"},
-    {"evaluation", "experiment"},
+    {"dialogue", "evaluation", "experiment"},
     {"cli"},
     {"__main__", "bench", "evaluate"},
 )

@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from dcg_torch.language import Parse, parse_command
+from dcg_torch.language.parser import MAX_CHARACTERS
 from dcg_torch.language.requests import (
     Answer,
     Motion,
@@ -76,6 +77,8 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
     parse = parse_command(text, vocabulary)
     if parse.refused in replies()["stop"]:
         return Stop()
+    if len(text) > MAX_CHARACTERS:
+        return Refused(f"I can't do that: {parse.problem}.")
     for read in (read_forget, read_teaching, read_motion, read_question):
         if asked and read is read_teaching and (answer := _answer(text, parse)) is not None:
             return answer

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.agent.asking import Question, Reply, candidates, question
-from dcg_torch.dialogue.events import Asked, Done, Learned, Understood
+from dcg_torch.agent.asking import Question, Reply
+from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import ENDINGS, kind_of, said_of
 from dcg_torch.dialogue.situation import ASKING, Errand, Situation
 from dcg_torch.grounding.solution import Solution
@@ -13,6 +13,7 @@ from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import VERBS
 from dcg_torch.language.requests import Answer
 from dcg_torch.learning.learner import Experience
+from dcg_torch.types import PhraseKind
 
 _SURE_ANSWER = 0.6
 """Probability from which on an answer in words is taken to mean one of the objects asked about."""
@@ -66,9 +67,11 @@ def understood(s: Situation, solution: Solution, *, moves: bool) -> str:
 def _doing(solution: Solution) -> str:
     if solution.inverted:
         return "I keep away from it"
-    action = solution.tree.phrase.words[:1] if solution.tree is not None else ()
-    handling = (VERBS["take"] | VERBS["put"]) - VERBS["go"] - VERBS["reach"]
-    return "I can take nothing, but I go there" if handling.intersection(action) else "I go there"
+    tree = solution.tree
+    action = {word.split()[0] for word in tree.phrase.words[:1]} if tree is not None else set()
+    to = tree is not None and any(child.phrase.kind is PhraseKind.PREPOSITION for child in tree.children)
+    handles = action & (VERBS["take"] | VERBS["put"] | VERBS["lift"]) and not (to and action & VERBS["go"])
+    return "I can take and carry nothing, but I go there" if handles else "I go there"
 
 
 def _decide(s: Situation, errand: Errand, *, saying: str | None) -> Done:
@@ -78,9 +81,8 @@ def _decide(s: Situation, errand: Errand, *, saying: str | None) -> Done:
         saying: what it says before it goes; None: what it has understood.
     """
     solution = errand.solution
-    ids = candidates(solution, ASKING) if len(errand.asked) < ASKING.questions else ()
-    if ids:
-        return _ask(s, errand, question(ids, s.seen, s.robot.pose, s.names()))
+    if len(errand.asked) < ASKING.questions and (ids := s.unclear(solution)):
+        return s.ask(errand, ids)
     chosen = errand.chosen
     if chosen is None:
         s.say(f"There is no {kind_of(solution)} here." if solution.noun is not None else "I see nothing like that.")
@@ -100,12 +102,6 @@ def _decide(s: Situation, errand: Errand, *, saying: str | None) -> Done:
     return Done(s.robot.pose, errand.result.value, chosen)
 
 
-def _ask(s: Situation, errand: Errand, asking: Question) -> Done:
-    s.open = errand, asking
-    s.emit(Asked(asking.text, asking.candidates))
-    return Done(s.robot.pose, "asked")
-
-
 def _learn(s: Situation, errand: Errand) -> None:
     """Learn from how a command came out."""
     certain = any(reply.meant is not None for _, reply in errand.asked)
@@ -115,17 +111,8 @@ def _learn(s: Situation, errand: Errand) -> None:
         s.say(f'I think that "{learned.symbol.word}" is what my camera calls "{learned.symbol.type}".')
 
 
-def answer(s: Situation, errand: Errand, asking: Question, said: Answer | str) -> Done:
-    """Go on with a command after an answer to the question about it.
-
-    Args:
-        said: in words, or the id of the object that was clicked.
-    """
-    reply = _reply(s, asking, said)
-    if reply is None:
-        s.emit(Understood("answer", "I still do not know which one you mean; click on it, or say: the first one."))
-        return _ask(s, errand, asking)
-    s.open = None
+def go_on(s: Situation, errand: Errand, asking: Question, reply: Reply) -> Done:
+    """Go on with a command after the answer to the question about it."""
     errand.asked.append((asking, reply))
     errand.solution = errand.command.told(errand.solution, asking, reply)
     if reply.meant is not None:
@@ -135,8 +122,12 @@ def answer(s: Situation, errand: Errand, asking: Question, said: Answer | str) -
     return _decide(s, errand, saying=None if reply.meant is None else "")
 
 
-def _reply(s: Situation, asking: Question, said: Answer | str) -> Reply | None:
-    """What an answer says; None if that is not clear."""
+def reply_of(s: Situation, asking: Question, said: Answer | str) -> Reply | None:
+    """What an answer says; None if that is not clear.
+
+    Args:
+        said: in words, or the id of the object that was clicked.
+    """
     ids = asking.candidates
     if isinstance(said, str):
         return Reply(said) if said in s.memory else None

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import math
 
+from dcg_torch.dialogue import lessons
 from dcg_torch.dialogue.acts import Forget, Lesson, Refused, Stop, read_act
-from dcg_torch.dialogue.commands import answer, carry_out
-from dcg_torch.dialogue.events import Done, Learned, Understood
+from dcg_torch.dialogue.commands import carry_out, go_on, reply_of
+from dcg_torch.dialogue.events import Done, Understood
+from dcg_torch.dialogue.lessons import face
 from dcg_torch.dialogue.questions import answer_question, what_is_seen
-from dcg_torch.dialogue.sentences import ENDINGS, with_article
-from dcg_torch.dialogue.situation import Situation, Stopped, beside
-from dcg_torch.geometry import bearing
+from dcg_torch.dialogue.sentences import ENDINGS
+from dcg_torch.dialogue.situation import Situation, Stopped, UnclearLesson, beside
 from dcg_torch.language.requests import Answer, Motion, Question
-from dcg_torch.language.teaching import Teaching
 from dcg_torch.simulator.limits import MAX_SPIN
 from dcg_torch.types import DriveResult
 from dcg_torch.world.files import WorldObject
@@ -36,18 +36,18 @@ def hear(s: Situation, text: str, pointed: WorldObject | None) -> Done:
 def _hear(s: Situation, text: str, pointed: WorldObject | None) -> Done:
     act = read_act(text, s.model.symbols.keys(), asked=s.open is not None)
     if isinstance(act, Answer):
-        return answer(s, *s.open, act) if s.open is not None else _refused(s, "There is no question to answer.")
+        return _answered(s, act)
     s.open = None
     if isinstance(act, Stop):
         s.emit(Understood("stop", "I stand still."))
         return Done(s.robot.pose, "done")
     if isinstance(act, Forget):
-        return _forget(s, act.word)
+        return lessons.forget(s, act.word)
     if isinstance(act, Lesson):
-        return _lesson(s, text, act.teaching, pointed)
+        return lessons.hear(s, text, act.teaching, pointed)
     if isinstance(act, Question):
         if pointed is not None:
-            _face(s, pointed)
+            face(s, pointed, "question")
         return answer_question(s, act, None if pointed is None else pointed.id)
     if isinstance(act, Motion):
         return _move(s, act)
@@ -60,76 +60,31 @@ def clicked(s: Situation, thing: WorldObject) -> Done:
     """A click on an object: an answer, or else the robot says what it takes it for."""
     try:
         if s.open is not None:
-            if thing.id not in s.memory:
-                _face(s, thing)
-            return answer(s, *s.open, thing.id)
-        return answer_question(s, Question("identify"), thing.id if _face(s, thing) else "not seen")
+            face(s, thing, "answer")
+            return _answered(s, thing.id)
+        return answer_question(s, Question("identify"), thing.id if face(s, thing, "question") else "not seen")
     except Stopped:
         s.say("I stopped.")
         return Done(s.robot.pose, "stopped")
 
 
+def _answered(s: Situation, said: Answer | str) -> Done:
+    """An answer to the open question, in words or by a click."""
+    if s.open is None:
+        return _refused(s, "There is no question to answer.")
+    about, asking = s.open
+    reply = reply_of(s, asking, said)
+    if reply is None:
+        s.emit(Understood("answer", "I still do not know which one you mean; click on it, or say: the first one."))
+        return s.ask(about, asking.candidates)
+    s.open = None
+    if isinstance(about, UnclearLesson):
+        return lessons.settle(s, about.text, reply.meant)
+    return go_on(s, about, asking, reply)
+
+
 def _refused(s: Situation, text: str) -> Done:
     s.emit(Understood("refused", text))
-    return Done(s.robot.pose, "done")
-
-
-def _face(s: Situation, thing: WorldObject) -> bool:
-    """Turn to where a person points, unless the thing was seen already; is it seen now?"""
-    s.look()
-    if thing.id not in s.memory:
-        s.robot.spin(bearing(s.robot.pose, *thing.position))
-        s.check()
-        s.look()
-    return thing.id in s.memory
-
-
-def _lesson(s: Situation, text: str, teaching: Teaching, pointed: WorldObject | None) -> Done:
-    """Learn a name."""
-    s.look()
-    start, id_ = s.robot.pose, None if pointed is None else pointed.id
-    answered = False
-    if pointed is not None and id_ not in s.memory:
-        s.emit(Understood("lesson", "I look at it."))
-        answered = True
-        _face(s, pointed)
-    elif pointed is None and teaching.subject is not None and not s.places:
-        s.emit(Understood("lesson", "I look for it."))
-        answered = True
-        s.look_round()
-    elif pointed is None and teaching.subject is None and teaching.same_as is None and s.last is not None:
-        id_ = s.last.chosen
-        s.last.taken_back = s.last.taken_back or text.lower().startswith(("no", "wrong"))
-    described = {id_: s.the(id_) for id_ in s.memory}
-    world = s.model.world_model(s.seen, start, looked=bool(s.places))
-    told = s.model.tell(text, world, pointing_at=id_)
-    if told.word is not None and told.type is not None and told:
-        s.taught[told.word] = "told"
-        if teaching.same_as is not None:
-            said = f'"{teaching.name}" and "{teaching.same_as}" are the same to me now.'
-        else:
-            said = f"I call {described.get(told.object or '', 'it')} {with_article(told.word)} now."
-    else:
-        problem = told.problem or "I do not know why"
-        said = f"I have not learned that: {problem}."
-    if answered:
-        s.say(said)
-    else:
-        s.emit(Understood("lesson", said, told.object))
-    if told and told.word is not None:
-        s.emit(Learned(told.word, told.type, "told"))
-    return Done(s.robot.pose, "done", told.object)
-
-
-def _forget(s: Situation, word: str) -> Done:
-    """Forget a word."""
-    try:
-        s.model.forget(word)
-    except ValueError:
-        return _refused(s, f'I have never heard the word "{word}".')
-    s.taught.pop(word, None)
-    s.emit(Understood("forget", f'I have forgotten what "{word}" means.'))
-    s.emit(Learned(word, None, "forgotten"))
     return Done(s.robot.pose, "done")
 
 

@@ -11,7 +11,7 @@ from dcg_torch.types import Pose
 
 @dataclass(frozen=True, slots=True)
 class Understood:
-    """The robot's first answer, before it moves: what it takes the text to be.
+    """The robot's first answer, before it moves: what it takes the text to be. A second one says how that came out.
 
     Attributes:
         act: "command", "answer", "lesson", "forget", "question", "motion", "stop" or "refused".

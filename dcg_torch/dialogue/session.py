@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -13,8 +14,18 @@ from numpy.typing import NDArray
 
 from dcg_torch.agent.robot import InteractiveRobot
 from dcg_torch.dialogue import conversation, questions
+from dcg_torch.dialogue.acts import read_act
 from dcg_torch.dialogue.events import Done, Event, Moved, Said, Watcher, WorldChanged
-from dcg_torch.dialogue.file import Header, Input, Move, SessionError, SessionFile, model_hash, read_session
+from dcg_torch.dialogue.file import (
+    MOST_CHARACTERS,
+    Header,
+    Input,
+    Move,
+    SessionError,
+    SessionFile,
+    model_hash,
+    read_session,
+)
 from dcg_torch.dialogue.situation import Situation
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
@@ -23,6 +34,8 @@ from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import RobotStart, World, WorldObject
+
+_log = logging.getLogger(__name__)
 
 
 class Session:
@@ -84,6 +97,7 @@ class Session:
         self.state = Situation(robot, self.model, self._emit, lambda: self._was_stopped)
         robot.load(header.world, rng=np.random.default_rng(header.seed))
         robot.on_tick = lambda pose: self._emit(Moved(pose))
+        read_act("turn left", (), asked=False)  # so that the first text does not wait for the words to load
         self.state.warm_up()
 
     @classmethod
@@ -117,8 +131,9 @@ class Session:
         return session
 
     def say(self, text: str, *, pointing_at: str | None = None, watch: Watcher | None = None) -> tuple[Event, ...]:
-        """A text, with the id of the object that was pointed at, if any. First event: `Understood`; last: `Done`."""
-        return self.play(Input(say=text, pointing_at=pointing_at), None, watch)
+        """A text, with the id of the object that was pointed at, if any. The first answer comes before it moves."""
+        clean = text.encode("utf-8", "replace").decode()[:MOST_CHARACTERS]
+        return self.play(Input(say=clean, pointing_at=pointing_at), None, watch)
 
     def click(self, object_id: str, *, watch: Watcher | None = None) -> tuple[Event, ...]:
         """A click: the answer to a question, or else the robot says what it takes the object for."""
@@ -154,9 +169,13 @@ class Session:
         self._stop.clear()
         self.state.robot.resume()
         try:
-            self._emit(self._done(line))
-        finally:
-            self._watch = None
+            done = self._done(line)
+        except Exception:  # a fault in one input must not take the session with it, now or when it is played again
+            _log.exception("an input failed: %s", line)
+            self._emit(Said("Something went wrong in me; the log of the program says what."))
+            done = Done(self.pose, "done")
+        self._emit(done)
+        self._watch = None
         return tuple(self._events)
 
     def _done(self, line: Input) -> Done:
@@ -187,14 +206,16 @@ class Session:
 
     def _change(self, things: Mapping[str, WorldObject]) -> Done:
         """The world with these objects, the robot where it is; it forgets what was changed unless it sees it."""
+        if not things:
+            return self._refused("one object must stay")
         before, state = self.world, self.state
         old = {thing.id: thing for thing in before.objects}
         changed = [id_ for id_ in {**old, **things} if old.get(id_) != things.get(id_)]
         try:
-            world = _at(World(name=before.name, objects=tuple(things.values())), self.pose)
+            world = standing_at(World(name=before.name, objects=tuple(things.values())), self.pose)
             state.robot.load(world, rng=np.random.default_rng(self.header.seed))
         except ValueError as error:
-            state.robot.load(_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
+            state.robot.load(standing_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
             return self._refused(str(error).splitlines()[0])
         self.world = world
         state.places.clear()
@@ -250,7 +271,7 @@ class Session:
 
     def save_world(self, path: Path) -> None:
         """Write the world as it is now, the robot's pose as its start, as a world file."""
-        values = _at(self.world, self.pose).model_dump(mode="json", exclude={"commands", "relational"})
+        values = standing_at(self.world, self.pose).model_dump(mode="json", exclude={"commands", "relational"})
         write_whole(path, yaml.safe_dump(values, sort_keys=False, allow_unicode=True))
 
     def close(self) -> None:
@@ -281,7 +302,7 @@ def _robot(simulator: str) -> InteractiveRobot:
     return SimulatedRobot(observed=1)
 
 
-def _at(world: World, pose: Pose) -> World:
+def standing_at(world: World, pose: Pose) -> World:
     """The world with the robot at this pose."""
     return world.model_copy(update={"robot": RobotStart(x=pose.x, y=pose.y, yaw=pose.yaw)})
 

@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
-from dcg_torch.agent.asking import AskingPolicy, Question, Reply
+from dcg_torch.agent.asking import AskingPolicy, Question, Reply, candidates, question
 from dcg_torch.agent.command import CommandUnderWay, Look
-from dcg_torch.agent.explore import LookBefore, Point, Worth
+from dcg_torch.agent.explore import LookBefore, Point, Worth, missing
 from dcg_torch.agent.robot import InteractiveRobot
 from dcg_torch.dialogue import sentences
-from dcg_torch.dialogue.events import Candidates, Looking, Said, Watcher
+from dcg_torch.dialogue.events import Asked, Candidates, Done, Looking, Said, Watcher
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parse
@@ -64,6 +64,13 @@ class Errand:
         return None if thing is None or thing.hypothetical else thing.id
 
 
+@dataclass(frozen=True, slots=True)
+class UnclearLesson:
+    """A teacher's sentence, of which it is not clear which object it is about."""
+
+    text: str
+
+
 @dataclass
 class Situation:
     """The state of a conversation.
@@ -87,7 +94,7 @@ class Situation:
     places: list[Point] = field(default_factory=list)
     before: Pose | None = None
     last: Errand | None = None
-    open: tuple[Errand, Question] | None = None
+    open: tuple[Errand | UnclearLesson, Question] | None = None
     taught: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -145,6 +152,17 @@ class Situation:
     def where(self, id_: str) -> str:
         """Where an object is, from here."""
         return sentences.where(self.memory[id_], self.robot.pose)
+
+    def unclear(self, solution: Solution) -> tuple[str, ...]:
+        """The objects to ask about: more than one may be meant, and what is meant is here more likely than not."""
+        return candidates(solution, ASKING) if missing(solution) <= _WORTH.absent else ()
+
+    def ask(self, about: Errand | UnclearLesson, ids: Sequence[str]) -> Done:
+        """Ask which of these objects is meant; the next input may answer."""
+        asking = question(ids, self.seen, self.robot.pose, self.names())
+        self.open = about, asking
+        self.emit(Asked(asking.text, asking.candidates))
+        return Done(self.robot.pose, "asked")
 
     def look_round(self) -> None:
         """Turn until all round has been seen, unless that has been done since the world last changed."""
