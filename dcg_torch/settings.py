@@ -204,6 +204,7 @@ class TalkSettings:
     host: str = _setting("127.0.0.1", "address to listen on; all but the loopback address ask for a token")
     port: int = _setting(8080, "to listen on; 0 takes a free one", Bounds(0, 65_535))
     token: str | None = _setting(None, "what visitors need; none: made by chance, where one is needed")
+    pace: float = _setting(1.0, "times as fast as the robot that it is shown; 0: as fast as can be", Bounds(0, 100))
     open: bool = _setting(True, "open the page in the browser")
 
 

@@ -53,7 +53,7 @@ def _application(config: DictConfig) -> None:
             )
 
         address = Address.checked(settings.host, settings.port, settings.token)
-        serve(Host(file, new), address, show=settings.open)
+        serve(Host(file, new, settings.pace), address, show=settings.open)
 
 
 def _new_file() -> Path:

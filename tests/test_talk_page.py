@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import functools
 import io
 import json
 import struct
@@ -16,24 +17,24 @@ import pytest
 
 pytest.importorskip("nicegui", reason="the page needs the extra talk: pip install -e '.[talk]'")
 
-from fastapi import FastAPI  # noqa: E402
-from nicegui.testing import User, user_simulation  # noqa: E402
+from fastapi import FastAPI
+from nicegui.testing import User, user_simulation
 
-from dcg_torch.apps.talk import files  # noqa: E402
-from dcg_torch.apps.talk.gate import Gate  # noqa: E402
-from dcg_torch.apps.talk.host import Host  # noqa: E402
-from dcg_torch.apps.talk.lines import Line, names_of, with_inputs  # noqa: E402
-from dcg_torch.apps.talk.looks import object_file, robot_file  # noqa: E402
-from dcg_torch.apps.talk.panels import candidates_table, words_table  # noqa: E402
-from dcg_torch.apps.talk.server import Address, add_routes  # noqa: E402
-from dcg_torch.dialogue.events import Candidate, Done, Said  # noqa: E402
-from dcg_torch.dialogue.file import Input, read_session  # noqa: E402
-from dcg_torch.dialogue.session import Session  # noqa: E402
-from dcg_torch.simulator.bodies import extent  # noqa: E402
-from dcg_torch.storage.errors import UserError  # noqa: E402
-from dcg_torch.storage.resources import resource  # noqa: E402
-from dcg_torch.types import Pose  # noqa: E402
-from dcg_torch.world.files import World, load_world  # noqa: E402
+from dcg_torch.apps.talk import files
+from dcg_torch.apps.talk.gate import Gate
+from dcg_torch.apps.talk.host import Host
+from dcg_torch.apps.talk.lines import Line, names_of, with_inputs
+from dcg_torch.apps.talk.looks import object_file, robot_file
+from dcg_torch.apps.talk.panels import candidates_table, words_table
+from dcg_torch.apps.talk.server import Address, add_routes
+from dcg_torch.dialogue.events import Candidate, Done, Said
+from dcg_torch.dialogue.file import Input, read_session
+from dcg_torch.dialogue.session import Session
+from dcg_torch.simulator.bodies import extent
+from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.resources import resource
+from dcg_torch.types import Pose
+from dcg_torch.world.files import World, load_world
 
 Talk = Callable[[User, Host], Awaitable[None]]
 
@@ -150,21 +151,15 @@ def test_a_session_comes_back_and_replays_to_the_same_bytes(host: Host, laborato
 def test_worlds_models_and_sessions_are_taken_home_and_brought_back(host: Host, laboratory: World) -> None:
     async def talk(user: User, host: Host) -> None:
         host.say("move towards the cone")
-        saved = {
-            name: await host.ask(lambda session, f=function: f(session, host.file))
-            for name, _, function in (
-                ("world", "", files.world_file),
-                ("model", "", files.model_file),
-                ("session", "", files.session_file),
-            )
-        }
+        functions = (files.world_file, files.model_file, files.session_file)
+        world, model, session = [await host.ask(functools.partial(f, file=host.file)) for f in functions]
         lines = list(host.state.lines)
-        await host.exchange(lambda session: files.with_world(host.file, saved["world"])(session))
+        await host.exchange(files.with_world(host.file, world))
         assert host.state.lines == []
         assert "cone" in host.state.words  # what was learned goes along into another world
-        await host.exchange(files.with_session(host.file, saved["session"]))
+        await host.exchange(files.with_session(host.file, session))
         assert host.state.lines == lines
-        await host.exchange(files.with_model(host.file, saved["model"]))
+        await host.exchange(files.with_model(host.file, model))
         assert "cone" in host.state.words
         assert len(list(host.file.parent.glob("session-before-*.jsonl"))) == 3
 

@@ -9,7 +9,8 @@ from xml.etree import ElementTree
 
 import dcg_torch.simulator
 from dcg_torch.apps.talk.gltf import Shape, glb
-from dcg_torch.simulator.bodies import Model, Part, extent, footprint, model, registered, rgb
+from dcg_torch.simulator.bodies import Model, Part, extent, footprint, registered, rgb
+from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
 
 _MODELS = Path(dcg_torch.simulator.__file__).parent / "models"
@@ -38,11 +39,6 @@ def radius_of(type_: str) -> float:
 def height_of(type_: str) -> float:
     """Metres that an object of this type stands tall."""
     return extent(type_)[2] if type_ in registered() else _STAND_IN
-
-
-def css_color(color: str) -> str:
-    """A colour name as "#rrggbb"."""
-    return "#" + "".join(f"{round(255 * c):02x}" for c in _color(color))
 
 
 def _color(name: str) -> tuple[float, float, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from nicegui import Client, events, ui
 
@@ -159,7 +160,7 @@ class Page:
         else:
             self._pointing.set_value(None if object_id == self._pointed else object_id)
 
-    def _point(self, event: events.ValueChangeEventArguments) -> None:
+    def _point(self, event: events.ValueChangeEventArguments[Any]) -> None:
         self._pointed = event.value
         self._show_marks()
 

@@ -84,11 +84,11 @@ class Tools:
             ("model", ".zip", files.with_model),
             ("session", ".jsonl", files.with_session),
         ):
-            upload = ui.upload(label=f"Load {name}", auto_upload=True, max_file_size=files.MOST, max_files=1)
-            upload.on_upload(lambda event, change=change: self._load(event, change))
+            upload = ui.upload(label=f"Load {name}", auto_upload=True, max_file_size=files.MOST)
+            upload.on_upload(lambda event, upload=upload, change=change: self._load(event, upload, change))
             upload.props(f'accept="{accepted}" flat bordered').classes("wide")
 
-    def _chosen(self, event: events.ValueChangeEventArguments) -> None:
+    def _chosen(self, event: events.ValueChangeEventArguments[Any]) -> None:
         for thing in self._world.objects if self._world is not None else ():
             if thing.id == event.value:
                 self._x.set_value(thing.position[0])
@@ -125,9 +125,11 @@ class Tools:
     async def _hand_out(self, name: str, content: _Content) -> None:
         ui.download.content(await self._host.ask(lambda session: content(session, self._host.file)), name)
 
-    async def _load(self, event: events.UploadEventArguments, change: Callable[[Path, bytes], Change]) -> None:
+    async def _load(
+        self, event: events.UploadEventArguments, upload: ui.upload, change: Callable[[Path, bytes], Change]
+    ) -> None:
         content = await event.file.read()
-        event.sender.reset()
+        upload.reset()
         await _told(lambda: self._host.exchange(change(self._host.file, content)))
 
 
