@@ -26,12 +26,12 @@ LAYERS = (
     {"model", "watch"},
     {"dialogue", "evaluation", "experiment"},
     {"cli"},
-    {"__main__", "bench", "evaluate"},
+    {"__main__", "apps", "bench", "evaluate", "talk"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
 # The only modules (or all modules below them) that may import a package, at the top of the file or inside a function.
-HYDRA = {"cli", "evaluate"}
+HYDRA = {"cli", "evaluate", "apps.talk.program"}
 ONLY = {
     "pybullet": {"simulator"},
     "pybullet_utils": {"simulator"},
@@ -44,6 +44,10 @@ ONLY = {
     "sentence_transformers": {"names.embedding"},
     "transformers": {"names.embedding"},
     "sklearn": {"evaluation.baselines", "bench"},
+    "nicegui": {"apps.talk"},
+    "fastapi": {"apps.talk.server"},
+    "starlette": {"apps.talk.gate"},
+    "uvicorn": {"apps.talk.server"},
 }
 ROOT = "dcg_torch"
 

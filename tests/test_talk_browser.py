@@ -14,29 +14,21 @@ from pathlib import Path
 import pytest
 
 pytest.importorskip("nicegui", reason="the page needs the extra talk: pip install -e '.[talk]'")
-sync_api = pytest.importorskip(
-    "playwright.sync_api", reason="a browser is driven by Playwright: pip install playwright"
-)
+pytest.importorskip("playwright", reason="a browser is driven by Playwright: pip install playwright")
+
+from playwright.sync_api import Browser, Page, expect, sync_playwright
+
 BROWSER = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(BROWSER is None, reason="no Chromium here: apt-get install chromium"),
 ]
 
-from playwright.sync_api import Page, expect
-
 # Without a graphics card, in a container, and without a word to anyone.
-FLAGS = [
-    "--no-sandbox",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
+FLAGS = (
+    *("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-quic"),
+    *("--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"),
+)
 PACE = "pace=3"
 PATIENCE = 60_000  # milliseconds that a busy machine may take
 Start = Callable[..., str]
@@ -65,15 +57,15 @@ def start(tmp_path: Path) -> Iterator[Start]:
 
 
 @pytest.fixture(scope="module")
-def browser() -> Iterator[sync_api.Browser]:
-    with sync_api.sync_playwright() as playwright:
+def browser() -> Iterator[Browser]:
+    with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=BROWSER, args=FLAGS)
         yield browser
         browser.close()
 
 
 @pytest.fixture
-def page(browser: sync_api.Browser) -> Iterator[Page]:
+def page(browser: Browser) -> Iterator[Page]:
     """A phone's page; it fails with any error of its scripts."""
     errors: list[str] = []
     page = browser.new_page(viewport={"width": 390, "height": 844})
@@ -130,7 +122,7 @@ def test_the_laboratory_demonstration_talked_through(page: Page, start: Start) -
     assert conversation(page) == before
 
     page.get_by_text("Save, load, replay").click()
-    page.get_by_role("button", name="Replay").click()
+    page.get_by_role("button", name="Replay", exact=True).click()
     expect(page.get_by_role("log")).to_contain_text("the same to the last byte", timeout=PATIENCE)
     assert conversation(page)[:-1] == before
     assert page.evaluate("document.documentElement.scrollWidth <= window.innerWidth")

@@ -18,9 +18,10 @@ import pytest
 pytest.importorskip("nicegui", reason="the page needs the extra talk: pip install -e '.[talk]'")
 
 from fastapi import FastAPI
+from making import typed
 from nicegui.testing import User, user_simulation
 
-from dcg_torch.apps.talk import files
+from dcg_torch.apps.talk import files, program
 from dcg_torch.apps.talk.gate import Gate
 from dcg_torch.apps.talk.host import Host
 from dcg_torch.apps.talk.lines import Line, names_of, with_inputs
@@ -30,6 +31,7 @@ from dcg_torch.apps.talk.server import Address, add_routes
 from dcg_torch.dialogue.events import Candidate, Done, Said
 from dcg_torch.dialogue.file import Input, read_session
 from dcg_torch.dialogue.session import Session
+from dcg_torch.settings import TalkSettings
 from dcg_torch.simulator.bodies import extent
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.resources import resource
@@ -303,3 +305,30 @@ def test_the_gate_of_this_machine_knows_its_names_only(kind: str) -> None:
         assert ask_gate(None, kind, host=name) == [{"passed": True}]
     for name in ("evil.example:8080", "", "127.0.0.1.evil.example"):
         assert {"passed": True} not in ask_gate(None, kind, host=name)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ("world=nowhere", "world=nowhere: take generated, a YAML file, or one of"),
+        ("world=none.yaml", "none.yaml"),
+        ("prot=80", "prot: there is no such setting; did you mean port?"),
+        ("port=-1", "port=-1"),
+        ("simulator=gazebo", "simulator"),
+        ("host=no.such.host.invalid", "host=no.such.host.invalid"),
+    ],
+)
+def test_what_is_wrong_is_said_in_one_line(
+    wrong: str, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = ("open=false", f"session={tmp_path}/session.jsonl")
+    status, out, err = typed(capsys, program.main, "dcg_torch.talk", *settings, wrong)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert says in err
+
+
+def test_worlds_are_committed_generated_or_ones_own(tmp_path: Path, laboratory: World) -> None:
+    assert program.world_of(TalkSettings()) == laboratory
+    assert program.world_of(TalkSettings(world="world_03")).name == "world_03"
+    one, two = (program.world_of(TalkSettings(world="generated", seed=seed)) for seed in (1, 2))
+    assert one.objects != two.objects

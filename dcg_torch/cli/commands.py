@@ -26,7 +26,9 @@ COMMANDS: Mapping[str, Command] = {
     "run": Command("cli.run", "one experiment, or a sweep of them with -m (the default)"),
     "evaluate": Command("evaluate", "ground the commands of episode files, perhaps after training on others"),
     "report": Command("report.__main__", "tables of runs and sweeps"),
-    "talk": Command("talk", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)),
+    "talk": Command(
+        "apps.talk.program", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)
+    ),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
@@ -42,7 +44,12 @@ def main(commands: Mapping[str, Command] = COMMANDS) -> int:
         return 0
     if name not in commands:
         return _main_of("run", commands["run"])
-    sys.argv = [f"{program} {name}", *arguments[1:]]
+    return start(name, [f"{program} {name}", *arguments[1:]], commands)
+
+
+def start(name: str, typed: list[str], commands: Mapping[str, Command] = COMMANDS) -> int:
+    """Run one command as if `typed` (its program, then its arguments) was the command line; the exit status."""
+    sys.argv = typed
     return _main_of(name, commands[name])
 
 
