@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import re
 import shutil
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -39,10 +38,14 @@ def start(tmp_path: Path) -> Iterator[Start]:
     """Starts the program with a session in a file; its address. What ran before is killed."""
     running: list[subprocess.Popen[str]] = []
 
-    def run(*settings: str) -> str:
+    def kill() -> None:
         for one in running:
-            one.send_signal(signal.SIGKILL)
-            one.wait()
+            with one:  # closes its pipe, too
+                one.kill()
+        running.clear()
+
+    def run(*settings: str) -> str:
+        kill()
         command = [sys.executable, "-m", "dcg_torch.talk", "open=false", f"session={tmp_path}/session.jsonl", *settings]
         environment = {**os.environ, "PYTHONUNBUFFERED": "1"}
         process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
@@ -51,9 +54,7 @@ def start(tmp_path: Path) -> Iterator[Start]:
         return process.stdout.readline().strip()
 
     yield run
-    for one in running:
-        one.kill()
-        one.wait()
+    kill()
 
 
 @pytest.fixture(scope="module")

@@ -15,16 +15,21 @@ from numpy.typing import NDArray
 
 RGB = tuple[float, float, float]
 _FLOAT, _INTEGER = 5126, 5125  # component types of the format
+_LINES, _TRIANGLES = 1, 4  # what indices join
 _JSON, _BINARY = 0x4E4F534A, 0x004E4942  # chunk types
 
 
 class Shape:
-    """One mesh in one colour: vertices and normals (n, 3), triangles (m, 3), the colour in [0, 1] as on the screen."""
+    """One mesh in one colour: vertices and normals (n, 3), the colour in [0, 1] as on the screen.
 
-    def __init__(self, vertices: NDArray[Any], normals: NDArray[Any], triangles: NDArray[Any], color: RGB) -> None:
+    `indices` of vertices are triangles (m, 3), or the ends of lines (m, 2).
+    """
+
+    def __init__(self, vertices: NDArray[Any], normals: NDArray[Any], indices: NDArray[Any], color: RGB) -> None:
         self.vertices = np.asarray(vertices, dtype="<f4")
         self.normals = np.asarray(normals, dtype="<f4")
-        self.triangles = np.asarray(triangles, dtype="<u4").reshape(-1)
+        self.mode = _LINES if np.shape(indices)[1] == 2 else _TRIANGLES
+        self.indices = np.asarray(indices, dtype="<u4").reshape(-1)
         self.color = color
 
 
@@ -49,8 +54,8 @@ def glb(shapes: Sequence[Shape]) -> bytes:
             "POSITION": add(shape.vertices, _FLOAT, "VEC3", **bounds),
             "NORMAL": add(shape.normals, _FLOAT, "VEC3"),
         }
-        indices = add(shape.triangles, _INTEGER, "SCALAR")
-        primitives.append({"attributes": attributes, "indices": indices, "material": number})
+        indices = add(shape.indices, _INTEGER, "SCALAR")
+        primitives.append({"attributes": attributes, "indices": indices, "material": number, "mode": shape.mode})
     document = {
         "asset": {"version": "2.0"},
         "scene": 0,

@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 from xml.etree import ElementTree
 
+import numpy as np
+
 import dcg_torch.simulator
 from dcg_torch.apps.talk.gltf import Shape, glb
 from dcg_torch.simulator.bodies import Model, Part, extent, footprint, registered, rgb
@@ -14,6 +16,8 @@ from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
 
 _MODELS = Path(dcg_torch.simulator.__file__).parent / "models"
+FLOOR = 40
+"""Metres of the floor that has lines."""
 _STAND_IN = 0.3  # metres: a cube of this size stands for a type without a body
 
 
@@ -27,6 +31,17 @@ def object_file(type_: str, color: str) -> bytes:
 def robot_file() -> bytes:
     """The robot as binary glTF, facing x."""
     return _file(_robot(), (0.5, 0.5, 0.5))
+
+
+@functools.cache
+def floor_file() -> bytes:
+    """The lines of a square of `FLOOR` metres about the origin, a metre apart, as binary glTF."""
+    half = FLOOR / 2
+    at = np.arange(-half, half + 1)
+    ends = [[(a, -half, 0), (a, half, 0)] for a in at] + [[(-half, a, 0), (half, a, 0)] for a in at]
+    lines = np.array(ends, dtype=float).reshape(-1, 3)
+    up = np.tile([0.0, 0.0, 1.0], (len(lines), 1))
+    return glb([Shape(lines, up, np.arange(len(lines)).reshape(-1, 2), (0.80, 0.79, 0.77))])
 
 
 @functools.lru_cache(maxsize=512)

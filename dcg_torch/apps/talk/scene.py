@@ -16,7 +16,7 @@ from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.types import Pose
 from dcg_torch.world.files import World, WorldObject
 
-ROBOT_URL = "/bodies/robot.glb"
+ROBOT_URL, FLOOR_URL = "/bodies/robot.glb", "/bodies/floor.glb"
 _FAN = 4.0  # metres of the field of view that are drawn
 _LABEL = "font:600 12px system-ui;text-shadow:0 0 3px #fff,0 0 3px #fff;white-space:nowrap;color:"
 _SEEN, _UNSEEN = "#111827", "#8a8f98"
@@ -55,7 +55,7 @@ class WorldView:
         self._by_hand = False
         self._fitted: str | None = None
         self.scene = ui.scene(
-            grid=(30, 30),
+            grid=False,  # its plane is shaded all over, which takes most of the time where no graphics card draws
             camera=ui.scene.perspective_camera(fov=35, near=0.05, far=120),
             on_click=self._on_click,
             click_events=["click"],
@@ -65,6 +65,8 @@ class WorldView:
             fps=60,
         )
         self.scene.classes("world").props('role=img aria-label="The world in 3-D; Objects lists what is in it"')
+        with self.scene:
+            self.scene.gltf(FLOOR_URL)
         with self.scene, self.scene.group() as self._robot:
             self.scene.gltf(ROBOT_URL)
             edge = [FIELD_OF_VIEW * (k / 16 - 0.5) for k in range(17)]

@@ -18,8 +18,9 @@ from nicegui import Client, ui
 
 from dcg_torch.apps.talk.gate import LOOPBACK, Gate
 from dcg_torch.apps.talk.host import Host
-from dcg_torch.apps.talk.looks import object_file, robot_file
+from dcg_torch.apps.talk.looks import floor_file, object_file, robot_file
 from dcg_torch.apps.talk.page import CSS, Page
+from dcg_torch.apps.talk.scene import FLOOR_URL, ROBOT_URL
 from dcg_torch.storage.errors import UserError
 
 _GLB = "model/gltf-binary"
@@ -97,9 +98,13 @@ def add_routes(app: FastAPI, host: Host) -> None:
         ui.colors(primary="#1d4ed8")
         Page(host, client)
 
-    @app.get("/bodies/robot.glb")
+    @app.get(ROBOT_URL)
     def robot() -> Response:
         return Response(robot_file(), media_type=_GLB, headers=_KEEP)
+
+    @app.get(FLOOR_URL)
+    def floor() -> Response:
+        return Response(floor_file(), media_type=_GLB, headers=_KEEP)
 
     @app.get("/bodies/{type_}/{color}.glb")
     def body(type_: str, color: str) -> Response:
