@@ -88,7 +88,7 @@ def say(page: Page, text: str) -> None:
 
 
 def conversation(page: Page) -> list[str]:
-    return page.get_by_role("log").locator("> div").all_inner_texts()
+    return page.get_by_role("log").locator(".lines > div").all_inner_texts()
 
 
 def test_the_laboratory_demonstration_talked_through(page: Page, start: Start) -> None:

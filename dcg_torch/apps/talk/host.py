@@ -32,6 +32,7 @@ _LONGEST = 500  # characters of what a person says
 _WAITING = 50  # inputs that may wait for their turn
 _PICTURE_EVERY = 4  # moves between two pictures of the camera
 _MOVE = 1 / 30  # seconds that a move takes the robot
+_GATHER = 0.015  # seconds in which changes are gathered before the pages hear of them
 _REPLAY = 4.0  # times as fast as it was
 _log = logging.getLogger(__name__)
 
@@ -87,6 +88,8 @@ class Host:
         self._pace = 0.0  # now
         self._hurries = False  # what is under way may be brought to its end at once
         self._due, self._moves = 0.0, 0
+        self._changed: dict[str, None] = {}  # parts of the state, in the order of their change
+        self._pictured: tuple[Pose, World] | None = None
         self._digest = hashlib.sha256()  # of all events of the session
 
     async def begin(self) -> None:
@@ -176,14 +179,21 @@ class Host:
         return await asyncio.get_running_loop().run_in_executor(self._thread, do)
 
     def _set(self, part: str, **values: Any) -> None:
-        """Change the state, and tell the pages which part of it is new."""
+        """Change the state, and tell the pages soon which part of it is new: once of many changes in a row."""
         for name, value in values.items():
             setattr(self.state, name, value)
+        if not self._changed:
+            asyncio.get_running_loop().call_later(_GATHER, self._tell)
+        self._changed[part] = None
+
+    def _tell(self) -> None:
+        parts, self._changed = tuple(self._changed), {}
         for listener in tuple(self._listeners):
             try:
-                listener(part)
+                for part in parts:
+                    listener(part)
             except Exception:  # a page that is going away must not keep the others from hearing
-                _log.exception("a page could not show %s", part)
+                _log.exception("a page could not show %s", ", ".join(parts))
 
     # What follows runs in the session's thread.
 
@@ -290,9 +300,11 @@ class Host:
         time.sleep(max(0.0, self._due - now))
 
     def _take_picture(self, session: Session) -> None:
-        pixels = session.picture(width=320, height=180)
+        stands = (session.pose, session.world)
+        pixels = session.picture(width=320, height=180) if stands != self._pictured else None
         if pixels is None:
             return
+        self._pictured = stands
         content = io.BytesIO()
         Image.fromarray(pixels).save(content, "JPEG", quality=80)
         self._post("picture", picture="data:image/jpeg;base64," + base64.b64encode(content.getvalue()).decode())

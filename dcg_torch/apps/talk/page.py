@@ -14,6 +14,7 @@ from dcg_torch.apps.talk.scene import WorldView
 from dcg_torch.apps.talk.tools import Tools
 from dcg_torch.dialogue.file import Input
 from dcg_torch.storage.errors import UserError
+from dcg_torch.world.files import World
 
 CSS = Path(__file__).with_name("page.css")
 _SHOWN = 200
@@ -32,6 +33,7 @@ class Page:
         self._host = host
         self._said = 0  # lines of the conversation that were shown, those that are gone included
         self._pointed: str | None = None
+        self._shown: World | None = None
         with ui.element("main").classes("talk"):
             self._head()
             self._world()
@@ -60,11 +62,8 @@ class Page:
                 self._show_marks()
             case "world" if state.world is not None:
                 self._view.show_world(state.world, state.seen)
-                names = state.names
-                if self._pointed not in names:
-                    self._pointed = None
-                self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
-                self._tools.show_world(state.world)
+                if state.world is not self._shown:
+                    self._show_names(state.world)
                 self._show_marks()
             case "status":
                 self._status.set_text(self._state_of_affairs())
@@ -85,8 +84,9 @@ class Page:
 
     def _chat(self) -> None:
         with ui.element("section").classes("card chat").props('aria-label="Talk"'):
-            self._log = ui.element("div").classes("log")
-            self._log.props('role=log aria-live=polite aria-label="Conversation" tabindex=0')
+            log = ui.element("div").classes("log")
+            with log.props('role=log aria-live=polite aria-label="Conversation" tabindex=0'):
+                self._log = ui.element("div").classes("lines")
             with ui.element("div").classes("entry"):
                 self._input = ui.input("Command").props("outlined dense autofocus autocomplete=off maxlength=500")
                 self._input.on("keydown.enter", self._say)
@@ -121,7 +121,6 @@ class Page:
         self._said = state.dropped + len(state.lines)
         while len(self._log.default_slot.children) > _SHOWN:
             self._log.remove(0)
-        self._log.run_method("scrollTo", 0, 10_000_000)
 
     def _add(self, line: Line) -> None:
         with self._log, ui.element("div").classes(line.who):
@@ -133,6 +132,13 @@ class Page:
                         ui.button(names.get(choice, choice), on_click=lambda choice=choice: self._click(choice)).props(
                             "dense outline no-caps size=sm"
                         )
+
+    def _show_names(self, world: World) -> None:
+        self._shown, names = world, self._host.state.names
+        if self._pointed not in names:
+            self._pointed = None
+        self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
+        self._tools.show_world(world)
 
     def _show_marks(self) -> None:
         state = self._host.state

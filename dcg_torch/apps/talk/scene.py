@@ -98,8 +98,10 @@ class WorldView:
     def show_marks(self, probabilities: Mapping[str, float], pointed: str | None) -> None:
         """Ring what may be meant, the more strongly the more probable it is; and what the visitor points at."""
         for name, thing in self._things.items():
-            share = probabilities.get(name, 0.0)
-            thing.meant.visible(share >= 0.05).material(_MEANT, opacity=round(0.15 + 0.85 * share, 2))
+            share = round(probabilities.get(name, 0.0), 1)
+            thing.meant.visible(share > 0.0)
+            if share:
+                thing.meant.material(_MEANT, opacity=0.1 + 0.9 * share)
             thing.pointed.visible(name == pointed)
 
     def by_hand(self, on: bool) -> None:

@@ -76,6 +76,7 @@ def serve(host: Host, address: Address, *, show: bool) -> None:
         title=_TITLE,
         language="en-US",
         tailwind=False,
+        reconnect_timeout=20.0,  # of a phone that changes its network
         message_history_length=200,
         binding_refresh_interval=None,
         show_welcome_message=False,
