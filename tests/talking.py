@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -37,7 +38,7 @@ class Played:
     def failures(self) -> list[str]:
         """What is not as it was expected, a line each."""
         expected = self.turn["expect"]
-        found = {name: _FOUND[name](self) for name in expected if name not in ("says", "not_says")}
+        found = {name: find(self) for name, find in _FOUND.items() if name in expected}
         wrong = [f"{k}: {found[k]!r}, not {expected[k]!r}" for k in found if not _same(k, found[k], expected[k])]
         said = " ".join(spoken(self.events)).lower()
         wrong += [f"does not say {part!r}: {said}" for part in expected.get("says", ()) if part.lower() not in said]
@@ -57,7 +58,7 @@ def _act(played: Played) -> str:
     return understood.act
 
 
-_FOUND = {
+_FOUND: dict[str, Callable[[Played], Any]] = {
     "act": _act,
     "object": lambda played: _done(played).object,
     "result": lambda played: _done(played).result,
@@ -70,16 +71,20 @@ _FOUND = {
 
 def _same(name: str, found: Any, expected: Any) -> bool:
     if name == "turned":
-        return abs(math.remainder(found - expected, 360.0)) < 3.0
+        return bool(abs(math.remainder(found - expected, 360.0)) < 3.0)
     if name == "driven":
-        return abs(found - expected) < 0.2
+        return bool(abs(found - expected) < 0.2)
     if name == "asked":
         return bool(found == set(expected))
     return bool(found == expected)
 
 
-def play(session: Session, turns: list[dict[str, Any]]) -> list[Played]:
-    """Play the turns; those of the world's changes are not among what is returned."""
+def play(session: Session, turns: list[dict[str, Any]], observe: Callable[[int], object] | None = None) -> list[Played]:
+    """Play the turns; those of the world's changes are not among what is returned.
+
+    Args:
+        observe: called with the number of each move in its turn.
+    """
     out = []
     for turn in turns:
         before = session.pose
@@ -94,6 +99,8 @@ def play(session: Session, turns: list[dict[str, Any]]) -> list[Played]:
 
             def watch(event: Event, moves: list[int] = moves, stop: int | None = turn.get("stop")) -> None:
                 moves[0] += isinstance(event, Moved)
+                if observe is not None:
+                    observe(moves[0])
                 if moves[0] == stop:
                     session.stop()
 

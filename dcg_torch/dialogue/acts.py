@@ -11,6 +11,7 @@ from typing import Any
 import yaml
 
 from dcg_torch.language import Parse, parse_command
+from dcg_torch.language.lexicon import SETS
 from dcg_torch.language.parser import MAX_CHARACTERS
 from dcg_torch.language.requests import (
     Answer,
@@ -79,9 +80,12 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
         return Stop()
     if len(text) > MAX_CHARACTERS:
         return Refused(f"I can't do that: {parse.problem}.")
+    teaching = read_teaching(text)
+    named = teaching is not None and (teaching.subject is not None or teaching.same_as is not None)
+    answer = None if named or read_forget(text) else _answer(text, parse)
+    if answer is not None and (asked or answer.yes is not None):
+        return answer
     for read in (read_forget, read_teaching, read_motion, read_question):
-        if asked and read is read_teaching and (answer := _answer(text, parse)) is not None:
-            return answer
         if (found := read(text)) is not None:
             if isinstance(found, str):
                 return Forget(found)
@@ -89,7 +93,9 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
     if parse.tree is None:
         reason = parse.refused if tokens(text) else replies()["greeting"]  # "hello" is left out as a filler
         return Refused(replies()["refused"].get(reason) or f"I can't do that: {parse.problem}.")
-    if parse.tree.phrase.words == ("be",):
+    if parse.tree.phrase.words == ("be",) and not (SETS["commands"] | set(replies()["pointing_out"])) & set(
+        tokens(text)
+    ):
         return Refused(replies()["refused"][replies()["telling"]])
     return parse
 

@@ -86,8 +86,7 @@ def _decide(s: Situation, errand: Errand, *, saying: str | None) -> Done:
     chosen = errand.chosen
     if chosen is None:
         s.say(f"There is no {kind_of(solution)} here." if solution.noun is not None else "I see nothing like that.")
-        _learn(s, errand)
-        return Done(s.robot.pose, "absent")
+        return Done(s.robot.pose, "absent")  # nothing is learned: visitors ask for what was never there
     if saying is None:
         saying = f"You mean {s.the(chosen)}; {_doing(solution)}."
     if saying:

@@ -71,7 +71,7 @@ def clicked(s: Situation, thing: WorldObject) -> Done:
 def _answered(s: Situation, said: Answer | str) -> Done:
     """An answer to the open question, in words or by a click."""
     if s.open is None:
-        return _refused(s, "There is no question to answer.")
+        return _refused(s, "I have asked nothing.")
     about, asking = s.open
     reply = reply_of(s, asking, said)
     if reply is None:

@@ -12,6 +12,7 @@ from dcg_torch.grounding.explanation import explain, rivalry
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import parse_command
 from dcg_torch.language.requests import Question
+from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.types import Percept
 
 _SURE = 0.5
@@ -161,7 +162,7 @@ def _words(s: Situation) -> str:
     """Which words it knows."""
     entries = s.model.lexicon()
     old = [e.word for e in entries if e.settled and e.word not in s.taught]
-    new = [f"{e.word} ({e.types[0][0]})" for e in entries if e.word not in old and e.types]
+    new = [f"{e.word} ({e.types[0][0]})" for e in entries if e.word not in old and e.types and e.types[0][0] != UNMET]
     known = f"I knew {sentences.listed(old)} from the start." if old else ""
     return f"{known} {f'I learned {sentences.listed(new)}.' if new else 'I have learned no other word yet.'}".strip()
 
@@ -207,6 +208,7 @@ def why(s: Situation) -> str:
         if next_best
         else "; nothing else that I saw fits."
     )
+    because = because or ["it fits what you said"]
     return f"I went to {s.the(thing.id)} because {sentences.listed(because)}.{share}{rest}"
 
 

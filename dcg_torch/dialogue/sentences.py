@@ -9,6 +9,7 @@ from dcg_torch.agent.asking import describe
 from dcg_torch.dialogue.events import Candidate
 from dcg_torch.geometry import bearing
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.types import DriveResult, Object, Percept, Pose
 from dcg_torch.vocabulary import PLACE_WORDS
@@ -82,12 +83,13 @@ def said_of(solution: Solution) -> str:
     """The noun phrase of a command as the person said it, with "the": "the red cube"."""
     noun = solution.noun
     words = [] if noun is None else [w for w in noun.text.split() if w not in {"the", "a", "an", "any", "some"}]
-    return f"the {' '.join(words)}" if words else "that"
+    return f"the {' '.join(words)}" if words and words != ["it"] else "that"
 
 
 def kind_of(solution: Solution) -> str:
     """The same with "a", or bare in the plural, for what may not be there: "red cube"."""
-    return said_of(solution).removeprefix("the ")
+    said = said_of(solution)
+    return "such thing" if said == "that" else said.removeprefix("the ")
 
 
 def candidate(thing: Object, probability: float, names: Names) -> Candidate:
@@ -97,6 +99,10 @@ def candidate(thing: Object, probability: float, names: Names) -> Candidate:
     else:
         name = " ".join(filter(None, (thing.color, names.get(thing.type or "", thing.type))))
     return Candidate(thing.id, name, probability, thing.known, thing.hypothetical)
+
+
+def _met(type_: str) -> str:
+    return "something that I have not met yet" if type_ == UNMET else f'what my camera calls "{type_}"'
 
 
 def meaning(word: str, entry: Entry | None, heard: Mapping[str, str]) -> str:
@@ -109,11 +115,11 @@ def meaning(word: str, entry: Entry | None, heard: Mapping[str, str]) -> str:
         return f'"{word}" is a place.'
     if entry is None or not entry.types:
         return f'I have never heard the word "{word}". Click on one and say: this is {with_article(word)}.'
-    best, p = entry.types[0]
+    (best, p), *others = ((_met(t), q) for t, q in entry.types[:3])
     if entry.settled:
         how = "you told me so" if word in heard else "I knew that from the start"
-        what = "" if best == word else f' what my camera calls "{best}"'
+        what = "" if entry.types[0][0] == word else f" {best}"
         return f"{with_article(word).capitalize()} is{what or ' a kind of thing that I know'}; {how}."
     from_ = f', from "{entry.sources[0]}"' if entry.sources else ""
-    more = f"; it may also be {listed([f'{t} ({q:.0%})' for t, q in entry.types[1:3]], 'or')}" if p < 0.9 else ""
-    return f'I think that "{word}" is what my camera calls "{best}" ({p:.0%}){from_}{more}.'
+    more = f"; it may also be {listed([f'{t} ({q:.0%})' for t, q in others], 'or')}" if p < 0.9 and others else ""
+    return f'I think that "{word}" is {best} ({p:.0%}){from_}{more}.'

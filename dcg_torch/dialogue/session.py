@@ -27,6 +27,7 @@ from dcg_torch.dialogue.file import (
     read_session,
 )
 from dcg_torch.dialogue.situation import Situation
+from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
 from dcg_torch.model.pretrain import SHIPPED
@@ -208,14 +209,14 @@ class Session:
         """The world with these objects, the robot where it is; it forgets what was changed unless it sees it."""
         if not things:
             return self._refused("one object must stay")
-        before, state = self.world, self.state
+        before, state, here = self.world, self.state, self.pose
         old = {thing.id: thing for thing in before.objects}
         changed = [id_ for id_ in {**old, **things} if old.get(id_) != things.get(id_)]
         try:
-            world = standing_at(World(name=before.name, objects=tuple(things.values())), self.pose)
+            world = standing_at(World(name=before.name, objects=tuple(things.values())), here)
             state.robot.load(world, rng=np.random.default_rng(self.header.seed))
         except ValueError as error:
-            state.robot.load(standing_at(before, self.pose), rng=np.random.default_rng(self.header.seed))
+            state.robot.load(standing_at(before, here), rng=np.random.default_rng(self.header.seed))
             return self._refused(str(error).splitlines()[0])
         self.world = world
         state.places.clear()
@@ -253,8 +254,8 @@ class Session:
 
     def words(self) -> Mapping[str, Mapping[str, float]]:
         """word -> type -> probability: what each word heard or taught may mean, those of the start left out."""
-        taught = self.state.taught
-        return {e.word: dict(e.types) for e in self.model.lexicon() if not e.settled or e.word in taught}
+        new = [e for e in self.model.lexicon() if not e.settled or e.word in self.state.taught]
+        return {e.word: {"not met yet" if t == UNMET else t: p for t, p in e.types} for e in new}
 
     def reasons(self, most: int = 12) -> list[str]:
         """Why the last command was grounded as it was: factors and features with their log-odds, a line each."""

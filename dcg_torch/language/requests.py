@@ -115,6 +115,7 @@ def _plain(text: str, fillers: list[str]) -> str:
     return said
 
 
+_STUCK = re.compile(r"(\d)([a-zA-Z]+)\b")  # "2m"
 _CLASSES = ("turn", "drive", "reverse", "come", "origin", "directions", "angles", "lengths", "parts")
 
 
@@ -123,7 +124,7 @@ def read_motion(text: str) -> Motion | None:
     data = _data()["motion"]
     slots: dict[str, list[str]] = {name: [] for name in _CLASSES}
     numbers: list[float] = []
-    for word in _joined(tokens(text)):
+    for word in tokens(_STUCK.sub(r"\1 \2", text)):
         if (number := _number(word)) is not None:
             numbers.append(number)
         elif word == "turn" and slots["turn"]:
@@ -170,15 +171,6 @@ def _turn(
         return Motion("turn", angle or 0.0)
     units = slots["angles"] or (["circle"] if slots["parts"] else ["degrees"])
     return Motion("turn", math.copysign(math.radians(amount * data["angles"][units[0]]), angle or 1.0))
-
-
-def _joined(words: list[str]) -> list[str]:
-    """The words, with letters that stick to a number apart: "2m" is "2", "m"."""
-    out: list[str] = []
-    for word in words:
-        found = re.fullmatch(r"(\d+(?:[.,]\d+)?)([a-z]+)", word)
-        out += [found[1], found[2]] if found else [word]
-    return out
 
 
 def _number(word: str) -> float | None:

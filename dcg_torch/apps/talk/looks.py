@@ -18,6 +18,7 @@ from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
 _MODELS = Path(dcg_torch.simulator.__file__).parent / "models"
 FLOOR = 40
 """Metres of the floor that has lines."""
+_PIECE = 4  # metres
 _STAND_IN = 0.3  # metres: a cube of this size stands for a type without a body
 
 
@@ -36,9 +37,10 @@ def robot_file() -> bytes:
 @functools.cache
 def floor_file() -> bytes:
     """The lines of a square of `FLOOR` metres about the origin, a metre apart, as binary glTF."""
-    half = FLOOR / 2
-    at = np.arange(-half, half + 1)
-    ends = [[(a, -half, 0), (a, half, 0)] for a in at] + [[(-half, a, 0), (half, a, 0)] for a in at]
+    at = np.arange(-FLOOR / 2, FLOOR / 2 + 1)
+    # in short pieces, since some browsers leave out a line that passes the viewer
+    pieces = [(a, b, b + _PIECE) for a in at for b in at[:-1:_PIECE]]
+    ends = [[(a, b, 0), (a, c, 0), (b, a, 0), (c, a, 0)] for a, b, c in pieces]
     lines = np.array(ends, dtype=float).reshape(-1, 3)
     up = np.tile([0.0, 0.0, 1.0], (len(lines), 1))
     return glb([Shape(lines, up, np.arange(len(lines)).reshape(-1, 2), (0.80, 0.79, 0.77))])
