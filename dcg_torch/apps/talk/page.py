@@ -188,7 +188,7 @@ class Page:
             lines = [str(error)]
         with ui.dialog(value=True) as dialog, ui.card():
             ui.label("\n".join(lines) or "Nothing was grounded yet.").classes("reasons")
-            ui.button("Close", on_click=dialog.close)
+            ui.button("Close", on_click=dialog.close).props("no-caps")
 
 
 def _card(title: str) -> ui.element:

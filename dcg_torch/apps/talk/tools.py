@@ -64,6 +64,7 @@ class Tools:
         self._yaw = ui.number("turned, degrees", value=0, step=15, format="%.0f")
         ui.button("Move", on_click=self._move).props("outline dense no-caps")
         ui.button("Take away", on_click=self._remove).props("outline dense no-caps")
+        ui.element("span")
         self._type = ui.select(list(MORE_TYPES), label="Type", value="cube")
         self._color = ui.select(list(MORE_COLORS), label="Colour", value="yellow")
         ui.button("Add", on_click=self._add).props("outline dense no-caps")
