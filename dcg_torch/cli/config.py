@@ -41,12 +41,18 @@ OmegaConf.register_new_resolver("settings_help", settings_help, replace=True)
 OmegaConf.register_new_resolver("unique", lambda: secrets.token_hex(3), use_cache=True, replace=True)
 
 
-def register() -> None:
-    """Make the schemas known to Hydra, so that a misspelt key or a wrong type fails before the run."""
+def register(program: str = "run") -> None:
+    """Make the schemas known to Hydra, so that a misspelt key or a wrong type fails before the run.
+
+    Args:
+        program: of `settings_help.SCHEMAS`; `talk` has no groups, so that its `model` may be a folder.
+    """
     store = ConfigStore.instance()
+    if program == "talk":
+        store.store(name="talk_schema", node=TalkSettings)
+        return
     store.store(name="schema", node=Settings)
     store.store(name="evaluate_schema", node=EvaluateSettings)
-    store.store(name="talk_schema", node=TalkSettings)
     store.store(group="model", name="schema", node=ModelSettings)
     store.store(group="simulator", name="schema", node=SimulatorSettings)
 

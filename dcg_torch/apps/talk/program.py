@@ -19,6 +19,9 @@ from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import World, load_world
 from dcg_torch.world.generator import generate_world
 
+_CONF = Path(__file__).parent / "conf"
+"""Apart from that of the experiments, whose groups `model` and `simulator` mean something else."""
+
 
 def world_of(settings: TalkSettings) -> World:
     """The world that is named: a committed one, "generated", or a file of one's own.
@@ -61,5 +64,5 @@ def _new_file() -> Path:
 
 def main() -> int:
     """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
-    wrap = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="talk")
+    wrap = hydra.main(version_base="1.3", config_path=str(_CONF), config_name="talk")
     return run_application(wrap(_application), "talk")
