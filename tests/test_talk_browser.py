@@ -87,6 +87,16 @@ def say(page: Page, text: str) -> None:
     expect(page.get_by_role("log")).to_contain_text(text, timeout=PATIENCE)
 
 
+def point_at(page: Page, name: str) -> None:
+    """Choose an object from the list, which the keyboard opens."""
+    field, option = page.get_by_label("Pointing at"), page.get_by_role("option", name=name)
+    field.focus()
+    page.keyboard.press("ArrowDown")
+    expect(option).to_be_visible(timeout=PATIENCE)
+    option.click()
+    expect(option).to_be_hidden(timeout=PATIENCE)
+
+
 def conversation(page: Page) -> list[str]:
     return page.get_by_role("log").locator(".lines > div").all_inner_texts()
 
@@ -143,8 +153,7 @@ objects:
     page.goto(start("port=0", f"world={world}", "simulator=fake", PACE))
     listening(page)
     for name, word in (("brown crate", "pallet"), ("red traffic cone", "wug")):
-        page.get_by_label("Pointing at").click()
-        page.get_by_role("option", name=name).click()
+        point_at(page, name)
         say(page, f"this is a {word}")
         listening(page)
         expect(page.get_by_label("Words it has learned")).to_contain_text(word)
