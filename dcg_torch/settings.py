@@ -192,6 +192,22 @@ class EvaluateSettings:
     save: bool = _setting(True, "write the model as it is at the end into model/; not with folds")
 
 
+@dataclass
+class TalkSettings:
+    """The page to talk to the robot."""
+
+    world: str = _setting("laboratory", "name of a committed world, generated, or a world file")
+    model: str | None = _setting(None, "folder of a saved model; none: the shipped one")
+    session: str | None = _setting(None, "file that keeps the session; one that is there goes on. None: a new one")
+    simulator: RobotKind = _setting(RobotKind.pybullet, "physics, or pure geometry")
+    seed: int = _setting(0, "of a generated world", Bounds(0, 1e15))
+    host: str = _setting("127.0.0.1", "address to listen on; all but the loopback address ask for a token")
+    port: int = _setting(8080, "to listen on; 0 takes a free one", Bounds(0, 65_535))
+    token: str | None = _setting(None, "what visitors need; none: made by chance, where one is needed")
+    pace: float = _setting(1.0, "times as fast as the robot that it is shown; 0: as fast as can be", Bounds(0, 100))
+    open: bool = _setting(True, "open the page in the browser")
+
+
 def described(schema: type, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:
     """(dotted name, default, what it means, bounds) of every setting of a schema."""
     yield from ((prefix + name, value, text, bounds) for name, value, text, bounds in _walk(schema()))
@@ -207,7 +223,7 @@ def _walk(settings: Any, prefix: str = "") -> Iterator[tuple[str, Any, str, Boun
 
 
 def check_bounds(settings: Settings | EvaluateSettings) -> None:
-    """See that every number lies within its bounds, and that the model has features.
+    """See that every number lies within its bounds, and that a model that is described has features.
 
     Raises:
         SettingsError: one does not.

@@ -27,12 +27,12 @@ LAYERS = (
     {"dialogue", "evaluation", "experiment"},
     {"cli"},
     {"apps"},
-    {"__main__", "bench", "collect", "convert", "evaluate", "ros"},
+    {"__main__", "bench", "collect", "convert", "evaluate", "ros", "talk"},
 )
 LEVEL = {room: level for level, rooms in enumerate(LAYERS) for room in rooms}
 
 # The only modules (or all modules below them) that may import a package, at the top of the file or inside a function.
-HYDRA = {"cli", "evaluate"}
+HYDRA = {"cli", "evaluate", "apps.talk.program"}
 ONLY = {
     "pybullet": {"simulator"},
     "pybullet_utils": {"simulator"},
@@ -51,10 +51,12 @@ ONLY = {
     "nav_msgs": {"apps.ros"},
     "visualization_msgs": {"apps.ros"},
     "sklearn": {"evaluation.baselines", "bench"},
-    "fastapi": {"apps.collect.page"},
+    "fastapi": {"apps.collect.page", "apps.talk.server"},
+    "starlette": {"apps.talk.gate"},
     "jinja2": {"apps.collect.page"},
     "sqlalchemy": {"apps.collect"},
-    "uvicorn": {"apps.collect.program"},
+    "uvicorn": {"apps.collect.program", "apps.talk.server"},
+    "nicegui": {"apps.talk"},
     "gymnasium": {"apps.gym"},
     "defusedxml": {"storage.foreign"},
 }
@@ -164,7 +166,7 @@ def test_every_module_that_may_import_a_package_does() -> None:
         ("language.parser", "import torch", "torch: only"),
         ("model.core", "from safetensors.numpy import load", "safetensors.numpy: only model.checkpoint may"),
         ("experiment.trial", "def f():\n    import pybullet as p", "pybullet: only simulator may"),
-        ("experiment", "from hydra.core import hydra_config", "only cli, evaluate may"),
+        ("experiment", "from hydra.core import hydra_config", "only apps.talk.program, cli, evaluate may"),
         ("report.boardroom", "import torch.utils", "only"),
         ("model.core", "import torch", "torch: only"),
         ("names.normal", "import sentence_transformers", "only names.embedding may"),

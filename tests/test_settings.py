@@ -23,6 +23,7 @@ from dcg_torch.settings import (
     Settings,
     SettingsError,
     SimulatorSettings,
+    TalkSettings,
     check,
     check_bounds,
     described,
@@ -30,7 +31,7 @@ from dcg_torch.settings import (
 from dcg_torch.storage.resources import resource
 
 FAKE = SimulatorSettings(kind=RobotKind.fake)
-SCHEMAS: list[type[Any]] = [Settings, EvaluateSettings]
+SCHEMAS: list[type[Any]] = [Settings, EvaluateSettings, TalkSettings]
 
 
 def with_value(schema: type[Any], name: str, value: object) -> Any:

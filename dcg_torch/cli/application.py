@@ -91,7 +91,7 @@ def run_application(application: Callable[[], None], program: str = "run") -> in
         if strange:
             return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
         refuse_nothing(given.overrides)
-        register()
+        register(program)
         application()
         sys.stdout.flush()
     return 0

@@ -33,6 +33,9 @@ COMMANDS: Mapping[str, Command] = {
         ("fastapi", "jinja2", "sqlalchemy", "uvicorn"),
     ),
     "convert": Command("convert", "scenes and commands of others as episode files"),
+    "talk": Command(
+        "apps.talk.program", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)
+    ),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "ros": Command(
         "ros", "a ROS 2 node: commands as messages, a robot that is known by its messages", "ros", ("rclpy",)

@@ -29,13 +29,14 @@ _dcg_torch() {{
 COMP_WORDBREAKS="${{COMP_WORDBREAKS//=/}}"
 complete -o default -F _dcg_torch dcg-torch
 """
+_GROUPS = {"run": ("experiment", "model", "simulator"), "evaluate": ("model",)}
 _ZSH = "autoload -U +X bashcompinit && bashcompinit\n"
 
 
 def words(program: str) -> Iterator[str]:
     """KEY= for every setting of a program, and KEY=VALUE where the values are few."""
     conf = resource("conf")
-    for group in ("experiment", "model", "simulator") if program == "run" else ("model",):
+    for group in _GROUPS.get(program, ()):
         yield from (f"{group}={path.stem}" for path in sorted((conf / group).glob("*.yaml")))
     for name, default, _, _ in described(SCHEMAS[program]):
         if isinstance(default, enum.Enum):

@@ -23,8 +23,10 @@ from dcg_torch.settings import (
     Settings,
     SettingsError,
     SimulatorSettings,
+    TalkSettings,
     check,
     check_bounds,
+    check_values,
     described,
 )
 from dcg_torch.storage.resources import resource
@@ -40,9 +42,16 @@ OmegaConf.register_new_resolver("settings_help", settings_help, replace=True)
 OmegaConf.register_new_resolver("unique", lambda: secrets.token_hex(3), use_cache=True, replace=True)
 
 
-def register() -> None:
-    """Make the schemas known to Hydra, so that a misspelt key or a wrong type fails before the run."""
+def register(program: str = "run") -> None:
+    """Make the schemas known to Hydra, so that a misspelt key or a wrong type fails before the run.
+
+    Args:
+        program: of `settings_help.SCHEMAS`; `talk` has no groups, so that its `model` may be a folder.
+    """
     store = ConfigStore.instance()
+    if program == "talk":
+        store.store(name="talk_schema", node=TalkSettings)
+        return
     store.store(name="schema", node=Settings)
     store.store(name="evaluate_schema", node=EvaluateSettings)
     store.store(group="model", name="schema", node=ModelSettings)
@@ -69,6 +78,14 @@ def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     _refuse_added(config, EvaluateSettings)
     settings = cast(EvaluateSettings, OmegaConf.to_object(config))
     check_bounds(settings)
+    return settings
+
+
+def talk_settings_of(config: DictConfig) -> TalkSettings:
+    """The same for `talk`."""
+    _refuse_added(config, TalkSettings)
+    settings = cast(TalkSettings, OmegaConf.to_object(config))
+    check_values(settings)
     return settings
 
 

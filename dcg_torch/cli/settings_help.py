@@ -9,9 +9,9 @@ from typing import Any
 
 from omegaconf import DictConfig, OmegaConf
 
-from dcg_torch.settings import EvaluateSettings, Settings, described
+from dcg_torch.settings import EvaluateSettings, Settings, TalkSettings, described
 
-SCHEMAS: dict[str, type] = {"run": Settings, "evaluate": EvaluateSettings}
+SCHEMAS: dict[str, type] = {"run": Settings, "evaluate": EvaluateSettings, "talk": TalkSettings}
 _MEANING = 34  # column at which the meanings begin
 _WIDTH = 118
 

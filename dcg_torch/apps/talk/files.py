@@ -1,0 +1,134 @@
+"""What visitors take home and bring along: worlds, models, sessions, as files of the browser.
+
+All functions, and those that they return, run in the session's thread; `file` is the one that keeps the session.
+"""
+
+from __future__ import annotations
+
+import io
+import itertools
+import tempfile
+import zipfile
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+from dcg_torch.apps.talk.host import Change
+from dcg_torch.dialogue.export import export_episodes, export_gif
+from dcg_torch.dialogue.session import Session
+from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.whole import remove
+from dcg_torch.world.files import load_world
+
+MOST = 64_000_000
+"""Bytes of a file that a visitor may bring along, packed or not."""
+
+
+def world_file(session: Session, file: Path) -> bytes:
+    """The world as it is now, as YAML."""
+    return _written(session.save_world, "world.yaml")
+
+
+def model_file(session: Session, file: Path) -> bytes:
+    """What the robot has learned, as a folder in a zip file."""
+    with tempfile.TemporaryDirectory() as place:
+        folder, packed = Path(place) / "model", io.BytesIO()
+        session.save_model(folder)
+        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
+            for part in sorted(folder.iterdir()):
+                archive.write(part, part.name)
+        return packed.getvalue()
+
+
+def session_file(session: Session, file: Path) -> bytes:
+    """The session as it is kept."""
+    return file.read_bytes()
+
+
+def episodes_file(session: Session, file: Path) -> bytes:
+    """The commands of the session as an episode file."""
+    return _written(lambda path: export_episodes(file, path), "episodes.jsonl")
+
+
+def animation_file(session: Session, file: Path) -> bytes:
+    """The commands of the session as a GIF."""
+    return _written(lambda path: export_gif(file, path), "session.gif")
+
+
+def with_world(file: Path, content: bytes) -> Change:
+    """A new session in the world of a YAML file, with all that the robot has learned."""
+
+    def make(session: Session, fresh: Path) -> Session:
+        with tempfile.TemporaryDirectory() as place:
+            path = Path(place) / "world.yaml"
+            path.write_bytes(content)
+            world = load_world(path)
+        model = _free(file, "-model", "")
+        session.save_model(model)
+        return Session(world, model, file=fresh, simulator=session.header.simulator)
+
+    return lambda session: _exchange(session, file, make)
+
+
+def with_model(file: Path, content: bytes) -> Change:
+    """A new session in the same world, with the model of a zip file that `model_file` made."""
+
+    def make(session: Session, fresh: Path) -> Session:
+        model = _free(file, "-model", "")
+        try:
+            _unpack(content, model)
+            return Session(session.world, model, file=fresh, simulator=session.header.simulator)
+        except BaseException:
+            remove(model)
+            raise
+
+    return lambda session: _exchange(session, file, make)
+
+
+def with_session(file: Path, content: bytes) -> Change:
+    """A session that goes on from a session file."""
+
+    def make(session: Session, fresh: Path) -> Session:
+        fresh.write_bytes(content)
+        return Session.open(fresh)
+
+    return lambda session: _exchange(session, file, make)
+
+
+def _exchange(session: Session, file: Path, make: Callable[[Session, Path], Session]) -> None:
+    """Make a new session beside the present one, and put its file in the place of the present one's, which is kept."""
+    fresh = _free(file, "-new", file.suffix)
+    try:
+        make(session, fresh).close()
+    except BaseException:
+        fresh.unlink(missing_ok=True)
+        raise
+    session.close()
+    file.rename(_free(file, "-before", file.suffix))
+    fresh.rename(file)
+
+
+def _unpack(content: bytes, folder: Path) -> None:
+    try:
+        with zipfile.ZipFile(io.BytesIO(content)) as archive:
+            if sum(item.file_size for item in archive.infolist()) > MOST:
+                raise UserError(f"the model is larger than {MOST // 1_000_000} MB; save a smaller one")
+            folder.mkdir(parents=True)
+            for item in archive.infolist():
+                if not item.is_dir():
+                    (folder / Path(item.filename).name).write_bytes(archive.read(item))
+    except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError) as error:
+        raise UserError(f"that is no model: {error}; take a zip file that this page saved") from None
+
+
+def _free(file: Path, name: str, suffix: str) -> Path:
+    """A path beside `file` that nothing is at yet."""
+    paths = (file.with_name(f"{file.stem}{name}-{number}{suffix}") for number in itertools.count(1))
+    return next(path for path in paths if not path.exists())
+
+
+def _written(write: Callable[[Path], object], name: str) -> bytes:
+    with tempfile.TemporaryDirectory() as place:
+        path = Path(place) / name
+        write(path)
+        return path.read_bytes()

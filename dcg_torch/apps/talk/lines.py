@@ -1,0 +1,79 @@
+"""The conversation as people read it: lines, from inputs and events."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from dcg_torch.dialogue import events
+from dcg_torch.dialogue.file import Input
+from dcg_torch.world.files import World, WorldObject
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A line of the conversation. `who` is "you", "robot" or "note"; `choices` are ids that a question is about."""
+
+    who: str
+    text: str
+    choices: tuple[str, ...] = ()
+
+
+def names_of(objects: Iterable[WorldObject]) -> dict[str, str]:
+    """id -> what a visitor calls the object: colour and type, with the id where two are alike."""
+    names = {thing.id: f"{thing.color} {thing.type}" for thing in objects}
+    times = Counter(names.values())
+    return {id_: name if times[name] == 1 else f"{name} ({id_})" for id_, name in names.items()}
+
+
+def line_of_input(done: Input, names: dict[str, str]) -> Line:
+    """What a person did, given what the objects are called."""
+    if done.say is not None:
+        return Line("you", done.say)
+    if done.click is not None:
+        return Line("you", f"(points at the {names.get(done.click, done.click)})")
+    if done.add is not None:
+        return Line("note", f"put here by hand: {done.add.color} {done.add.type}")
+    id_ = done.move.id if done.move is not None else done.remove or ""
+    return Line("note", f"{'moved' if done.move is not None else 'taken away'} by hand: {names.get(id_, id_)}")
+
+
+def line_of_event(event: events.Event) -> Line | None:
+    """What the robot says, and what it has learned; None for what the rest of the page shows."""
+    match event:
+        case events.Understood(_, text) | events.Said(text):
+            return Line("robot", text)
+        case events.Asked(text, choices):
+            return Line("robot", text, choices)
+        case events.Learned(word, None):
+            return Line("note", f"forgotten: {word}")
+        case events.Learned(word, type_, source):
+            return Line("note", f"learned{' from the outcome' if source == 'outcome' else ''}: {word} = {type_}")
+    return None
+
+
+def with_inputs(
+    world: World, inputs: Iterable[Input], watch: events.Watcher, write: Callable[[Line], None]
+) -> events.Watcher:
+    """A watcher of a session that is played again: before the events of an input it writes the line of the input.
+
+    Args:
+        world: in which the session begins.
+        inputs: of the session, its stops left out.
+        watch: of the events.
+    """
+    objects = {thing.id: thing for thing in world.objects}
+    left = iter(inputs)
+    begins = True
+
+    def watcher(event: events.Event) -> None:
+        nonlocal begins
+        if begins and (done := next(left, None)) is not None:
+            write(line_of_input(done, names_of(objects.values())))
+            if done.add is not None:
+                objects[done.add.id] = done.add
+        begins = isinstance(event, events.Done)
+        watch(event)
+
+    return watcher

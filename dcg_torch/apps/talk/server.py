@@ -1,0 +1,136 @@
+"""The server of the page: its routes, its address, its end."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import secrets
+import socket
+import warnings
+import webbrowser
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+from urllib.parse import unquote
+
+import uvicorn
+from fastapi import FastAPI, Response
+from nicegui import Client, ui
+
+from dcg_torch.apps.talk.gate import LOOPBACK, Gate
+from dcg_torch.apps.talk.host import Host
+from dcg_torch.apps.talk.looks import floor_file, object_file, robot_file
+from dcg_torch.apps.talk.page import CSS, Page
+from dcg_torch.apps.talk.scene import FLOOR_URL, ROBOT_URL
+from dcg_torch.storage.errors import UserError
+
+_GLB = "model/gltf-binary"
+_KEEP = {"Cache-Control": "public, max-age=3600"}
+_TITLE = "Talk to the robot"
+
+
+@dataclass(frozen=True)
+class Address:
+    """Where the page is served. `token` is what visitors need where the host is not the loopback address."""
+
+    host: str = "127.0.0.1"
+    port: int = 8080
+    token: str | None = None
+
+    @classmethod
+    def checked(cls, host: str, port: int, token: str | None) -> Address:
+        """With a token made by chance, where one is needed and none is given."""
+        if host in LOOPBACK:
+            return cls(host, port, token)
+        return cls(host, port, token or secrets.token_urlsafe(16))
+
+    def url(self, port: int) -> str:
+        """What to open, the token in it."""
+        name = f"[{self.host}]" if ":" in self.host else self.host
+        return f"http://{name}:{port}/" + (f"?token={self.token}" if self.token else "")
+
+
+def serve(host: Host, address: Address, *, show: bool) -> None:
+    """Serve the page until the program is told to end; its address is the first line of output.
+
+    Raises:
+        UserError: the address can't be had, or the session can't be opened.
+    """
+    listening = _listen(address)
+    url = address.url(listening.getsockname()[1])
+    print(url, flush=True)
+    failed: list[Exception] = []
+
+    @contextlib.asynccontextmanager
+    async def life(_: FastAPI) -> AsyncIterator[None]:
+        beginning = asyncio.create_task(_begin(host, failed, server))
+        if show:
+            webbrowser.open(url)
+        yield
+        beginning.cancel()
+        await host.end()
+
+    app = FastAPI(title=_TITLE, lifespan=life, openapi_url=None)
+    add_routes(app, host)
+    ui.run_with(
+        app,
+        title=_TITLE,
+        language="en-US",
+        tailwind=False,
+        reconnect_timeout=20.0,  # of a phone that changes its network
+        message_history_length=200,
+        binding_refresh_interval=None,
+        show_welcome_message=False,
+    )
+    config = uvicorn.Config(Gate(app, address.token), log_level="warning", lifespan="on", ws_ping_interval=20.0)
+    server = uvicorn.Server(config)
+    with warnings.catch_warnings():  # NiceGUI touches every object there is as it starts
+        warnings.simplefilter("ignore", FutureWarning)
+        server.run(sockets=[listening])
+    if failed:
+        raise failed[0]
+
+
+def add_routes(app: FastAPI, host: Host) -> None:
+    """The page, and the looks of what is in its scene."""
+
+    @ui.page("/")
+    def talk(client: Client) -> None:
+        ui.add_css(CSS)
+        ui.colors(primary="#1d4ed8")
+        Page(host, client)
+
+    @app.get(ROBOT_URL)
+    def robot() -> Response:
+        return Response(robot_file(), media_type=_GLB, headers=_KEEP)
+
+    @app.get(FLOOR_URL)
+    def floor() -> Response:
+        return Response(floor_file(), media_type=_GLB, headers=_KEEP)
+
+    @app.get("/bodies/{type_}/{color}.glb")
+    def body(type_: str, color: str) -> Response:
+        return Response(object_file(unquote(type_), unquote(color)), media_type=_GLB, headers=_KEEP)
+
+
+async def _begin(host: Host, failed: list[Exception], server: uvicorn.Server) -> None:
+    try:
+        await host.begin()
+    except Exception as error:  # raised again by the thread that serves
+        failed.append(error)
+        server.should_exit = True
+
+
+def _listen(address: Address) -> socket.socket:
+    """The socket, listening already, so that whoever reads the address may open it at once."""
+    try:
+        found = socket.getaddrinfo(address.host, address.port, type=socket.SOCK_STREAM)
+        family, kind, protocol, _, place = found[0]
+        listening = socket.socket(family, kind, protocol)
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listening.bind(place)
+        listening.listen(128)
+    except OSError as error:
+        raise UserError(
+            f"host={address.host} port={address.port}: {error.strerror or error}; give another, port=0 takes a free one"
+        ) from None
+    return listening
