@@ -14,7 +14,7 @@ from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.features import PAPER, Group, ranking
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import TERNARY
-from dcg_torch.grounding.solution import _SLIP
+from dcg_torch.grounding.solution import SLIP
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
@@ -86,7 +86,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
             row = taught.features.encode_placed(scene.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
             active = float(taught.factor.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
-        score.append(math.exp(odds[noun.phrase][j]) * ((1.0 - _SLIP) * mixture + _SLIP))
+        score.append(math.exp(odds[noun.phrase][j]) * ((1.0 - SLIP) * mixture + SLIP))
     expected = [s / sum(score) for s in score]
     solution = FactorGraph(noun, world).solve(taught.features, taught.factor, beam=n)
     assert [solution.probabilities[o.id] for o in world.objects] == pytest.approx(expected, rel=1e-9)

@@ -13,6 +13,7 @@ from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import stated_values
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
@@ -100,17 +101,20 @@ def _sense(solution: Solution) -> float:
 
 
 def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
-    """The tree whose first noun phrase is also told the words of the command, to judge colours that are seen by.
+    """The tree whose first noun phrase is also told of the command's words what is to be judged by looking.
 
-    Args:
-        world: where nothing shows how it looks, the tree stays as it is.
+    All its words where things show their colours; what may be the value of an attribute where things have such.
     """
-    if all(o.rgb is None for o in world.objects):
+    shown = any(o.rgb is not None for o in world.objects)
+    valued = any(":" in a for o in world.objects for a in o.attributes)
+    if not shown and not valued:
         return tree
-    return _told(tree, tuple(re.findall(r"\w+|[^\w\s]", text.lower())))
+    words = tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
+    return _told(tree, words if shown else (), stated_values(words) if valued else ())
 
 
-def _told(tree: ParseTree, words: tuple[str, ...]) -> ParseTree:
-    if tree.phrase.kind is PhraseKind.NOUN:
-        return replace(tree, phrase=replace(tree.phrase, look=words))
-    return replace(tree, children=(*(_told(c, words) for c in tree.children[:1]), *tree.children[1:]))
+def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> ParseTree:
+    phrase = tree.phrase
+    if phrase.kind is PhraseKind.NOUN:
+        return replace(tree, phrase=replace(phrase, look=look, words=tuple(dict.fromkeys((*phrase.words, *values)))))
+    return replace(tree, children=(*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import Final
 
 import numpy as np
@@ -68,6 +68,17 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
     """
     found = {fact for word in words if (fact := _attribute_fact(normalise(word), frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
+
+
+def stated_values(words: Sequence[str]) -> tuple[str, ...]:
+    """The phrases of several words among the words of a text that may state the value of an attribute.
+
+    >>> stated_values("a chair seen from behind".split())
+    ('from behind',)
+    """
+    meanings, _ = _meanings()
+    spans = (" ".join(words[k : k + n]) for n in (4, 3, 2) for k in range(len(words) - n + 1))
+    return tuple(dict.fromkeys(span for span in spans if span in meanings))
 
 
 @functools.lru_cache(maxsize=16384)
