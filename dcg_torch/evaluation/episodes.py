@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -219,21 +220,35 @@ def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
     return dict(Counter(key for key, value in further if not isinstance(value, (str, bool, type(None)))))
 
 
+_ONE_SCALE = 2.0
+"""Scenes of one scale: in none are neighbours so many times closer or farther than in the middle one."""
+
+
 def workspace(episodes: Sequence[Episode]) -> Workspace:
     """What the scenes have in common: bounds, where the robot's place is one and the same in all; and the unit.
 
     The unit is the median distance from an object to its nearest neighbour.
     """
-    nearest = []
-    for episode in episodes:
-        points = np.array([p.position for p in episode.percepts()])
-        apart = np.linalg.norm(points[None] - points[:, None], axis=2)
-        np.fill_diagonal(apart, np.inf)
-        nearest += [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]
+    nearest = [d for episode in episodes for d in _nearest(episode)]
     unit = float(np.median(nearest)) if nearest else 1.0
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
         return Workspace(None, unit)
     return Workspace(scene.scene_bounds([o.position for e in episodes for o in e.objects], episodes[0].pose), unit)
+
+
+def own_scale(episode: Episode, where: Workspace) -> Workspace:
+    """The workspace with the scene's own unit where it is of another scale: a table top among rooms."""
+    nearest = _nearest(episode)
+    unit = float(np.median(nearest)) if nearest else where.unit
+    return where if 1.0 / _ONE_SCALE <= unit / where.unit <= _ONE_SCALE else replace(where, unit=unit)
+
+
+def _nearest(episode: Episode) -> list[float]:
+    """The distance from each object to its nearest neighbour."""
+    points = np.array([p.position for p in episode.percepts()])
+    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
+    np.fill_diagonal(apart, np.inf)
+    return [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]
 
 
 def split_folds(episodes: Sequence[Episode], folds: int, rng: np.random.Generator) -> list[list[Episode]]:

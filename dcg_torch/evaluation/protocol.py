@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from dcg_torch.agent.command import CommandParser, ParsedCommand
-from dcg_torch.evaluation.episodes import Episode, workspace
+from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
 from dcg_torch.grounding.readings import looking
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import Lesson
@@ -152,7 +152,8 @@ def train(
 
 def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
     """Upsilon of an episode: all there is has been perceived, and there are places to speak of."""
-    return model.world_model(episode.percepts(), episode.pose, episode.speaker_pose, looked=True, workspace=where)
+    scale = own_scale(episode, where)
+    return model.world_model(episode.percepts(), episode.pose, episode.speaker_pose, looked=True, workspace=scale)
 
 
 def answers(

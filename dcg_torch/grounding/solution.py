@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -98,6 +98,10 @@ _AS_WELL = 0.5
 """An object is one of several that are meant if it is described at least half as well as the best."""
 
 
+_EXCLUDED = 1e-3
+"""An object so much less probable than the best is no further one of a number: it has another name."""
+
+
 @dataclass(frozen=True)
 class Solution:
     """phi* and gamma* of a command, with the alternatives that were weighed.
@@ -153,7 +157,8 @@ class Solution:
             return (self.object,)
         ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
         if noun.count is not None:
-            return tuple(ranked[: noun.count])
+            least = _EXCLUDED * self.probabilities[ranked[0].id]
+            return tuple(o for o in ranked[: noun.count] if self.probabilities[o.id] >= least)
         # What nothing fits well is told apart by the odds.
         fits = self.fits if self.fits[ranked[0].id] >= _AS_WELL else self.odds
         least = _AS_WELL * fits[ranked[0].id]
@@ -186,9 +191,20 @@ class Solution:
         if len(meant) < 2 or self.object.members:
             own = self.probabilities[self.object.id]
         else:
-            inside = {o.id for o in meant}
-            own = math.prod(self.fits[o.id] if o.id in inside else 1.0 - self.fits[o.id] for o in self.world.objects)
+            own = self._probability_of_set({o.id for o in meant})
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
+
+    def _probability_of_set(self, inside: Collection[str]) -> float:
+        """That just these are meant: the least member is, and the likeliest other is not.
+
+        What people describe, they describe together: whether one is meant hangs on whether the others are. So it is as
+        likely that all are as that the least likely is. Of a number of objects, the least must come before the others.
+        """
+        counted = self.noun is not None and self.noun.count is not None
+        of = self.probabilities if counted else self.fits
+        least = min(of[i] for i in inside)
+        other = max((of[o.id] for o in self.world.objects if o.id not in inside), default=0.0)
+        return least / (least + other) if counted else least * (1.0 - other)
 
 
 def target_of(tree: ParseTree) -> ParseTree | None:

@@ -26,7 +26,7 @@ from dcg_torch.types import Example, Symbol
 if TYPE_CHECKING:
     from dcg_torch.model.core import GroundingModel as Teachable
 
-RELATION_L2 = 0.3
+RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
 CORPUS_L2 = 0.2
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
