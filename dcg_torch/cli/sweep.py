@@ -37,7 +37,7 @@ class Folders(Callback):
         with one_line_errors():
             folder = claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir")
             if (killed := _HELD.enter_context(folder)) is not None:
-                _sweep_shared_memory(killed)
+                sweep_shared_memory(killed)
         settings = cast(dict[str, Any], OmegaConf.to_container(config.hydra, resolve=False))
         params = settings["sweeper"].get("params") or {}
         given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
@@ -55,8 +55,8 @@ class Folders(Callback):
         _HELD.close()
 
 
-def _sweep_shared_memory(process: int) -> None:
-    """Remove what the joblib launcher of a sweep that was killed left, if that process is really gone."""
+def sweep_shared_memory(process: int) -> None:
+    """Remove what joblib left of a run or a sweep that was killed, if that process is really gone."""
     if Path(f"/proc/{process}").exists():
         return
     for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):

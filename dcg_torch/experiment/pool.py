@@ -41,6 +41,11 @@ def may_start_processes() -> bool:
     return multiprocessing.current_process().name == "MainProcess"
 
 
+def cores() -> int:
+    """How many this process may use: under Slurm those of the job, not those of the machine."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
 def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
     """Do `work` for every task, each in one of several new processes; a script needs `if __name__ == "__main__"`.
 
@@ -133,7 +138,7 @@ def _serve(link: Connection, work: Callable[[T], object]) -> None:
             work(task)
             link.send((task, None, ""))
         except Exception as error:
-            link.send((task, _portable(error), traceback.format_exc()))
+            link.send((task, portable(error), traceback.format_exc()))
 
 
 def _listen(link: Connection, tasks: queue.SimpleQueue[T]) -> None:
@@ -143,7 +148,7 @@ def _listen(link: Connection, tasks: queue.SimpleQueue[T]) -> None:
     os._exit(1)  # even in the middle of a task: whoever asked for it is gone
 
 
-def _portable(error: Exception) -> Exception:
+def portable(error: Exception) -> Exception:
     """The error, if it comes through a pipe as it is."""
     try:
         pickle.loads(pickle.dumps(error))
