@@ -71,7 +71,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     part = directory / f"{PREDICTIONS}.part"
     with part.open("w", encoding="utf-8") as file:
         for split in splits:
-            model = make_model(settings.model, settings.names, settings.training)
+            model = make_model(settings.model, settings.names, settings.training).to(settings.device)
             train_seconds += _train(model, split, settings, console)
             first = set(model.symbols)
             with Bar("grounding", sum(map(len, split.test.values())), console) as bar:

@@ -214,6 +214,7 @@ class EvaluateSettings:
     folds: int = _setting(0, "instead of test: cross-validate train in so many parts, by group", Bounds(0, 1_000))
     baseline: list[str] = _setting([], "also: overlap, nearest, outcomes, bow, minilm, on the same episodes")
     certify: bool = _setting(False, "change test episodes a little, and count how often the answer follows")
+    device: str = _setting("cpu", "of torch, for Psi and the fits' sums: cpu, cuda, cuda:1")
     save: bool = _setting(True, "write the model as it is at the end into model/; not with folds")
 
 

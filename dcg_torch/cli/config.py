@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, cast
 
 from hydra.core.config_store import ConfigStore
-from hydra.conf import HydraConf
 from hydra.core.hydra_config import HydraConfig
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from omegaconf import DictConfig, OmegaConf
@@ -157,7 +156,7 @@ _PLUGINS = {
 """What may be installed besides: its package, and our extra that draws it in."""
 
 
-def launcher_of(hydra: HydraConf) -> str:
+def launcher_of(hydra: Any) -> str:
     """Who starts the jobs of a sweep: "basic" (this process), "joblib", "ray", "submitit"."""
     target = str(OmegaConf.select(hydra, "launcher._target_"))
     return next((name for name in ("joblib", "ray", "submitit") if name in target.lower()), "basic")

@@ -19,6 +19,7 @@ from dcg_torch.cli.config import launcher_of, save_composed, settings_of
 from dcg_torch.cli.console import CommandBar, make_console
 from dcg_torch.cli.sweep import sweep_shared_memory
 from dcg_torch.experiment.folder import MARKS, check_owner, lexicon_of
+from dcg_torch.experiment.pool import leave_with_parent
 from dcg_torch.experiment.runner import check_feasible, run
 from dcg_torch.settings import Settings
 from dcg_torch.storage.claim import claim
@@ -34,6 +35,8 @@ def _application(config: DictConfig) -> float:
     named = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
     goes_on = f"the same command with {named} goes on from here"
     launcher = launcher_of(HydraConfig.get()) if sweep else "basic"
+    if launcher == "joblib":
+        leave_with_parent()
     with one_line_errors(directory, goes_on) if launcher == "basic" else raised_errors(directory):
         settings = settings_of(config)
         if launcher == "ray" and not settings.workers:  # it gives a job one core, whatever the machine has

@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from importlib.util import find_spec
 from typing import Any, TypeVar
 
-from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, portable
+from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, leave_with_parent, portable
 from dcg_torch.settings import Backend, SettingsError
 
 T = TypeVar("T")
@@ -64,7 +64,7 @@ def work_off_joblib(
     from joblib import Parallel, delayed, parallel_config
 
     with _cluster(backend, workers), _ticking(tick), parallel_config(backend=str(backend)):
-        calls = (delayed(_caught)(work, task) for task in tasks)
+        calls = (delayed(_caught)(work, task, near=backend is Backend.loky) for task in tasks)
         try:
             results = Parallel(n_jobs=workers or -1, batch_size=1)(calls)
         except Exception as error:
@@ -74,8 +74,14 @@ def work_off_joblib(
             raise failed from RuntimeError(f"in a worker process:\n{told}")
 
 
-def _caught(work: Callable[[T], object], task: T) -> tuple[Exception | None, str]:
-    """The error of a task as a value: each backend wraps what is raised in its own way."""
+def _caught(work: Callable[[T], object], task: T, *, near: bool) -> tuple[Exception | None, str]:
+    """The error of a task as a value: each backend wraps what is raised in its own way.
+
+    Args:
+        near: the process that hands out the tasks is this one's parent.
+    """
+    if near:
+        leave_with_parent()
     try:
         work(task)
     except Exception as error:
