@@ -12,6 +12,7 @@ from pathlib import Path
 
 import pytest
 from making import typed
+from omegaconf import OmegaConf
 
 from dcg_torch.cli.config import launcher_of
 from dcg_torch.cli.run import main
@@ -108,7 +109,7 @@ def test_cores_are_those_that_this_process_may_use() -> None:
     ],
 )
 def test_launchers_are_told_apart(target: str, name: str) -> None:
-    assert launcher_of({"launcher": {"_target_": target}}) == name
+    assert launcher_of(OmegaConf.create({"launcher": {"_target_": target}})) == name
 
 
 @pytest.mark.parametrize(

@@ -158,7 +158,7 @@ _PLUGINS = {
 
 def launcher_of(hydra: Any) -> str:
     """Who starts the jobs of a sweep: "basic" (this process), "joblib", "ray", "submitit"."""
-    target = str(OmegaConf.select(hydra, "launcher._target_"))
+    target = str(hydra.launcher["_target_"])
     return next((name for name in ("joblib", "ray", "submitit") if name in target.lower()), "basic")
 
 
