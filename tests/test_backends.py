@@ -16,8 +16,9 @@ from omegaconf import OmegaConf
 
 from dcg_torch.cli.config import launcher_of
 from dcg_torch.cli.run import main
+from dcg_torch.experiment import runner
 from dcg_torch.experiment.backends import require_backend, work_off_joblib
-from dcg_torch.experiment.folder import ITERATIONS, PARTS
+from dcg_torch.experiment.folder import ITERATIONS, PARTS, RunFolderError
 from dcg_torch.experiment.outcome import value_of
 from dcg_torch.experiment.pool import cores
 from dcg_torch.experiment.runner import run
@@ -185,9 +186,14 @@ def test_a_run_over_loky_that_is_killed_goes_on(tmp_path: Path) -> None:
     assert rows(tmp_path / "many") == rows(tmp_path / "alone")
 
 
-def test_what_went_wrong_in_the_jobs_of_a_launcher_is_said(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_lines_that_no_node_brings_here_are_missed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(runner, "work_off_joblib", lambda *_: None)  # as on a node with a disk of its own
+    monkeypatch.setattr(runner, "SEEN_WITHIN", 0.0)
+    with pytest.raises(RunFolderError, match=r"0000\.jsonl: .* all nodes see"):
+        run(settings(Backend.loky), tmp_path, lambda _: None)
+
+
+def test_what_went_wrong_in_the_jobs_of_a_launcher_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     from dcg_torch.cli.application import raised_errors
 
     (tmp_path / "run").mkdir()

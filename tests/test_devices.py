@@ -1,4 +1,4 @@
-"""No device is assumed: shapes on torch's meta device, the fit's tensors beside the processor's, CUDA where there is."""
+"""No device is assumed: shapes on torch's meta device, the fit beside the processor's, CUDA where there is one."""
 
 from __future__ import annotations
 

@@ -57,6 +57,9 @@ ONLY = {
     "uvicorn": {"apps.collect.program"},
     "gymnasium": {"apps.gym"},
     "defusedxml": {"storage.foreign"},
+    "joblib": {"experiment.backends"},
+    "ray": {"experiment.backends"},
+    "distributed": {"experiment.backends"},
 }
 ROOT = "dcg_torch"
 

@@ -11,6 +11,7 @@ order of the trials, so the same seed gives the same bytes for any number of wor
 from __future__ import annotations
 
 import functools
+import os
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -18,13 +19,22 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from dcg_torch.experiment.backends import require_backend, work_off_joblib
-from dcg_torch.experiment.folder import check_owner, mark_as_own, open_trials, remove_parts
+from dcg_torch.experiment.folder import (
+    RunFolderError,
+    check_owner,
+    mark_as_own,
+    open_trials,
+    part_of,
+    remove_parts,
+)
 from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off
 from dcg_torch.records import Iteration
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
 
+SEEN_WITHIN = 90.0
+"""Seconds after which a file that another machine has written should be seen here; NFS remembers for 60."""
 Progress = Callable[[Sequence[Iteration]], None]
 
 
@@ -108,6 +118,24 @@ def _run_trials(settings: Settings, directory: Path, trials: Sequence[int], tick
     else:
         work = functools.partial(_run_far_trial, _far(settings), directory.absolute())
         work_off_joblib(work, trials, settings.workers, settings.backend, tick)
+        _await_lines(directory, trials)
+
+
+def _await_lines(directory: Path, trials: Sequence[int]) -> None:
+    """Wait until the files that other machines have written are seen here, too: a network may take its time.
+
+    Raises:
+        RunFolderError: they do not come.
+    """
+    until = time.monotonic() + SEEN_WITHIN
+    for part in (part_of(directory, trial) for trial in trials):
+        while part.name not in os.listdir(part.parent):
+            if time.monotonic() > until:
+                raise RunFolderError(
+                    f"{part}: this trial has run, but its lines are not here; give a hydra.run.dir that all nodes see "
+                    "under the same path"
+                )
+            time.sleep(TICK)
 
 
 def _far(settings: Settings) -> Settings:
