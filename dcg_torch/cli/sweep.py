@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from pathlib import Path
 from typing import Any, cast
 
@@ -34,6 +35,7 @@ class Folders(Callback):
 
     def on_multirun_start(self, config: DictConfig, **_: Any) -> None:
         """Claim the folder of the sweep, and leave the overrides that all runs share out of the names in it."""
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # Ray's launcher would tell its makers of every sweep
         with one_line_errors():
             folder = claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir")
             if (killed := _HELD.enter_context(folder)) is not None:
