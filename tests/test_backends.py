@@ -175,11 +175,11 @@ def test_a_run_over_loky_that_is_killed_goes_on(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "dcg_torch", *FAKE, "trials=12", "workers=2", "backend=loky"]
     process = subprocess.Popen([*command, f"hydra.run.dir={tmp_path / 'many'}"], stdout=subprocess.DEVNULL)
     until = time.monotonic() + 120.0
-    while len(list((tmp_path / "many" / PARTS).glob("*.jsonl"))) < 2 and time.monotonic() < until:
+    while len(list((tmp_path / "many" / PARTS).glob("[0-9]*.jsonl"))) < 2 and time.monotonic() < until:
         time.sleep(0.02)
     process.kill()
     process.wait()
-    before = {path.name for path in (tmp_path / "many" / PARTS).glob("*.jsonl")}
+    before = {path.name for path in (tmp_path / "many" / PARTS).glob("[0-9]*.jsonl")}
     assert 2 <= len(before) < 12
     left = run(settings(Backend.loky, trials=12), tmp_path / "many", lambda _: None)
     assert left <= 12 - len(before)

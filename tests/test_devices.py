@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import subprocess
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -13,9 +11,10 @@ import torch
 from factors import Problem, both_settings, problems, seeds, solid_problem
 from hostile import EPISODE
 from hypothesis import given, settings
-from making import percept
+from making import percept, typed
 
 import dcg_torch
+from dcg_torch.evaluate import main
 from dcg_torch.grounding.devices import DeviceError, device_of
 from dcg_torch.grounding.fit import fit, objective_at
 from dcg_torch.grounding.on_device import DeviceObjective, minimise
@@ -108,15 +107,14 @@ def test_a_device_is_checked_before_a_fit() -> None:
         fit(problem.model(), [problem.design()], l2=0.1, device="nonsense")
 
 
-@pytest.mark.slow
-def test_evaluate_refuses_a_device_that_is_not_there(tmp_path: Path) -> None:
+def test_evaluate_refuses_a_device_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     episodes = tmp_path / "episodes.jsonl"
     episodes.write_text(json.dumps(EPISODE) + "\n")
-    command = [sys.executable, "-m", "dcg_torch.evaluate", f"test={episodes}", "device=cuda:99"]
-    done = subprocess.run([*command, f"hydra.run.dir={tmp_path / 'run'}"], capture_output=True, text=True, check=False)
-    assert done.returncode == 2
-    assert done.stderr.startswith("dcg_torch: device=cuda:99: ")
-    assert done.stderr.count("\n") == 1
+    where = f"hydra.run.dir={tmp_path / 'run'}"
+    status, _, err = typed(capsys, main, "dcg_torch.evaluate", f"test={episodes}", "device=cuda:99", where)
+    assert status == 2
+    assert err.startswith("dcg_torch: device=cuda:99: ")
+    assert err.count("\n") == 1
 
 
 @CUDA
