@@ -13,10 +13,10 @@ from omegaconf import DictConfig, OmegaConf, open_dict, read_write
 
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import make_console
+from dcg_torch.experiment.backends import remove_shared_memory
 from dcg_torch.report.runs import load_runs
 from dcg_torch.report.show import print_several, save_several_figure
 from dcg_torch.storage.claim import check_place, claim
-from dcg_torch.storage.whole import remove
 
 # Not in the callback, which a launcher may send to other processes.
 _HELD = contextlib.ExitStack()
@@ -61,9 +61,7 @@ def sweep_shared_memory(process: int) -> None:
     """Remove what joblib left of a run or a sweep that was killed, if that process is really gone."""
     if Path(f"/proc/{process}").exists():
         return
-    for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
-        for left in Path("/dev/shm").glob(pattern):
-            remove(left)
+    remove_shared_memory(process)
 
 
 def compare_runs(directory: Path) -> None:

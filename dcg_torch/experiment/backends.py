@@ -13,10 +13,12 @@ import threading
 import traceback
 from collections.abc import Callable, Iterator, Sequence
 from importlib.util import find_spec
+from pathlib import Path
 from typing import Any, TypeVar
 
 from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, leave_with_parent, portable
 from dcg_torch.settings import Backend, SettingsError
+from dcg_torch.storage.whole import remove
 
 T = TypeVar("T")
 
@@ -69,9 +71,19 @@ def work_off_joblib(
             results = Parallel(n_jobs=workers or -1, batch_size=1)(calls)
         except Exception as error:
             raise _of_the_cluster(error, backend) from error
+        except KeyboardInterrupt:
+            remove_shared_memory(os.getpid())  # a signal to the group ends whoever would do it
+            raise
     for failed, told in results:
         if failed is not None:
             raise failed from RuntimeError(f"in a worker process:\n{told}")
+
+
+def remove_shared_memory(process: int) -> None:
+    """Remove what joblib keeps in shared memory for a process that hands out no more tasks."""
+    for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
+        for left in Path("/dev/shm").glob(pattern):
+            remove(left)
 
 
 def _caught(work: Callable[[T], object], task: T, *, near: bool) -> tuple[Exception | None, str]:
@@ -174,4 +186,4 @@ def _dask(workers: int) -> Iterator[None]:
         yield
 
 
-__all__ = ["require_backend", "work_off_joblib"]
+__all__ = ["remove_shared_memory", "require_backend", "work_off_joblib"]

@@ -48,7 +48,6 @@ def programs(directory: Path) -> list[Program]:
     return [
         Program("experiment", run.main, (*PLAIN, "workers=1")),
         Program("experiment, 2 workers", run.main, (*PLAIN, "workers=2")),
-        Program("experiment, 2 workers of loky", run.main, (*PLAIN, "workers=2", "backend=loky")),
         Program("sweep", run.main, ("-m", *PLAIN, "workers=1", "model=dcg,dcg_upup"), "hydra.sweep.dir"),
         Program("evaluate", evaluate.main, small),
     ]
