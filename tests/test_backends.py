@@ -61,12 +61,12 @@ def test_a_backend_that_is_not_installed_is_one_line(monkeypatch: pytest.MonkeyP
         require_backend(Backend.ray)
 
 
-def test_a_cluster_out_of_reach_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_cluster_out_of_reach_is_one_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     needs("distributed")
     monkeypatch.setenv("DASK_SCHEDULER_ADDRESS", "tcp://127.0.0.1:1")
     monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT", "1s")
     done = subprocess.run(
-        [sys.executable, "-m", "dcg_torch", *FAKE, "trials=3", "backend=dask", "hydra.run.dir=/tmp/never_made_dcg"],
+        [sys.executable, "-m", "dcg_torch", *FAKE, "trials=3", "backend=dask", f"hydra.run.dir={tmp_path / 'run'}"],
         capture_output=True,
         text=True,
         check=False,
