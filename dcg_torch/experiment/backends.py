@@ -161,6 +161,7 @@ def _ray(workers: int) -> Iterator[None]:
     from ray.util.joblib import register_ray
 
     register_ray()
+    logging.getLogger("ray").setLevel(logging.ERROR)
     own: dict[str, Any] = {"num_cpus": workers, "include_dashboard": False} if workers else {}
     ray.init(configure_logging=False, log_to_driver=False, **own)
     try:
