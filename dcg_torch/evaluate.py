@@ -31,6 +31,7 @@ from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, tra
 from dcg_torch.evaluation.summary import by_file, summarise
 from dcg_torch.evaluation.summary import figures as of_all
 from dcg_torch.experiment.factory import make_model
+from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
@@ -57,10 +58,12 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     """Train, ground, write `predictions.jsonl` and the model into `directory`; the figures.
 
     Raises:
+        DeviceError: torch cannot use the device here.
         EpisodeError: an episode file is missing or not valid.
         SettingsError: a setting makes no sense.
     """
     torch.set_num_threads(1)
+    device_of(settings.device)
     splits = read_splits(settings)
     _check(settings, splits)
     found: list[Answer] = []
@@ -71,7 +74,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     part = directory / f"{PREDICTIONS}.part"
     with part.open("w", encoding="utf-8") as file:
         for split in splits:
-            model = make_model(settings.model, settings.names, settings.training)
+            model = make_model(settings.model, settings.names, settings.training).to(settings.device)
             train_seconds += _train(model, split, settings, console)
             first = set(model.symbols)
             with Bar("grounding", sum(map(len, split.test.values())), console) as bar:

@@ -90,6 +90,27 @@ class RobotKind(enum.StrEnum):
     fake = "fake"
 
 
+class Backend(enum.StrEnum):
+    """What works off the trials of a run."""
+
+    fork = "fork"
+    loky = "loky"
+    ray = "ray"
+    dask = "dask"
+
+
+class Metric(enum.StrEnum):
+    """What a run is judged by; see `dcg_torch.report.measures`."""
+
+    accuracy = "accuracy"
+    correct_symbols = "correct_symbols"
+    wrong_symbols = "wrong_symbols"
+    asked = "asked"
+    path_length = "path_length"
+    turned = "turned"
+    collisions = "collisions"
+
+
 class Order(enum.StrEnum):
     """How a trial's commands are taken from those of its worlds."""
 
@@ -165,7 +186,11 @@ class Settings:
     speaker: Speaker = _setting(Speaker.written, "who gives the commands")
     color_rate: float = _setting(1.0, "share of generated commands that state the colour", _SHARE)
     asking: Asking = _setting(Asking.never, "when the robot asks back")
-    workers: int = _setting(0, "processes; 0 takes one a core", Bounds(0, 1_024))
+    workers: int = _setting(0, "processes; 0 takes one a core, or all that a cluster has", Bounds(0, 1_024))
+    backend: Backend = _setting(
+        Backend.fork, "what works off the trials: processes of our own, or joblib's loky, ray or dask"
+    )
+    metric: Metric = _setting(Metric.accuracy, "the measure of a run that a sweeper such as Optuna is told")
     animate: list[int] = _setting([], "trials to save as animations")
     figures: bool = _setting(True, "draw the figures")
     tensorboard: bool = _setting(True, "write TensorBoard event files")
@@ -189,6 +214,7 @@ class EvaluateSettings:
     folds: int = _setting(0, "instead of test: cross-validate train in so many parts, by group", Bounds(0, 1_000))
     baseline: list[str] = _setting([], "also: overlap, nearest, outcomes, bow, minilm, on the same episodes")
     certify: bool = _setting(False, "change test episodes a little, and count how often the answer follows")
+    device: str = _setting("cpu", "of torch, for Psi and the fits' sums: cpu, cuda, cuda:1")
     save: bool = _setting(True, "write the model as it is at the end into model/; not with folds")
 
 

@@ -59,6 +59,9 @@ ONLY = {
     "nicegui": {"apps.talk"},
     "gymnasium": {"apps.gym"},
     "defusedxml": {"storage.foreign"},
+    "joblib": {"experiment.backends"},
+    "ray": {"experiment.backends"},
+    "distributed": {"experiment.backends"},
 }
 ROOT = "dcg_torch"
 

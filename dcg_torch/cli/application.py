@@ -66,6 +66,28 @@ def one_line_errors(directory: Path | None = None, goes_on: str = "", program: s
         sys.exit(128 + (error.number if isinstance(error, Stopped) else signal.SIGINT))
 
 
+@contextlib.contextmanager
+def raised_errors(directory: Path, program: str = "run") -> Iterator[None]:
+    """In a job of a launcher, which carries an error to the process that says it: as a `UserError` of one line.
+
+    Args:
+        directory: the run folder; it goes away if nothing was written into it.
+        program: of `settings_help.SCHEMAS`.
+
+    Raises:
+        UserError: there is something for the user or the machine to mend.
+    """
+    try:
+        yield
+    except (*CONFIG_ERRORS, UserError, OSError) as error:
+        with contextlib.suppress(OSError):
+            directory.rmdir()  # only if it is empty
+        if isinstance(error, UserError):
+            raise UserError(str(error)) from None
+        said = explain_os_error(error) if isinstance(error, OSError) else explain(error, program)
+        raise UserError(said) from None
+
+
 def _close_output() -> None:
     """Keep Python from complaining once more about a closed pipe, when it flushes at its end."""
     with contextlib.suppress(OSError, ValueError):

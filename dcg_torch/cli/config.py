@@ -150,7 +150,7 @@ def explain(error: Exception, program: str = "run") -> str:
         choices = sorted(set(error.options or ()) - {"schema"})
         if not group:
             return f"there is no configuration {option!r} in {resource('conf')}; leave --config-name out"
-        extra = _LAUNCHERS.get(option) if group == "hydra/launcher" else None
+        extra = _PLUGINS.get(f"{group}={option}")
         get = f", or install {extra[0]} (the extra {extra[1]}: pip install -e '.[{extra[1]}]')" if extra else ""
         return f"{group}={option}: there is no such {group}; choose from {', '.join(choices)}{get}"
     if isinstance(error, OverrideParseException):
@@ -163,8 +163,20 @@ def explain(error: Exception, program: str = "run") -> str:
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
 
 
-_LAUNCHERS = {"joblib": ("hydra-joblib-launcher==1.2.0", "sweep")}
-"""Launchers that may be installed besides: their package, and our extra that draws it in."""
+_PLUGINS = {
+    "hydra/launcher=joblib": ("hydra-joblib-launcher==1.2.0", "sweep"),
+    "hydra/launcher=ray": ("hydra-ray-launcher==1.2.2", "ray"),
+    "hydra/launcher=submitit_local": ("hydra-submitit-launcher==1.2.0", "slurm"),
+    "hydra/launcher=submitit_slurm": ("hydra-submitit-launcher==1.2.0", "slurm"),
+    "hydra/sweeper=optuna": ("hydra-optuna-sweeper==1.3.0", "optuna"),
+}
+"""What may be installed besides: its package, and our extra that draws it in."""
+
+
+def launcher_of(hydra: Any) -> str:
+    """Who starts the jobs of a sweep: "basic" (this process), "joblib", "ray", "submitit"."""
+    target = str(hydra.launcher["_target_"])
+    return next((name for name in ("joblib", "ray", "submitit") if name in target.lower()), "basic")
 
 
 def _unknown_key(key: str, schema: type) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import hydra
@@ -14,10 +14,12 @@ from omegaconf import DictConfig
 from rich.console import Console
 from rich.markup import escape
 
-from dcg_torch.cli.application import one_line_errors, run_application
-from dcg_torch.cli.config import save_composed, settings_of
+from dcg_torch.cli.application import one_line_errors, raised_errors, run_application
+from dcg_torch.cli.config import launcher_of, save_composed, settings_of
 from dcg_torch.cli.console import CommandBar, make_console
+from dcg_torch.cli.sweep import sweep_shared_memory
 from dcg_torch.experiment.folder import MARKS, check_owner, lexicon_of
+from dcg_torch.experiment.pool import leave_with_parent
 from dcg_torch.experiment.runner import check_feasible, run
 from dcg_torch.settings import Settings
 from dcg_torch.storage.claim import claim
@@ -26,22 +28,31 @@ from dcg_torch.storage.resources import resource
 _STARTED = time.perf_counter()
 
 
-def _application(config: DictConfig) -> None:
-    """One experiment, in the folder that Hydra chose."""
+def _application(config: DictConfig) -> float:
+    """One experiment, in the folder that Hydra chose; its metric, for a sweeper that looks for the best."""
     directory, sweep = Path(HydraConfig.get().runtime.output_dir), HydraConfig.get().mode == RunMode.MULTIRUN
     began = time.perf_counter() if sweep else _STARTED
     named = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
-    with one_line_errors(directory, f"the same command with {named} goes on from here"):
+    goes_on = f"the same command with {named} goes on from here"
+    launcher = launcher_of(HydraConfig.get()) if sweep else "basic"
+    if launcher == "joblib":
+        leave_with_parent()
+    with one_line_errors(directory, goes_on) if launcher == "basic" else raised_errors(directory):
         settings = settings_of(config)
+        if launcher == "ray" and not settings.workers:  # it gives a job one core, whatever the machine has
+            settings = replace(settings, workers=1)
         check_owner(settings, directory)
         check_feasible(settings)
-        with claim(directory, MARKS):
+        with claim(directory, MARKS) as killed:
+            if killed is not None:
+                sweep_shared_memory(killed)
             save_composed(config, directory)
-            _run(settings, directory, began)
+            return _run(settings, directory, began)
+    raise AssertionError("an error ends the program")
 
 
-def _run(settings: Settings, directory: Path, began: float) -> None:
-    """Run an experiment in its folder, and show what came of it."""
+def _run(settings: Settings, directory: Path, began: float) -> float:
+    """Run an experiment in its folder, and show what came of it; its metric."""
     console = make_console()
     console.print(
         f"[bold]{escape(settings.name)}[/bold]: {settings.trials} trials of {settings.iterations} commands, "
@@ -49,7 +60,7 @@ def _run(settings: Settings, directory: Path, began: float) -> None:
     )
     with CommandBar(settings.trials * settings.iterations, console) as bar:
         ran = run(settings, directory, bar, lambda note: console.print(f"note: {escape(note)}"))
-    from dcg_torch.experiment.outcome import save_outcome
+    from dcg_torch.experiment.outcome import save_outcome, value_of
     from dcg_torch.report import tables
     from dcg_torch.report.paper import follows_paper
 
@@ -63,6 +74,7 @@ def _run(settings: Settings, directory: Path, began: float) -> None:
         if (directory / pictures).is_dir():
             console.print(f"{pictures}: {shown}/{pictures}")
     console.print(f"rows: {shown}/iterations.jsonl   curves: tensorboard --logdir {escape(str(directory.parent))}")
+    return value_of(outcome.measures, settings.metric)
 
 
 def _print_lexicon(path: Path, console: Console) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from pathlib import Path
 from typing import Any, cast
 
@@ -12,10 +13,10 @@ from omegaconf import DictConfig, OmegaConf, open_dict, read_write
 
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import make_console
+from dcg_torch.experiment.backends import remove_shared_memory
 from dcg_torch.report.runs import load_runs
 from dcg_torch.report.show import print_several, save_several_figure
 from dcg_torch.storage.claim import check_place, claim
-from dcg_torch.storage.whole import remove
 
 # Not in the callback, which a launcher may send to other processes.
 _HELD = contextlib.ExitStack()
@@ -34,10 +35,11 @@ class Folders(Callback):
 
     def on_multirun_start(self, config: DictConfig, **_: Any) -> None:
         """Claim the folder of the sweep, and leave the overrides that all runs share out of the names in it."""
+        os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")  # Ray's launcher would tell its makers of every sweep
         with one_line_errors():
             folder = claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir")
             if (killed := _HELD.enter_context(folder)) is not None:
-                _sweep_shared_memory(killed)
+                sweep_shared_memory(killed)
         settings = cast(dict[str, Any], OmegaConf.to_container(config.hydra, resolve=False))
         params = settings["sweeper"].get("params") or {}
         given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
@@ -55,13 +57,11 @@ class Folders(Callback):
         _HELD.close()
 
 
-def _sweep_shared_memory(process: int) -> None:
-    """Remove what the joblib launcher of a sweep that was killed left, if that process is really gone."""
+def sweep_shared_memory(process: int) -> None:
+    """Remove what joblib left of a run or a sweep that was killed, if that process is really gone."""
     if Path(f"/proc/{process}").exists():
         return
-    for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
-        for left in Path("/dev/shm").glob(pattern):
-            remove(left)
+    remove_shared_memory(process)
 
 
 def compare_runs(directory: Path) -> None:

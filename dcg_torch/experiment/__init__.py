@@ -7,6 +7,7 @@ trial    Algorithm 1 over a list of commands, a record for each
 folder   the names in a run folder, and what of it is whole
 journal  the lines of all trials in one file
 pool     processes that work off a list of tasks
+backends the same over joblib's backends: loky, Ray, Dask
 worker   what such a process does with a trial
 runner   an experiment: the trials that are not finished yet
 outcome  figures, curves and summary of a finished one

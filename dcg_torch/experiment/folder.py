@@ -22,7 +22,17 @@ MARKS = (SETTINGS, ".hydra")
 """Of these a run folder has one, from the first moment on."""
 
 # What may differ between a run and its continuation: it changes no byte of a trial.
-_FREE = ("name", "trials", "workers", "animate", "figures", "tensorboard", "screenshots")
+_FREE = (
+    "name",
+    "trials",
+    "workers",
+    "backend",
+    "metric",
+    "animate",
+    "figures",
+    "tensorboard",
+    "screenshots",
+)
 
 
 class RunFolderError(UserError):

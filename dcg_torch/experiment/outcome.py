@@ -15,12 +15,13 @@ from dcg_torch.experiment.journal import read_run
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
 from dcg_torch.experiment.pool import work_off
 from dcg_torch.records import Iteration, Timing
+from dcg_torch.report.intervals import Estimate
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
 from dcg_torch.report.runs import varied_settings
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import ReportError, read_summary, write_summary
-from dcg_torch.settings import Settings
+from dcg_torch.settings import Metric, Settings
 from dcg_torch.storage.whole import sweep_parts
 from dcg_torch.world.files import World
 
@@ -61,6 +62,12 @@ def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Out
             seconds["wall"] = read_summary(summary).seconds["wall"]
     write_summary(summary, directory.name, asdict(settings), measures, seconds)
     return Outcome(measures, seconds)
+
+
+def value_of(measures: Measures, metric: Metric) -> float:
+    """What a run is judged by, as one number."""
+    value = getattr(measures, metric)
+    return float(value.value if isinstance(value, Estimate) else value)
 
 
 def _write_curves(

@@ -7,12 +7,14 @@ processes is killed.
 from __future__ import annotations
 
 import contextlib
+import functools
 import multiprocessing
 import os
 import pickle
 import queue
 import signal
 import threading
+import time
 import traceback
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
@@ -39,6 +41,27 @@ class WorkerKilledError(UserError):
 def may_start_processes() -> bool:
     """Whether this process is one that a user started; one that a launcher of sweeps made works alone."""
     return multiprocessing.current_process().name == "MainProcess"
+
+
+@functools.cache
+def leave_with_parent() -> None:
+    """End this process within a second of its parent's death, even in the middle of a task.
+
+    For processes that joblib starts: they would work on for minutes after whoever asked for it was killed.
+    """
+    parent = os.getppid()
+
+    def watch() -> None:
+        while os.getppid() == parent:
+            time.sleep(TICK)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def cores() -> int:
+    """How many this process may use: under Slurm those of the job, not those of the machine."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
@@ -133,7 +156,7 @@ def _serve(link: Connection, work: Callable[[T], object]) -> None:
             work(task)
             link.send((task, None, ""))
         except Exception as error:
-            link.send((task, _portable(error), traceback.format_exc()))
+            link.send((task, portable(error), traceback.format_exc()))
 
 
 def _listen(link: Connection, tasks: queue.SimpleQueue[T]) -> None:
@@ -143,7 +166,7 @@ def _listen(link: Connection, tasks: queue.SimpleQueue[T]) -> None:
     os._exit(1)  # even in the middle of a task: whoever asked for it is gone
 
 
-def _portable(error: Exception) -> Exception:
+def portable(error: Exception) -> Exception:
     """The error, if it comes through a pipe as it is."""
     try:
         pickle.loads(pickle.dumps(error))

@@ -14,16 +14,27 @@ import functools
 import os
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
 
-from dcg_torch.experiment.folder import check_owner, mark_as_own, open_trials, remove_parts
+from dcg_torch.experiment.backends import require_backend, work_off_joblib
+from dcg_torch.experiment.folder import (
+    RunFolderError,
+    check_owner,
+    mark_as_own,
+    open_trials,
+    part_of,
+    remove_parts,
+)
 from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
-from dcg_torch.experiment.pool import TICK, may_start_processes, work_off
+from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off
 from dcg_torch.records import Iteration
-from dcg_torch.settings import ModelSettings, RobotKind, Settings, SettingsError
+from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
 
+SEEN_WITHIN = 90.0
+"""Seconds after which a file that another machine has written should be seen here; NFS remembers for 60."""
 Progress = Callable[[Sequence[Iteration]], None]
 
 
@@ -34,6 +45,7 @@ def check_feasible(settings: Settings) -> None:
         UserError: something is not there.
     """
     trial_commands(settings, 0)
+    require_backend(settings.backend)
     if settings.simulator.kind is RobotKind.pybullet:
         require_pybullet("simulator=pybullet", "take simulator=fake")
     if settings.screenshots:
@@ -89,14 +101,49 @@ def run(settings: Settings, directory: Path, progress: Progress, say: Callable[[
     remove_parts(directory, trials)
     journal = Journal(directory, settings.trials, settings.iterations)
     progress(journal.advance())
-    workers = min(settings.workers or os.cpu_count() or 1, len(trials))
-    if workers <= 1 or settings.simulator.gui or not may_start_processes():  # gui: one window to look at
-        _run_here(settings, directory, trials, lambda: progress(journal.advance()))
-    else:
-        for _ in work_off(functools.partial(_run_trial, settings, directory), trials, workers):
-            progress(journal.advance())
+    _run_trials(settings, directory, trials, lambda: progress(journal.advance()))
     progress(journal.advance())
     return len(trials)
+
+
+def _run_trials(settings: Settings, directory: Path, trials: Sequence[int], tick: Callable[[], None]) -> None:
+    """Run trials where the settings say."""
+    workers = min(settings.workers or cores(), len(trials))
+    alone = len(trials) < 2 or settings.workers == 1 or settings.simulator.gui  # gui: one window to look at
+    if alone or not may_start_processes() or (settings.backend is Backend.fork and workers < 2):
+        _run_here(settings, directory, trials, tick)
+    elif settings.backend is Backend.fork:
+        for _ in work_off(functools.partial(_run_trial, settings, directory), trials, workers):
+            tick()
+    else:
+        work = functools.partial(_run_far_trial, _far(settings), directory.absolute())
+        work_off_joblib(work, trials, settings.workers, settings.backend, tick)
+        _await_lines(directory, trials)
+
+
+def _await_lines(directory: Path, trials: Sequence[int]) -> None:
+    """Wait until the files that other machines have written are seen here, too: a network may take its time.
+
+    Raises:
+        RunFolderError: they do not come.
+    """
+    until = time.monotonic() + SEEN_WITHIN
+    for part in (part_of(directory, trial) for trial in trials):
+        while part.name not in os.listdir(part.parent):
+            if time.monotonic() > until:
+                raise RunFolderError(
+                    f"{part}: this trial has run, but its lines are not here; give a hydra.run.dir that all nodes see "
+                    "under the same path"
+                )
+            time.sleep(TICK)
+
+
+def _far(settings: Settings) -> Settings:
+    """The settings for a process that has another working folder."""
+    named = settings.worlds in ("committed", "generated")
+    worlds = settings.worlds if named else str(Path(settings.worlds).expanduser().absolute())
+    training = settings.training and str(Path(settings.training).expanduser().absolute())
+    return replace(settings, worlds=worlds, training=training)
 
 
 def _run_here(settings: Settings, directory: Path, trials: Sequence[int], tick: Callable[[], None]) -> None:
@@ -118,3 +165,10 @@ def _run_trial(settings: Settings, directory: Path, trial: int, tick: Callable[[
     from dcg_torch.experiment.worker import run_one
 
     run_one(settings, trial, directory, tick)
+
+
+def _run_far_trial(settings: Settings, directory: Path, trial: int) -> None:
+    """Run a trial, perhaps on another machine, perhaps a second time while a lost one still runs it."""
+    from dcg_torch.experiment.worker import run_one
+
+    run_one(settings, trial, directory, at_once=True)

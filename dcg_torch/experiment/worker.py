@@ -30,11 +30,14 @@ from dcg_torch.watch.recording import Recorder
 from dcg_torch.watch.wording import meant
 
 
-def run_one(settings: Settings, trial: int, directory: Path, tick: Callable[[], None] = lambda: None) -> GroundingModel:
+def run_one(
+    settings: Settings, trial: int, directory: Path, tick: Callable[[], None] = lambda: None, *, at_once: bool = False
+) -> GroundingModel:
     """Run one trial, journalling its commands in `directory`; the model as it is at the end.
 
     Args:
         tick: called as each command ends.
+        at_once: the lines appear when all are there, so that several processes may run the same trial.
     """
     torch.set_num_threads(1)
     model = make_model(settings.model, settings.names, settings.training)
@@ -54,13 +57,20 @@ def run_one(settings: Settings, trial: int, directory: Path, tick: Callable[[], 
         asking=make_asking(settings),
         watch=_watcher(robot, recorder),
     )
-    with part_of(directory, trial).open("w", encoding="utf-8") as file:
-        for command, (iteration, timing) in zip(commands, rows, strict=True):
-            file.write(f"{iteration.model_dump_json()}\t{timing.model_dump_json()}\n")
-            file.flush()
-            if recorder:
-                recorder.end(command, iteration)
-            tick()
+
+    def journal(part: Path) -> None:
+        with part.open("w", encoding="utf-8") as file:
+            for command, (iteration, timing) in zip(commands, rows, strict=True):
+                file.write(f"{iteration.model_dump_json()}\t{timing.model_dump_json()}\n")
+                file.flush()
+                if recorder:
+                    recorder.end(command, iteration)
+                tick()
+
+    if at_once:
+        write_whole(part_of(directory, trial), journal)
+    else:
+        journal(part_of(directory, trial))
     _save_outcome(settings, model, recorder, trial, directory)
     return model
 

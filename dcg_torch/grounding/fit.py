@@ -12,18 +12,22 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
+import torch
 from numpy.typing import NDArray
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.objective import likelihood, max_norm
+from dcg_torch.grounding.on_device import minimise
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
 from dcg_torch.grounding.rows import GridRows, SparseRows
 from dcg_torch.grounding.threads import one_thread
+from dcg_torch.grounding.written import weight_at, write_out
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -59,6 +63,7 @@ def fit(
     tolerance: float = 1e-7,
     max_steps: int = 500,
     solver: Solver = "auto",
+    device: str | None = None,
 ) -> FitResult:
     """Maximise the penalised likelihood from the factor's present weights, in place.
 
@@ -72,10 +77,12 @@ def fit(
         max_steps: of the solver, at the most.
         solver: "auto" takes what measurements say is fastest: Newton's method where rows share few weights, else
             Newton-CG. "newton" insists on the former; "lbfgs" is for few steps that need not arrive; "lbfgs-torch" is
-            torch.optim.LBFGS.
+            torch.optim.LBFGS. A device other than the processor knows "auto" alone, which is Newton-CG there.
+        device: where the sums over rows are done; None: where the factor's weights are.
 
     Raises:
-        ValueError: l2 is not positive.
+        ValueError: l2 is not positive, or the device has no such solver.
+        DeviceError: the device is not there.
     """
     began = time.perf_counter()
     weight = factor.weight.detach().cpu().numpy()
@@ -85,23 +92,56 @@ def fit(
     if not (strength[active] > 0.0).all():
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
     fixed = np.where(active, 0.0 if prior is None else prior, weight)
-    reduced = reduce(designs, weight, fixed, active, strength, prefer=solver)
+    where = factor.weight.device if device is None else device_of(device)
+    problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
-        found = _solve(reduced, tolerance, max_steps, solver)
-    factor.set_weight(reduced.weight(found.point.at))
+        if where.type == "cpu":
+            found, new, constant, rows = _on_processor(problem, tolerance, max_steps, solver)
+        elif solver == "auto":
+            found, new, constant, rows = _on_device(problem, where, tolerance, max_steps)
+        else:
+            raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
+    factor.set_weight(new)
     rest = np.flatnonzero(pairs & ~active)  # of the active ones that don't move the prior is the optimum
     distance = (fixed if prior is None else fixed - prior).reshape(len(weight), -1)[:, rest] if len(rest) else 0.0
     return FitResult(
-        value=found.point.value
-        + reduced.constant
-        + 0.5 * float(np.sum(strength.reshape(-1)[rest] * distance * distance)),
+        value=found.point.value + constant + 0.5 * float(np.sum(strength.reshape(-1)[rest] * distance * distance)),
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,
-        rows=reduced.objective.count.shape[1],
+        rows=rows,
         status=found.status,
         seconds=time.perf_counter() - began,
     )
+
+
+class Problem(NamedTuple):
+    """What `reduction.reduce` and `written.write_out` start from."""
+
+    designs: Sequence[DesignMatrix]
+    weight: Floats
+    fixed: Floats
+    active: NDArray[np.bool_]
+    strength: Floats
+
+
+_Found = tuple[solvers.Minimum, Floats, float, int]
+"""Where a solver ended, the weights (P, L, G) there, a constant to add to the value, and the rows that it saw."""
+
+
+def _on_processor(problem: Problem, tolerance: float, max_steps: int, solver: Solver) -> _Found:
+    reduced = reduce(*problem, prefer=solver)
+    found = _solve(reduced, tolerance, max_steps, solver)
+    return found, reduced.weight(found.point.at), reduced.constant, reduced.objective.count.shape[1]
+
+
+def _on_device(problem: Problem, device: torch.device, tolerance: float, max_steps: int) -> _Found:
+    if not problem.designs:
+        return _on_processor(problem, tolerance, max_steps, "auto")
+    written = write_out(*problem)
+    found = minimise(written, device, tolerance=tolerance, max_steps=max_steps)
+    d = found.point.at.reshape(len(problem.weight) - 1, -1)
+    return found, weight_at(d, problem.fixed, written.columns), written.constant, written.incidence.rows
 
 
 def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -> solvers.Minimum:

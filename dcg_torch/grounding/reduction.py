@@ -13,17 +13,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.arrowhead import Split, split
 from dcg_torch.grounding.cells import cell_rows, together
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
-from dcg_torch.grounding.objective import Objective, likelihood
-from dcg_torch.grounding.psi import Bag, Floats, binary, scores
+from dcg_torch.grounding.objective import Objective
+from dcg_torch.grounding.psi import Floats, binary
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows
-from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes, row_keys
-
-Mask = NDArray[np.bool_]
+from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
+from dcg_torch.grounding.written import Mask, constant_of, differences, offset_of, summed, weight_at, write_out
 
 _FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which symmetry is looked for at once, and rows are written out."""
@@ -53,16 +51,10 @@ class Reduced:
 
     def weight(self, at: Floats) -> Floats:
         """(P, L, G) at the solver's variables."""
-        q = len(self.fixed) - 1
-        d = at.reshape(q, -1)
+        d = at.reshape(len(self.fixed) - 1, -1)
         if self.tied is not None:
             d = d[:, self.tied[0]] * self.tied[1]
-        mean = d.sum(axis=0) / (q + 1)
-        weight = self.fixed.copy()
-        flat = weight.reshape(q + 1, -1)
-        flat[0, self.columns] -= mean
-        flat[1:, self.columns] += d - mean
-        return weight
+        return weight_at(d, self.fixed, self.columns)
 
 
 def reduce(
@@ -97,44 +89,6 @@ def reduce(
     return _factored(designs, weight, fixed, active, strength)
 
 
-def _offset(designs: Sequence[DesignMatrix], fixed: Floats) -> Floats | None:
-    """(Q, N) score differences by weights that do not move."""
-    if not fixed.any():
-        return None
-    totals = []
-    for design in designs:
-        (left, language), (right, grounding) = (_compact(bag) for bag in (design.language, design.grounding))
-        totals.append(scores(fixed[:, left[:, None], right], language, grounding, design.phrase))
-    total = np.concatenate(totals, axis=1)
-    offset: Floats = total[1:] - total[0]
-    return offset
-
-
-def _compact(bag: Bag) -> tuple[Ints, Bag]:
-    """The columns that occur in a bag, and the bag with their numbers among these."""
-    occurs = np.zeros(int(bag.max(initial=-1)) + 2, dtype=np.bool_)
-    occurs[bag] = True
-    occurs[-1] = False  # the padding
-    columns = np.flatnonzero(occurs)
-    number = np.full(len(occurs), -1, dtype=np.int64)
-    number[columns] = np.arange(len(columns))
-    return columns, number[bag]
-
-
-def _constant(count: Floats, offset: Floats | None, rows: Mask) -> float:
-    """The negative log-likelihood of some rows, whose scores are `offset`."""
-    own = count[:, rows]
-    u = np.zeros((len(count) - 1, own.shape[1])) if offset is None else offset[:, rows]
-    return likelihood(u, own, own.sum(axis=0))[0]
-
-
-def _differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
-    """(Q, K) how the weights of P - 1 correspondences differ from the first's, beside the prior's."""
-    moved = weight.reshape(len(weight), -1)[:, columns] - fixed.reshape(len(weight), -1)[:, columns]
-    differences: Floats = moved[1:] - moved[0]
-    return differences
-
-
 def _written(
     designs: Sequence[DesignMatrix],
     weight: Floats,
@@ -151,17 +105,12 @@ def _written(
         always: Newton's method it is to be.
         many: look for symmetry only where it takes that.
     """
-    incidence, rows, columns = _written_out(designs, active)
-    offset, count = _offset(designs, fixed), np.concatenate([design.count for design in designs], axis=1)
-    unmoved = np.ones(count.shape[1], dtype=np.bool_)
-    unmoved[rows] = False
-    constant = _constant(count, offset, unmoved)
-    if not len(rows):
+    written = write_out(designs, weight, fixed, active, strength)
+    incidence, columns, constant = written.incidence, written.columns, written.constant
+    count, offset, start, own = written.count, written.offset, written.start, written.strength
+    if not incidence.rows:
         none = ArrowheadRows(np.zeros((0, 0)), None, np.zeros(0, dtype=np.int64), np.zeros(0))
-        return Reduced(Objective(none, count[:, :0], None, np.zeros(0)), np.zeros(0), constant, fixed, columns, None)
-    count, offset = count[:, rows], None if offset is None else offset[:, rows]
-    incidence, count, offset = _merged(incidence, count, offset)
-    start, own = _differences(weight, fixed, columns), strength.reshape(-1)[columns]
+        return Reduced(Objective(none, count, None, np.zeros(0)), np.zeros(0), constant, fixed, columns, None)
     found = split(incidence, np.ones(len(incidence.row))) if many else None
     tied: tuple[Ints, Floats] | None = None
     if found is None or not _pays(found, len(start)):
@@ -170,7 +119,7 @@ def _written(
         incidence, fires = alike.incidence(incidence)
         count = count[:, alike.row_first] * alike.row_size
         offset = None if offset is None else offset[:, alike.row_first]
-        own, start = own[alike.column_first], _summed(start, alike.column, len(root)) / root
+        own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
         tied = alike.column, (1.0 / root)[alike.column]
         found = split(incidence, fires / root[incidence.column])
         if not (always or _pays(found, len(start))):
@@ -192,54 +141,9 @@ def _pays(found: Split, q: int) -> bool:
     return shared <= _NEWTON_COLUMNS and work <= _NEWTON_WORK
 
 
-def _written_out(designs: Sequence[DesignMatrix], active: Mask) -> tuple[Incidence, Ints, Ints]:
-    """Which pairs fire: of the rows in which some does, the rows' numbers, and the cells of (L, G) that do."""
-    languages, groundings = active.shape
-    mask = np.zeros((languages + 1, groundings + 1), dtype=np.bool_)
-    mask[:-1, :-1] = active
-    flat, parts, lengths = mask.reshape(-1), [], []
-    for design in designs:
-        left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
-        codes = left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
-        fires = flat[codes]
-        parts.append(codes[fires])
-        lengths.append(np.count_nonzero(fires, axis=(1, 2)))
-    pairs, length = np.concatenate(parts), np.concatenate(lengths)
-    seen = np.zeros(mask.size, dtype=np.bool_)
-    seen[pairs] = True
-    cells = np.flatnonzero(seen)
-    number = np.empty(mask.size, dtype=np.int64)
-    number[cells] = np.arange(len(cells))
-    rows = np.flatnonzero(length)
-    incidence = Incidence(np.repeat(np.arange(len(rows)), length[rows]), number[pairs], len(rows), len(cells))
-    return incidence, rows, cells // (groundings + 1) * groundings + cells % (groundings + 1)
-
-
-def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple[Incidence, Floats, Floats | None]:
-    """Rows in which the same pairs fire become one."""
-    keys = row_keys(incidence)
-    if offset is not None:
-        keys = keys + bits_of(offset, incidence.rows)
-    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # rows stay in their order
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    first = first[order]
-    return (
-        incidence.keep(first),
-        _summed(count, rank[which], len(first)),
-        None if offset is None else offset[:, first],
-    )
-
-
 def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats) -> Classes:
     rows = bits_of(count if offset is None else np.concatenate([count, offset]), incidence.rows)
     return classes(incidence, rows, bits_of(strength[None], incidence.columns))
-
-
-def _summed(values: Floats, which: Ints, size: int) -> Floats:
-    """(n, size): sums of the columns of `values` with the same number."""
-    return np.stack([np.bincount(which, row, minlength=size) for row in values])
 
 
 def _factored(
@@ -253,7 +157,7 @@ def _factored(
     kept = _kept(left, active.shape[0]), _kept(right, active.shape[1])
     if fixed.any():  # rows that fire the same columns of those that move may have different scores
         design = concatenate([design])
-        offset, design = _offset([design], fixed), design.renamed(*kept) if narrow else design
+        offset, design = offset_of([design], fixed), design.renamed(*kept) if narrow else design
     else:
         offset, design = None, concatenate([design.renamed(*kept) if narrow else design])
     own, whole = fires[np.ix_(left, right)], bool(active[np.ix_(left, right)].all())
@@ -265,14 +169,14 @@ def _factored(
     else:
         unmoved = np.ones(count.shape[1], dtype=np.bool_)
         unmoved[cells] = False
-        constant = _constant(count, offset, unmoved)
+        constant = constant_of(count, offset, unmoved)
         count, offset = count[:, cells], None if offset is None else offset[:, cells]
     columns = (left[:, None] * active.shape[1] + right).reshape(-1)
     if not isinstance(rows, GridRows):
         columns = columns[np.flatnonzero(own)]
     elif rows.active is not None:
         columns = columns[rows.active]
-    start = _differences(weight, fixed, columns).reshape(-1)
+    start = differences(weight, fixed, columns).reshape(-1)
     return Reduced(Objective(rows, count, offset, strength.reshape(-1)[columns]), start, constant, fixed, columns, None)
 
 

@@ -68,7 +68,7 @@ def save(model: GroundingModel, directory: Path | str) -> None:
         learner if isinstance(learner, CommitFirst) else None,
         learner if isinstance(learner, WordPosterior) else None,
     )
-    tensors = _sparse("weight", model.factor.weight.numpy()) | _sparse("prior", model.prior)
+    tensors = _sparse("weight", model.factor.weight.detach().cpu().numpy()) | _sparse("prior", model.prior)
     tensors |= {"held": np.flatnonzero(model.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
     text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
@@ -76,11 +76,15 @@ def save(model: GroundingModel, directory: Path | str) -> None:
     write_whole(directory / DESCRIPTION, text)
 
 
-def load(directory: Path | str) -> GroundingModel:
+def load(directory: Path | str, *, device: str = "cpu") -> GroundingModel:
     """The model that `save` wrote: the same probabilities to the last bit, and ready to learn on.
+
+    Args:
+        device: see `GroundingModel.to`.
 
     Raises:
         CheckpointError: a file is missing, broken, or does not fit the other.
+        DeviceError: torch cannot use the device here.
     """
     directory = Path(directory)
     described, tensors = _description(directory), _tensors(directory)
@@ -104,7 +108,7 @@ def load(directory: Path | str) -> GroundingModel:
     if (tensors["held"] < 0).any() or (tensors["held"] >= math.prod(shape[1:])).any():
         raise CheckpointError(f"{directory}: {WEIGHTS} holds weights of columns that {DESCRIPTION} lacks")
     model.held.reshape(-1)[tensors["held"]] = True
-    return model
+    return model.to(device)
 
 
 def _description(directory: Path) -> _Description:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
@@ -93,12 +94,25 @@ class GroundingModel:
 
     def copy(self) -> GroundingModel:
         """A model that is like this one, and learns by itself from here."""
-        factor = LogLinearFactor(self.features.pairs, self.factor.correspondences)
+        factor = LogLinearFactor(self.features.pairs, self.factor.correspondences, self.factor.weight.device)
         factor.set_weight(self.factor.weight.detach().clone())
         other = GroundingModel(self.variant, self.features, factor, self.learner)
         other.held, other.prior, other.fitted = self.held.copy(), self.prior.copy(), self.fitted
         other._statistics = self._statistics.copy()
         return other
+
+    def to(self, device: str) -> GroundingModel:
+        """This model, with its weights on a device, where Psi is computed and the sums of its fits; in place.
+
+        Args:
+            device: as torch names it: "cpu", "cuda", "cuda:1".
+
+        Raises:
+            DeviceError: torch cannot use it here.
+        """
+        if device != str(self.factor.weight.device):
+            self.factor.to(device_of(device))
+        return self
 
     @property
     def symbols(self) -> dict[str, Symbol]:

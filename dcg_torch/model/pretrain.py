@@ -26,13 +26,17 @@ _ROUNDS = 3
 SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
 
-def pretrained(*, opaque: bool = False) -> GroundingModel:
+def pretrained(*, opaque: bool = False, device: str = "cpu") -> GroundingModel:
     """The shipped model: it knows cube, sphere and cylinder, colours, relations, and learns everything else.
 
     Args:
         opaque: the names of classes say nothing of what people call them, as in the paper's experiments.
+        device: see `GroundingModel.to`.
+
+    Raises:
+        DeviceError: torch cannot use the device here.
     """
-    model = load(SHIPPED)
+    model = load(SHIPPED, device=device)
     return without_names(model) if opaque else model
 
 

@@ -53,7 +53,7 @@ def teach(
     kept = example_choices(place_examples(), model.features) if relations_only else []
     if not relations_only:
         # What was known before gives way to as much evidence as any.
-        model.prior = model.factor.weight.numpy().copy()
+        model.prior = model.factor.weight.detach().cpu().numpy().copy()
         paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
         model.fit_weights(paths, free=None, l2=l2)
         model.held |= firing(paths, model.features.shape)
@@ -68,7 +68,7 @@ def teach(
 
     fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
     if not relations_only:
-        model.prior = model.factor.weight.numpy().copy()
+        model.prior = model.factor.weight.detach().cpu().numpy().copy()
         _hear(model, parts)
 
 

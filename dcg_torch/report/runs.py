@@ -22,7 +22,17 @@ from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_sum
 from dcg_torch.report.text import printable
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
-NO_EFFECT = ("name", "trials", "workers", "animate", "figures", "tensorboard", "screenshots")
+NO_EFFECT = (
+    "name",
+    "trials",
+    "workers",
+    "backend",
+    "metric",
+    "animate",
+    "figures",
+    "tensorboard",
+    "screenshots",
+)
 """Settings that change no byte of a trial: two runs that differ in these alone are of one configuration."""
 
 Record = TypeVar("Record", bound=BaseModel)

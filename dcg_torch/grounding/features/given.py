@@ -12,7 +12,7 @@ from dcg_torch.types import Correspondence
 
 def give_odds(factor: LogLinearFactor, features: FeatureSet) -> None:
     """Give the facts between words and the names of classes, colours and attributes their odds, in place."""
-    weight = factor.weight.numpy().copy()
+    weight = factor.weight.detach().cpu().numpy().copy()
     sign = np.array([0.5 if c is Correspondence.ACTIVE else -0.5 for c in factor.correspondences])
     for fact, odds in fact_odds().items():
         column = features.grounding[fact]

@@ -1,0 +1,148 @@
+"""Rows of a fit written out as the pairs that fire in them, beside what does not move: a sparse binary matrix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.design import DesignMatrix, Ints
+from dcg_torch.grounding.objective import likelihood
+from dcg_torch.grounding.psi import Bag, Floats, scores
+from dcg_torch.grounding.symmetry import Incidence, bits_of, row_keys
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Written:
+    """The rows in which some weight moves, those that fire the same merged, and the K variables of each difference.
+
+    Attributes:
+        incidence: (N, K) which variable fires in which row.
+        count: (P, N) summed weights of the examples with each label.
+        offset: (Q, N) score differences by weights that do not move; None: nothing.
+        start: (Q, K) the variables at the present weights.
+        strength: (K,) l2 of each.
+        columns: (K,) the cells of (L, G) that they are.
+        constant: of the likelihood, from rows in which no weight moves.
+    """
+
+    incidence: Incidence
+    count: Floats
+    offset: Floats | None
+    start: Floats
+    strength: Floats
+    columns: Ints
+    constant: float
+
+
+def write_out(
+    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
+) -> Written:
+    """The rows of designs, of which there is at least one; for the arguments see `reduction.reduce`."""
+    incidence, rows, columns = _written_out(designs, active)
+    offset, count = offset_of(designs, fixed), np.concatenate([design.count for design in designs], axis=1)
+    unmoved = np.ones(count.shape[1], dtype=np.bool_)
+    unmoved[rows] = False
+    constant = constant_of(count, offset, unmoved)
+    start, own = differences(weight, fixed, columns), strength.reshape(-1)[columns]
+    count, offset = count[:, rows], None if offset is None else offset[:, rows]
+    if len(rows):
+        incidence, count, offset = _merged(incidence, count, offset)
+    return Written(incidence, count, offset, start, own, columns, constant)
+
+
+def weight_at(d: Floats, fixed: Floats, columns: Ints) -> Floats:
+    """(P, L, G) weights at variables (Q, K) of some cells, beside those that do not move."""
+    mean = d.sum(axis=0) / len(fixed)
+    weight = fixed.copy()
+    flat = weight.reshape(len(fixed), -1)
+    flat[0, columns] -= mean
+    flat[1:, columns] += d - mean
+    return weight
+
+
+def offset_of(designs: Sequence[DesignMatrix], fixed: Floats) -> Floats | None:
+    """(Q, N) score differences by weights that do not move."""
+    if not fixed.any():
+        return None
+    totals = []
+    for design in designs:
+        (left, language), (right, grounding) = (_compact(bag) for bag in (design.language, design.grounding))
+        totals.append(scores(fixed[:, left[:, None], right], language, grounding, design.phrase))
+    total = np.concatenate(totals, axis=1)
+    offset: Floats = total[1:] - total[0]
+    return offset
+
+
+def _compact(bag: Bag) -> tuple[Ints, Bag]:
+    """The columns that occur in a bag, and the bag with their numbers among these."""
+    occurs = np.zeros(int(bag.max(initial=-1)) + 2, dtype=np.bool_)
+    occurs[bag] = True
+    occurs[-1] = False  # the padding
+    columns = np.flatnonzero(occurs)
+    number = np.full(len(occurs), -1, dtype=np.int64)
+    number[columns] = np.arange(len(columns))
+    return columns, number[bag]
+
+
+def constant_of(count: Floats, offset: Floats | None, rows: Mask) -> float:
+    """The negative log-likelihood of some rows, whose scores are `offset`."""
+    own = count[:, rows]
+    u = np.zeros((len(count) - 1, own.shape[1])) if offset is None else offset[:, rows]
+    return likelihood(u, own, own.sum(axis=0))[0]
+
+
+def differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
+    """(Q, K) how the weights of P - 1 correspondences differ from the first's, beside the prior's."""
+    moved = weight.reshape(len(weight), -1)[:, columns] - fixed.reshape(len(weight), -1)[:, columns]
+    differences: Floats = moved[1:] - moved[0]
+    return differences
+
+
+def _written_out(designs: Sequence[DesignMatrix], active: Mask) -> tuple[Incidence, Ints, Ints]:
+    """Which pairs fire: of the rows in which some does, the rows' numbers, and the cells of (L, G) that do."""
+    languages, groundings = active.shape
+    mask = np.zeros((languages + 1, groundings + 1), dtype=np.bool_)
+    mask[:-1, :-1] = active
+    flat, parts, lengths = mask.reshape(-1), [], []
+    for design in designs:
+        left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
+        codes = left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
+        fires = flat[codes]
+        parts.append(codes[fires])
+        lengths.append(np.count_nonzero(fires, axis=(1, 2)))
+    pairs, length = np.concatenate(parts), np.concatenate(lengths)
+    seen = np.zeros(mask.size, dtype=np.bool_)
+    seen[pairs] = True
+    cells = np.flatnonzero(seen)
+    number = np.empty(mask.size, dtype=np.int64)
+    number[cells] = np.arange(len(cells))
+    rows = np.flatnonzero(length)
+    incidence = Incidence(np.repeat(np.arange(len(rows)), length[rows]), number[pairs], len(rows), len(cells))
+    return incidence, rows, cells // (groundings + 1) * groundings + cells % (groundings + 1)
+
+
+def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple[Incidence, Floats, Floats | None]:
+    """Rows in which the same pairs fire become one."""
+    keys = row_keys(incidence)
+    if offset is not None:
+        keys = keys + bits_of(offset, incidence.rows)
+    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+    order = np.argsort(first)  # rows stay in their order
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    first = first[order]
+    return (
+        incidence.keep(first),
+        summed(count, rank[which], len(first)),
+        None if offset is None else offset[:, first],
+    )
+
+
+def summed(values: Floats, which: Ints, size: int) -> Floats:
+    """(n, size): sums of the columns of `values` with the same number."""
+    return np.stack([np.bincount(which, row, minlength=size) for row in values])
