@@ -57,7 +57,9 @@ def script(shell: str) -> str:
 def main() -> int:
     """Print the script; the exit status."""
     parser = Arguments(prog="dcg-torch completion", description="Print what your shell completes.")
-    parser.add_argument("shell", metavar="SHELL", choices=("bash", "zsh"), help="then: source <(dcg-torch completion SHELL)")
+    parser.add_argument(
+        "shell", metavar="SHELL", choices=("bash", "zsh"), help="then: source <(dcg-torch completion SHELL)"
+    )
     print(script(parser.parse_args().shell), end="")
     return 0
 
