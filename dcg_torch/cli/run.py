@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import sys
+import threading
 import time
 from dataclasses import asdict
 from pathlib import Path
@@ -18,18 +20,22 @@ from dcg_torch.cli.application import one_line_errors, run_application
 from dcg_torch.cli.config import save_composed, settings_of
 from dcg_torch.cli.console import CommandBar, make_console
 from dcg_torch.experiment.folder import MARKS, check_owner, lexicon_of
+from dcg_torch.experiment.pool import may_start_processes
 from dcg_torch.experiment.runner import check_feasible, run
 from dcg_torch.settings import Settings
 from dcg_torch.storage.claim import claim
 from dcg_torch.storage.resources import resource
 
 _STARTED = time.perf_counter()
+_LOOK = 0.5  # seconds between two looks whether the launcher of a sweep is still there
 
 
 def _application(config: DictConfig) -> None:
     """One experiment, in the folder that Hydra chose."""
     directory, sweep = Path(HydraConfig.get().runtime.output_dir), HydraConfig.get().mode == RunMode.MULTIRUN
     began = time.perf_counter() if sweep else _STARTED
+    if sweep and not may_start_processes():
+        _end_with(os.getppid())
     named = f"hydra.sweep.dir={HydraConfig.get().sweep.dir}" if sweep else f"hydra.run.dir={directory}"
     with one_line_errors(directory, f"the same command with {named} goes on from here"):
         settings = settings_of(config)
@@ -38,6 +44,17 @@ def _application(config: DictConfig) -> None:
         with claim(directory, MARKS):
             save_composed(config, directory)
             _run(settings, directory, began)
+
+
+def _end_with(launcher: int) -> None:
+    """End this process when the launcher's is gone: an orphan would keep the folder from the sweep that goes on."""
+
+    def watch() -> None:
+        while os.getppid() == launcher:
+            time.sleep(_LOOK)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
 
 
 def _run(settings: Settings, directory: Path, began: float) -> None:
