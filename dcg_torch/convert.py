@@ -15,6 +15,7 @@ from rich.console import Console
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import Bar, make_console
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.whole import write_whole
 
 
@@ -96,7 +97,7 @@ class _Progress:
 
 def _parser() -> argparse.ArgumentParser:
     listed = "\n".join(f"  {name:<16}{kind.reads}" for name, kind in KINDS.items())
-    parser = argparse.ArgumentParser(
+    parser = Arguments(
         prog="python -m dcg_torch.convert",
         description=f"{_DESCRIPTION}\nKinds:\n{listed}\n",
         epilog=_EPILOG,

@@ -26,7 +26,7 @@ from dcg_torch.cli.console import Bar, make_console
 from dcg_torch.evaluation.baselines import make_baseline, run_baseline
 from dcg_torch.evaluation.baselines.run import Outcome
 from dcg_torch.evaluation.certify import certify
-from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds
+from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds, unused_note
 from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
 from dcg_torch.evaluation.summary import by_file, summarise
 from dcg_torch.evaluation.summary import figures as of_all
@@ -66,6 +66,9 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     device_of(settings.device)
     splits = read_splits(settings)
     _check(settings, splits)
+    # With folds, too, the first split has all episodes.
+    if note := unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part):
+        console.print(f"note: {note}", markup=False)
     found: list[Answer] = []
     learned: dict[str, str] = {}
     train_seconds = 0.0

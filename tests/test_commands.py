@@ -34,6 +34,49 @@ def test_a_command_gets_its_arguments(capsys: pytest.CaptureFixture[str]) -> Non
     assert "usage: python -m dcg_torch.evaluate" in out
 
 
+def test_help_on_a_command_is_its_help(capsys: pytest.CaptureFixture[str]) -> None:
+    status, out, _ = typed(capsys, main, "dcg-torch", "help", "convert")
+    assert status == 0
+    assert "iref_vla" in out
+
+
+WRONG = [
+    ("help evalute", "did you mean evaluate?"),
+    ("help no_such_thing", "there is no such command; take run, evaluate"),
+    ("convert", "KIND, PATH, --out"),
+    ("convert nonsense x --out y", "invalid choice: 'nonsense'"),
+    ("convert h2sl no_such_file", "--out"),
+    ("convert csv no_such_file.csv --out out.jsonl", "no_such_file.csv"),
+    ("convert csv . --out out.jsonl", "this is no file"),
+    ("collect nonsense", "there is no such command"),
+    ("collect import", "say what"),
+    ("collect serve port=abc", "port"),
+    ("collect serve port=99999999", "port"),
+    ("report", "DIR"),
+    ("report no_such_folder", "no such folder"),
+    ("report no_such_folder --figures gif", "invalid choice: 'gif'"),
+    ("schema --nope", "--nope"),
+    ("schema {file}", "give"),
+    ("completion fish", "invalid choice: 'fish'"),
+    ("completion", "SHELL"),
+    ("evaluate --nope", "--nope"),
+    ("--nope", "--nope"),
+]
+
+
+@pytest.mark.parametrize(("line", "says"), WRONG, ids=[line for line, _ in WRONG])
+def test_wrong_input_is_one_line_and_exit_status_2(
+    line: str, says: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "file"
+    file.write_text("")
+    monkeypatch.chdir(tmp_path)
+    status, out, err = typed(capsys, main, "dcg-torch", *line.format(file=file).split())
+    assert (status, out, err.count("\n")) == (2, "", 1), err
+    assert err.startswith("dcg_torch: ")
+    assert says in err
+
+
 def test_overrides_alone_are_an_experiment(capsys: pytest.CaptureFixture[str]) -> None:
     status, _, err = typed(capsys, main, "dcg-torch", "trils=3")
     assert (status, err.count("\n")) == (2, 1)

@@ -15,7 +15,7 @@ from hostile import EPISODE, SCALARS, TRAINING, WORLD, json_lines, yaml_files
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.evaluation.episodes import read_episodes, unused_keys
+from dcg_torch.evaluation.episodes import read_episodes, unused_keys, unused_note
 from dcg_torch.lessons import read_training
 from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import load_world
@@ -103,6 +103,7 @@ def test_what_is_wrong_in_a_world_file_is_said(content: bytes, says: str) -> Non
             thing(EPISODE, colour="red").replace(b'"color": "red", ', b""), "did you mean color?", id="colour"
         ),
         pytest.param(changed(EPISODE)[:-1] + b', "id": "z"}', "the key 'id' is there twice", id="key twice"),
+        pytest.param(changed(EPISODE, robot={"x": 0, "y": 0, "yaww": 1}), "did you mean yaw?", id="yaw"),
         pytest.param(thing(EPISODE, type=""), "objects.0.type", id="empty type"),
         pytest.param(thing(EPISODE, type=" "), "objects.0.type", id="blank type"),
         pytest.param(thing(EPISODE, rgb=[1, 2]), "objects.0.rgb", id="two shades"),
@@ -125,9 +126,27 @@ def test_what_scanners_and_corpora_write_is_taken(tmp_path: Path) -> None:
     (episode,) = read_episodes(path)
     assert episode.objects[0].extents is None  # 0: the scanner could not tell
     assert episode.objects[0].rgb == (255.0, 0.0, 0.0)
-    assert unused_keys([episode]) == {"age": 1, "tags": 1, "targets": 1, "target_id": 1}
+    assert unused_keys([episode]) == {f"objects.{key}": 1 for key in ("age", "tags", "targets", "target_id")}
     path.write_bytes(changed(EPISODE, target=[]))
     assert read_episodes(path)[0].target == ()
+
+
+def test_keys_that_are_not_used_are_said_in_one_line(tmp_path: Path) -> None:
+    path = tmp_path / "e.jsonl"
+    path.write_bytes(
+        changed(EPISODE, id="1", grp="x", robot={"x": 0, "y": 0, "heading": 1})
+        + b"\n"
+        + changed(EPISODE, id="2", grp="x", **{"a\x1b[31m\n": 1, **{f"k{n}": 0 for n in range(20)}})
+    )
+    note = unused_note(read_episodes(path))
+    assert note is not None
+    assert "grp (2), " in note
+    assert note.isprintable()
+    assert "more" in note
+    path.write_bytes(changed(EPISODE, id="1", robot={"x": 0, "y": 0, "heading": 1}))
+    assert "robot.heading (1)" in (unused_note(read_episodes(path)) or "")
+    path.write_bytes(thing(EPISODE, held=True, material="wood"))
+    assert unused_note(read_episodes(path)) is None
 
 
 def test_an_object_may_be_called_what_the_robot_calls_its_guesses(tmp_path: Path) -> None:

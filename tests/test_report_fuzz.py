@@ -8,13 +8,14 @@ import tempfile
 from pathlib import Path
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from report_rows import row, run, write_run
 from rich.console import Console
 
 from dcg_torch.report.export import to_csv
-from dcg_torch.report.runs import load_run
+from dcg_torch.report.runs import load_run, read_rows
 from dcg_torch.report.show import print_run, print_several
 from dcg_torch.report.summary import ReportError
 
@@ -101,3 +102,12 @@ def test_a_damaged_run_is_reported_or_refused(data: st.DataObject) -> None:
             (folder / "summary.json").unlink()  # as of a run that did not finish
         said = report(folder)
         assert said.startswith("run,folder,") or ("\n" not in said and 0 < len(said) < 400 + len(name))
+
+
+def test_a_strange_key_does_not_steer_the_terminal(tmp_path: Path) -> None:
+    path = tmp_path / "iterations.jsonl"
+    path.write_text(json.dumps({**row().model_dump(mode="json"), "\x1b[31m" + "x" * 5_000: 1}) + "\n")
+    with pytest.raises(ReportError) as caught:
+        read_rows(path)
+    assert str(caught.value).isprintable()
+    assert len(str(caught.value)) < 300 + len(str(path))

@@ -118,7 +118,7 @@ def test_a_damaged_folder_is_one_line(
         (folder / name).write_bytes(content)
     assert main([str(folder)]) == 2
     error = capsys.readouterr().err
-    assert error.startswith("error: ")
+    assert error.startswith("dcg_torch: ")
     assert error.count("\n") == 1
     assert says in error
     assert len(error) < 300 + len(str(folder))
@@ -287,7 +287,7 @@ def test_command_line_refuses_in_one_line(tmp_path: Path, capsys: pytest.Capture
     ):
         assert main(arguments) == 2
         error = capsys.readouterr().err
-        assert error.startswith("error: ")
+        assert error.startswith("dcg_torch: ")
         assert error.count("\n") == 1
         assert says in error
     assert list((tmp_path / "empty").iterdir()) == []

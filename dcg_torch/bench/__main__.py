@@ -6,7 +6,6 @@ the same rows and the same objective, if scikit-learn is installed (the extra `b
 
 from __future__ import annotations
 
-import argparse
 import json
 import math
 import os
@@ -25,6 +24,7 @@ from rich.table import Table as Grid
 from dcg_torch.bench.fits import bench_fits
 from dcg_torch.bench.grounding import bench_grounding
 from dcg_torch.bench.result import Result, milliseconds, repeated, result
+from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.trial import run_trial
@@ -33,7 +33,9 @@ from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import FakeRobot, SimulatedRobot
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.resources import resource
+from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import Percept
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import TYPES
@@ -165,7 +167,7 @@ def _grid(results: Iterable[Result]) -> Grid:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="python -m dcg_torch.bench", description="Time the parts of dcg_torch.")
+    parser = Arguments(prog="python -m dcg_torch.bench", description="Time the parts of dcg_torch.")
     parser.add_argument("--json", metavar="FILE", type=Path, help="also write the results into this file")
     options = parser.parse_args(arguments)
     console = make_console()
@@ -179,10 +181,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
     if options.json is not None:
         machine = {"python": platform.python_version(), "torch": torch.__version__, "cpus": cpus, "load": load}
-        options.json.parent.mkdir(parents=True, exist_ok=True)
-        options.json.write_text(
-            json.dumps({"machine": machine, "benchmarks": [asdict(r) for r in results]}, indent=1) + "\n", "utf-8"
-        )
+        found = {"machine": machine, "benchmarks": [asdict(r) for r in results]}
+        with one_line_errors():
+            write_whole(options.json, json.dumps(found, indent=1) + "\n")
         console.print(f"written to {options.json}")
     return 0
 

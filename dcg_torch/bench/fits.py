@@ -8,7 +8,6 @@ still, so every peer's gradient is given beside its time.
 
 from __future__ import annotations
 
-import argparse
 import math
 import sys
 import tracemalloc
@@ -24,6 +23,7 @@ from dcg_torch.bench.result import Result, milliseconds, repeated, result
 from dcg_torch.grounding.design import Ints, merge
 from dcg_torch.grounding.fit import fit, objective_at
 from dcg_torch.grounding.psi import BINARY, TERNARY, Bag, Floats, LogLinearFactor
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.types import Correspondence
 
 L2 = 1.0
@@ -215,7 +215,7 @@ def bench_fits(counts: Sequence[int] = (1_000, 100_000)) -> Iterator[Result]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Print the results as they come; returns the exit status."""
-    parser = argparse.ArgumentParser(prog="python -m dcg_torch.bench.fits", description="Time the fit and its peers.")
+    parser = Arguments(prog="python -m dcg_torch.bench.fits", description="Time the fit and its peers.")
     parser.add_argument("--rows", type=int, nargs="+", default=[1_000, 100_000], help="how many; 1000000 takes minutes")
     for found in bench_fits(parser.parse_args(arguments).rows):
         goal = "" if found.goal is None else f"  goal {found.goal:g}"

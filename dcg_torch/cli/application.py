@@ -7,6 +7,7 @@ import os
 import signal
 import sys
 from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from pathlib import Path
 from types import FrameType
 
@@ -18,6 +19,8 @@ from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
 _LONGEST = 1_000  # characters of a message
+GOES_ON: ContextVar[str] = ContextVar("GOES_ON", default="")
+"""How to go on after an interruption, where `one_line_errors` was not told; a sweep says it for all its jobs."""
 
 
 class Stopped(KeyboardInterrupt):
@@ -62,7 +65,8 @@ def one_line_errors(directory: Path | None = None, goes_on: str = "", program: s
         sys.exit(refuse("there is not enough memory; ask for less at a time", directory))
     except KeyboardInterrupt as error:
         with contextlib.suppress(OSError):
-            print(f"dcg_torch: interrupted{goes_on and '; ' + goes_on}", file=sys.stderr, flush=True)
+            how = goes_on or GOES_ON.get()
+            print(f"dcg_torch: interrupted{how and '; ' + how}", file=sys.stderr, flush=True)
         sys.exit(128 + (error.number if isinstance(error, Stopped) else signal.SIGINT))
 
 

@@ -8,6 +8,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from dcg_torch.storage.foreign import misspelt, plain
+
 
 @dataclass(frozen=True)
 class Command:
@@ -49,12 +51,24 @@ def main(commands: Mapping[str, Command] = COMMANDS) -> int:
     """Run the command that the first argument names, `run` without one; the exit status."""
     program, *arguments = sys.argv
     name = arguments[0] if arguments else ""
+    if name == "help" and arguments[1:]:
+        return _help_on(arguments[1], program, commands)
     if name == "help" or (Path(program).name.startswith("dcg-torch") and name in ("", "-h", "--help")):
         print(usage(commands))
         return 0
     if name not in commands:
         return _main_of("run", commands["run"])
     return start(name, [f"{program} {name}", *arguments[1:]], commands)
+
+
+def _help_on(name: str, program: str, commands: Mapping[str, Command]) -> int:
+    """Say more of one command; the exit status."""
+    if name in commands:
+        return start(name, [f"{program} {name}", "--help"], commands)
+    near = misspelt(name, tuple(commands))
+    hint = f"did you mean {near}?" if near else f"take {', '.join(commands)}"
+    print(f"dcg_torch: help {plain(name)}: there is no such command; {hint}", file=sys.stderr)
+    return 2
 
 
 def start(name: str, typed: list[str], commands: Mapping[str, Command] = COMMANDS) -> int:

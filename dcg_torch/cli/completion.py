@@ -5,7 +5,6 @@ source <(dcg-torch completion bash)
 
 from __future__ import annotations
 
-import argparse
 import enum
 import sys
 from collections.abc import Iterator
@@ -13,6 +12,7 @@ from collections.abc import Iterator
 from dcg_torch.cli.commands import COMMANDS
 from dcg_torch.cli.settings_help import SCHEMAS
 from dcg_torch.settings import described
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.resources import resource
 
 _SCRIPT = """\
@@ -57,8 +57,10 @@ def script(shell: str) -> str:
 
 def main() -> int:
     """Print the script; the exit status."""
-    parser = argparse.ArgumentParser(prog="dcg-torch completion", description="Print what your shell completes.")
-    parser.add_argument("shell", choices=("bash", "zsh"), help="then: source <(dcg-torch completion SHELL)")
+    parser = Arguments(prog="dcg-torch completion", description="Print what your shell completes.")
+    parser.add_argument(
+        "shell", metavar="SHELL", choices=("bash", "zsh"), help="then: source <(dcg-torch completion SHELL)"
+    )
     print(script(parser.parse_args().shell), end="")
     return 0
 

@@ -7,7 +7,6 @@ object of its scene), the description does.
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 from pathlib import Path
@@ -15,9 +14,11 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from dcg_torch.cli.application import one_line_errors
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.lessons.files import TrainingFile
 from dcg_torch.records import Iteration
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.world.files import World
 
@@ -48,14 +49,16 @@ def write_schemas(directory: Path) -> list[Path]:
 
 def main() -> int:
     """Run the command line; the exit status."""
-    parser = argparse.ArgumentParser(prog="dcg-torch schema", description="Print or write the JSON Schemas of files.")
+    parser = Arguments(prog="dcg-torch schema", description="Print or write the JSON Schemas of files.")
     parser.add_argument("directory", metavar="DIR", nargs="?", type=Path, help="a folder to write them into")
     directory: Path | None = parser.parse_args().directory
-    if directory is None:
-        print(json.dumps(schemas(), indent=2))
-    else:
-        for path in write_schemas(directory):
-            print(path)
+    with one_line_errors():
+        if directory is None:
+            print(json.dumps(schemas(), indent=2))
+        else:
+            for path in write_schemas(directory):
+                print(path)
+        sys.stdout.flush()
     return 0
 
 

@@ -11,7 +11,7 @@ from hydra.core.override_parser.overrides_parser import OverridesParser
 from hydra.experimental.callback import Callback
 from omegaconf import DictConfig, OmegaConf, open_dict, read_write
 
-from dcg_torch.cli.application import one_line_errors
+from dcg_torch.cli.application import GOES_ON, one_line_errors
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.backends import remove_shared_memory
 from dcg_torch.report.runs import load_runs
@@ -40,6 +40,7 @@ class Folders(Callback):
             folder = claim(Path(config.hydra.sweep.dir), ("multirun.yaml",), setting="hydra.sweep.dir")
             if (killed := _HELD.enter_context(folder)) is not None:
                 sweep_shared_memory(killed)
+        GOES_ON.set(f"the same command with hydra.sweep.dir={config.hydra.sweep.dir} goes on from here")
         settings = cast(dict[str, Any], OmegaConf.to_container(config.hydra, resolve=False))
         params = settings["sweeper"].get("params") or {}
         given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
@@ -55,6 +56,7 @@ class Folders(Callback):
         with one_line_errors():
             compare_runs(Path(config.hydra.sweep.dir))
         _HELD.close()
+        GOES_ON.set("")
 
 
 def sweep_shared_memory(process: int) -> None:

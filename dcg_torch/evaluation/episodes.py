@@ -23,7 +23,7 @@ class EpisodeError(UserError):
 
 
 class _Record(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="ignore", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="allow", allow_inf_nan=False)
 
 
 _Coordinate = Annotated[float, Field(ge=-1e6, le=1e6)]  # metres, or whatever a corpus counts in
@@ -45,8 +45,6 @@ class EpisodeObject(_Record):
     like, 0 to 255. Further keys are attributes where they are true or a text; what else they hold is not used, and
     `unused_keys` counts it.
     """
-
-    model_config = ConfigDict(extra="allow")
 
     id: _Name
     type: _Name
@@ -70,7 +68,7 @@ class EpisodeObject(_Record):
 
 
 class Episode(_Record):
-    """One command in one scene; further keys are ignored.
+    """One command in one scene; further keys are not used, and `unused_keys` counts them.
 
     `target` lists the ids of the objects meant; empty: nothing that is there is meant. `holding` is the object in the
     gripper. Episodes of one `group` show the same scene and its changes.
@@ -186,6 +184,7 @@ def parse_episode(line: str, where: str) -> Episode:
     return episode
 
 
+_MOST_SHOWN = 8  # keys in a note
 _MOST_KEYS = 100  # of one record that are compared with the known ones
 
 
@@ -204,6 +203,7 @@ def _check_keys(line: Any, where: str) -> None:
         return
     things = line.get("objects")
     records: list[tuple[str, Any, type[BaseModel]]] = [("", line, Episode)]
+    records += [(f"{name}.", line.get(name), _Place) for name in ("robot", "speaker")]
     records += [(f"objects.{k}.", o, EpisodeObject) for k, o in enumerate(things if isinstance(things, list) else [])]
     for prefix, record, model in records:
         if not isinstance(record, dict) or len(record) > _MOST_KEYS:
@@ -215,9 +215,30 @@ def _check_keys(line: Any, where: str) -> None:
 
 
 def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
-    """Further keys of objects whose values are neither text nor true or false, with the number of their objects."""
-    further = (item for episode in episodes for o in episode.objects for item in (o.model_extra or {}).items())
-    return dict(Counter(key for key, value in further if not isinstance(value, (str, bool, type(None)))))
+    """Keys that say nothing to a model, each with the number of its episodes or objects.
+
+    These are all further keys of an episode and of a place in it, and those of an object whose values are neither text
+    nor true or false.
+    """
+    found: Counter[str] = Counter()
+    for episode in episodes:
+        found.update(list(episode.model_extra or ()))  # the keys, not a count of them
+        for name, place in (("robot", episode.robot), ("speaker", episode.speaker)):
+            found.update(f"{name}.{key}" for key in (place and place.model_extra) or {})
+        for thing in episode.objects:
+            further = (thing.model_extra or {}).items()
+            found.update(f"objects.{key}" for key, value in further if not isinstance(value, (str, bool, type(None))))
+    return dict(found)
+
+
+def unused_note(episodes: Iterable[Episode]) -> str | None:
+    """One line on the keys that say nothing, so that a misspelt one is seen; None: there are none."""
+    found = sorted(unused_keys(episodes).items(), key=lambda item: (-item[1], item[0]))
+    if not found:
+        return None
+    listed = ", ".join(f"{plain(key, 40)} ({times})" for key, times in found[:_MOST_SHOWN])
+    more = f" and {len(found) - _MOST_SHOWN} more" if len(found) > _MOST_SHOWN else ""
+    return f"keys that are not used (how often): {listed}{more}; see whether one is misspelt"
 
 
 _ONE_SCALE = 2.0

@@ -14,6 +14,7 @@ from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.show import print_run, print_several, save_run_figures, save_several_figure
 from dcg_torch.report.summary import ReportError
 from dcg_torch.report.text import printable
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.whole import write_whole
 
 _FORMATS = ("png", "pdf", "svg")  # canvas.FORMATS: matplotlib is imported only where figures are asked for
@@ -63,7 +64,7 @@ def make_console() -> Console:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Arguments(
         prog="python -m dcg_torch.report",
         description=_DESCRIPTION,
         epilog=_EPILOG,
@@ -97,7 +98,7 @@ def _write(runs: Sequence[Run], options: argparse.Namespace) -> list[Path]:
 
 def _refuse(message: str) -> int:
     """Say what is wrong in one line without escapes; the exit status."""
-    print(f"error: {printable(message)}", file=sys.stderr)
+    print(f"dcg_torch: {printable(message)}", file=sys.stderr)
     return 2
 
 

@@ -6,7 +6,6 @@ Exit status: 0 done, 2 for what can't be read or written.
 
 from __future__ import annotations
 
-import argparse
 import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -18,6 +17,7 @@ from dcg_torch.report.measures import Measures
 from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.summary import ReportError, flatten
 from dcg_torch.report.text import printable
+from dcg_torch.storage.arguments import Arguments
 
 WANTED = (0.15, 0.99)
 """At most so many questions a command, at least so accurate: the goal that is drawn."""
@@ -57,7 +57,7 @@ def draw_trade_off(runs: Mapping[float, Measures]) -> Figure:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    parser = argparse.ArgumentParser(
+    parser = Arguments(
         prog="python -m dcg_torch.report.trade_off", description="Draw accuracy against questions asked."
     )
     parser.add_argument("directories", metavar="DIR", nargs="+", type=Path, help="a run folder, or one with runs below")
@@ -67,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         runs = {_threshold(run): run.measures for run in load_runs(options.directories)}
         print(save_figure(draw_trade_off(runs), options.out))
     except (ValueError, OSError) as error:  # a ReportError is a ValueError
-        print(f"error: {printable(str(error))}", file=sys.stderr)
+        print(f"dcg_torch: {printable(str(error))}", file=sys.stderr)
         return 2
     return 0
 

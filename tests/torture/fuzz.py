@@ -11,16 +11,24 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from hostile import EPISODE, TRAINING, WORLD, json_lines, yaml_files
+from hostile import EPISODE, TRAINING, WORLD, damaged, json_lines, yaml_files
 from hypothesis import HealthCheck, given, seed, settings
 from hypothesis import strategies as st
+from report_rows import row
 
 from dcg_torch.evaluation.episodes import read_episodes
+from dcg_torch.evaluation.importers import table
 from dcg_torch.lessons import read_training
+from dcg_torch.report.runs import read_rows
 from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import load_world
 
 INPUTS, _BATCH = 20_000, 500
+_CSV = b"""id,text,object,type,x,y,z,color,target,size_x,robot_x,robot_y,robot_yaw,group
+1,"take the cone, please",a,cone,1,2,0,red,,0.2,0,0,0,g
+1,,b,cone,1,-2,0,red,x,0.2,,,,
+2,go to the cube,a,cube,1.5,2,,blue,yes,,,,,
+"""
 _SLOWEST, _MOST = 2.0, 200.0  # seconds, and MB by which the peak of memory grew, for one input
 
 
@@ -32,6 +40,11 @@ def readers(rng: random.Random, directory: Path, until: float) -> tuple[bool, st
         "world": (load_world, yaml_files(WORLD)),
         "training": (read_training, yaml_files(TRAINING)),
         "episodes": (read_episodes, json_lines(EPISODE)),
+        "iterations": (read_rows, json_lines(row(beliefs={"crate": {"cube": 0.9}}).model_dump(mode="json"))),
+        "csv": (
+            table.convert,
+            damaged(_CSV, [b'"', b",", b"\n", b"\x00", b"\xff", b"9" * 5_000, b"nan", b"," * 5_000]),
+        ),
     }
     for k, (name, (read, files)) in enumerate(choice.items()):
         share = time.monotonic() + (until - time.monotonic()) / (len(choice) - k)

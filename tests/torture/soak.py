@@ -2,48 +2,63 @@
 
 from __future__ import annotations
 
-import json
 import os
 import random
-import statistics
 import time
 from pathlib import Path
+from typing import NamedTuple
 
 from programs import Program, start
 
 from dcg_torch.cli import run
 
-COMMANDS, SETTLED = 10_000, 2_000
+COMMANDS, SETTLED, WIDTH = 10_000, 2_000, 1_000
 _FLAT = 1.10
 
 
+class Sample(NamedTuple):
+    """A look at the process: commands done, pages resident, ticks of CPU. CPU, since others are busy here, too."""
+
+    done: int
+    resident: int
+    ticks: int
+
+
 def soak(rng: random.Random, directory: Path, until: float) -> tuple[bool, str]:
-    """Median seconds and resident memory at the end against those when `SETTLED` commands were over."""
+    """CPU time a command, and resident memory, at the end against those when `SETTLED` commands were over."""
     settings = ("experiment=long_life", f"iterations={COMMANDS}", "worlds_per_trial=1600", "workers=1")
     quiet = ("figures=false", "tensorboard=false")
     process = start(Program("soak", run.main, (*settings, *quiet)), directory / "run", directory / "err")
-    memory: list[tuple[int, float]] = []
+    samples: list[Sample] = []
     part = directory / "run" / "trials" / "0000.jsonl"
     while os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is None and time.monotonic() < until:
         time.sleep(1.0)
         done = part.read_bytes().count(b"\n") if part.exists() else 0
-        memory.append((done, _resident(process.pid)))
+        # When all commands are over, the rows of the whole trial are read and counted, which is no command's.
+        if done < COMMANDS and (sample := _look(process.pid, done)) is not None:
+            samples.append(sample)
     os.kill(process.pid, 15)
     process.end()
-    timings = [json.loads(line.partition("\t")[2]) for line in part.read_text().split("\n")[:-1]]
-    seconds = [t["parse"] + t["ground"] + t["train"] for t in timings]
-    count = len(seconds)
-    if count < SETTLED + 1_000:
+    count = samples[-1].done if samples else 0
+    if count < SETTLED + WIDTH:
         return False, f"only {count} commands in the time there was"
-    width = min(1_000, (count - SETTLED) // 2)
-    slower = statistics.median(seconds[-width:]) / statistics.median(seconds[SETTLED : SETTLED + width])
-    held = [(done, size) for done, size in memory if done >= SETTLED and size]
-    larger = held[-1][1] / held[0][1]
+    width = min(WIDTH, (count - SETTLED) // 2)
+    slower = _ticks(samples, count - width, count) / _ticks(samples, SETTLED, SETTLED + width)
+    larger = samples[-1].resident / next(s for s in samples if s.done >= SETTLED).resident
     return max(slower, larger) <= _FLAT, f"{count} commands; time x{slower:.2f}, memory x{larger:.2f} since {SETTLED}"
 
 
-def _resident(pid: int) -> float:
+def _ticks(samples: list[Sample], first: int, last: int) -> float:
+    """CPU a command between two counts of commands."""
+    begin = next(s for s in samples if s.done >= first)
+    end = next(s for s in samples if s.done >= last)
+    return (end.ticks - begin.ticks) / max(1, end.done - begin.done)
+
+
+def _look(pid: int, done: int) -> Sample | None:
     try:
-        return float(Path(f"/proc/{pid}/statm").read_text().split()[1])
+        resident = int(Path(f"/proc/{pid}/statm").read_text().split()[1])
+        user, system = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[11:13]
     except OSError:
-        return 0.0
+        return None
+    return Sample(done, resident, int(user) + int(system))

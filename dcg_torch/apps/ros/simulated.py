@@ -28,6 +28,7 @@ from dcg_torch.cli.application import one_line_errors
 from dcg_torch.geometry import wrap_angle
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.simulator.bodies.colors import rgb
+from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import DriveResult, Pose
 from dcg_torch.world.files import World, load_world
@@ -127,7 +128,7 @@ class SimulatedNode:
 
 
 def _arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python -m dcg_torch.apps.ros.simulated", description=__doc__)
+    parser = Arguments(prog="python -m dcg_torch.apps.ros.simulated", description=__doc__)
     parser.add_argument("--world", type=Path, help="a world file; by default the paper's laboratory")
     parser.add_argument("--fake", action="store_true", help="pure geometry instead of PyBullet")
     parser.add_argument("--gui", action="store_true", help="open PyBullet's window")
