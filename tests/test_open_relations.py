@@ -106,7 +106,7 @@ def test_a_word_is_learned_from_what_stands_as_the_command_says(model: Grounding
     assert plain.beliefs_of("zorp")["drill"] == pytest.approx(plain.beliefs_of("zorp")["mailbox"])
     hear(model, noun("zorp", None, BEHIND), ROW)
     assert model.beliefs_of("zorp")["drill"] > 0.8
-    assert model.beliefs_of("zorp")["drill"] > 10 * model.beliefs_of("zorp")["mailbox"]
+    assert model.beliefs_of("zorp")["drill"] > 5 * model.beliefs_of("zorp")["mailbox"]
 
 
 TWO = seen(

@@ -177,19 +177,37 @@ def test_rows_stacks_and_clusters() -> None:
     stack = [thing(f"stack {k}", (9, 0, k), color="blue" if k else "red") for k in range(3)]
     heap = [thing(f"heap {k}", (15 + x, y, 0), "cone") for k, (x, y) in enumerate([(0, 0), (1, 0.3), (0.4, 1.1)])]
     found = scene.groups([*row, *stack, *heap])
-    by_members = {frozenset(g.members): g for g in found}
-    barrels = by_members[frozenset(o.id for o in row)]
-    assert barrels.attributes == {"row", "of 4"}
+    by_members = {(next(iter(g.attributes & {"row", "stack", "cluster"})), frozenset(g.members)): g for g in found}
+    barrels = by_members["row", frozenset(o.id for o in row)]
+    assert barrels.attributes == {"row", "of 4", "lies across"}
     assert (barrels.type, barrels.color) == ("barrel", "red")
-    tower = by_members[frozenset(o.id for o in stack)]
+    tower = by_members["stack", frozenset(o.id for o in stack)]
     assert tower.attributes == {"stack", "of 3"}
     assert tower.color is None
-    assert "cluster" in by_members[frozenset(o.id for o in heap)].attributes
+    assert ("cluster", frozenset(o.id for o in heap)) in by_members
 
 
 def test_a_row_is_one_step_apart_and_straight() -> None:
     assert not scene.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (0, 7, 0))])
-    assert not scene.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (2, 2.5, 0))])
+    bent = scene.groups([thing("a", (0, 0, 0)), thing("b", (0, 2, 0)), thing("c", (2, 2.5, 0))])
+    assert all("row" not in g.attributes for g in bent)
+
+
+def test_steps_of_a_row_may_be_uneven_and_it_lies_across_or_along() -> None:
+    steps = (0.0, 1.0, 2.6, 3.5, 5.3)
+    for axis, lies in ((1, "lies across"), (0, "lies along")):
+        points = [np.roll((y, 0.05 * k, 0.0), axis) for k, y in enumerate(steps)]
+        found = scene.groups([thing(str(k), tuple(map(float, p))) for k, p in enumerate(points)], robot=Pose(-3.0, 0.0))
+        rows = [g for g in found if "row" in g.attributes and len(g.members) == 5]
+        assert [g.attributes for g in rows] == [{"row", "of 5", lies}]
+
+
+def test_what_stands_apart_is_no_member() -> None:
+    near = [
+        thing(f"near {k}", (3.0 + x, y, 0.0)) for k, (x, y) in enumerate([(0, 0), (1, 0.2), (0.5, 0.9), (1.4, 1.1)])
+    ]
+    found = scene.groups([*near, thing("apart", (9.0, 5.0, 0.0))])
+    assert {frozenset(g.members) for g in found if "cluster" in g.attributes} == {frozenset(o.id for o in near)}
 
 
 def test_members_of_a_row_are_ranked_within_it() -> None:

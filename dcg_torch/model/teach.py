@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
-CORPUS_L2 = 0.2
+CORPUS_L2 = 1.0
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
 _ON_THE_WAY, _SETTLED = 30, 60
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the

@@ -31,6 +31,8 @@ _MOST = 12
 """Groups of one kind that are kept: the largest."""
 _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
+_SPREAD = 2.4
+"""The farthest neighbours in a group are at most so many times as far apart as the nearest."""
 _CHUNK = 1024
 """Steps that are looked at together."""
 _APART = 1.25
@@ -52,7 +54,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     there = [o for o in objects if o.position is not None]
     if len(there) < 2:
         return ()
-    position = np.array([o.position for o in there]).reshape(-1, 3)
+    position = np.array([o.position for o in there], dtype=np.float64).reshape(-1, 3)
     position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
     position /= unit
     alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
@@ -124,12 +126,16 @@ def _clusters(points: Floats) -> Iterable[list[int]]:
         return
     merges = linkage(points[:, :2], "single")
     members: list[list[int]] = [[k] for k in range(n)]
+    first = np.full(2 * n - 1, np.inf)  # the distance at which the first two of a cluster come together
     ends = np.full(2 * n - 1, np.inf)  # the distance at which a cluster becomes part of a larger one
     for one, other, distance, _ in merges:
         ends[[int(one), int(other)]] = distance
+        first[len(members)] = min(first[int(one)], first[int(other)], max(distance, SAME_SPOT))
         members.append(sorted(members[int(one)] + members[int(other)]))
     for k in range(n, 2 * n - 1):
-        if ends[k] >= _APART * max(float(merges[k - n, 2]), SAME_SPOT) and _spots(points[members[k]]) >= _LEAST:
+        last = max(float(merges[k - n, 2]), SAME_SPOT)
+        coherent = last <= _SPREAD * first[k] and ends[k] >= _APART * last
+        if coherent and _spots(points[members[k]]) >= _LEAST:
             yield members[k]
 
 
