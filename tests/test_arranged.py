@@ -52,7 +52,7 @@ def test_groups_and_their_members_are_learned(parser: Parser, training: Training
     """Other scenes than those of the lessons; what is meant is a set, and has to be right to the last object."""
     variant = Variant(groups=PAPER | {Group.RELATION}, hypothetical=False, ternary=False)
     model = GroundingModel.trained(training, variant)
-    model.teach(arranged_lessons(parser.parse, 240), rounds=2)
+    model.teach(arranged_lessons(parser.parse, 400), rounds=2)
     rng = np.random.default_rng(77)
     right = {"row": 0, "cluster": 0, "table": 0}
     for name, make in (("row", row_scene), ("cluster", cluster_scene), ("table", table_scene)):

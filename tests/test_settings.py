@@ -25,7 +25,7 @@ from dcg_torch.settings import (
     SimulatorSettings,
     TalkSettings,
     check,
-    check_bounds,
+    check_values,
     described,
 )
 from dcg_torch.storage.resources import resource
@@ -62,9 +62,9 @@ def test_what_lies_outside_is_refused_by_name(schema: type[Any], name: str, boun
     outside = [bounds.low - 1, bounds.high + max(1, 1e-3 * bounds.high), float("nan"), float("inf"), -float("inf")]
     for value in [*outside, bounds.low] if bounds.open else outside:
         with pytest.raises(SettingsError, match=f"^{name}=") as error:
-            check_bounds(with_value(schema, name, value))
+            check_values(with_value(schema, name, value))
         assert len(str(error.value)) < 120
-    check_bounds(with_value(schema, name, bounds.high))
+    check_values(with_value(schema, name, bounds.high))
 
 
 @given(st.floats())

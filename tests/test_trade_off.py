@@ -26,7 +26,7 @@ def test_nothing_to_draw_is_refused(tmp_path: Path, capsys: pytest.CaptureFixtur
     with pytest.raises(ValueError, match="no runs"):
         draw_trade_off({})
     assert main([str(tmp_path / "none"), "--out", str(tmp_path / "x.png")]) == 2
-    assert "error" in capsys.readouterr().err
+    assert "no such folder" in capsys.readouterr().err
 
 
 def test_from_run_folders(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

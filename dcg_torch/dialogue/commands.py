@@ -70,7 +70,7 @@ def _doing(solution: Solution) -> str:
     tree = solution.tree
     action = {word.split()[0] for word in tree.phrase.words[:1]} if tree is not None else set()
     to = tree is not None and any(child.phrase.kind is PhraseKind.PREPOSITION for child in tree.children)
-    handles = action & (VERBS["take"] | VERBS["put"] | VERBS["lift"]) and not (to and action & VERBS["go"])
+    handles = action & (VERBS["take"] | VERBS["put"]) and not (to and action & VERBS["go"])
     return "I can take and carry nothing, but I go there" if handles else "I go there"
 
 
