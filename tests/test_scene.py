@@ -196,8 +196,8 @@ def test_a_row_is_one_step_apart_and_straight() -> None:
 def test_steps_of_a_row_may_be_uneven_and_it_lies_across_or_along() -> None:
     steps = (0.0, 1.0, 2.6, 3.5, 5.3)
     for axis, lies in ((1, "lies across"), (0, "lies along")):
-        points = [np.roll((y, 0.05 * k, 0.0), axis) for k, y in enumerate(steps)]
-        found = scene.groups([thing(str(k), tuple(map(float, p))) for k, p in enumerate(points)], robot=Pose(-3.0, 0.0))
+        points = [(y, 0.05 * k, 0.0) if axis == 0 else (0.05 * k, y, 0.0) for k, y in enumerate(steps)]
+        found = scene.groups([thing(str(k), p) for k, p in enumerate(points)], robot=Pose(-3.0, 0.0))
         rows = [g for g in found if "row" in g.attributes and len(g.members) == 5]
         assert [g.attributes for g in rows] == [{"row", "of 5", lies}]
 
