@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -16,6 +17,8 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
 
+_FULL_WEIGHT = 100
+"""Episodes of one of several corpora that count in full: of more, each counts for less: it is to drown no small one."""
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
 
 
@@ -134,12 +137,13 @@ def train(
     began = time.perf_counter()
     lessons: list[Lesson] = []
     for corpus in corpora:
-        where = workspace(corpus)
-        for episode in training.kept(corpus):
+        where, kept = workspace(corpus), training.kept(corpus)
+        weight = 1.0 if len(corpora) == 1 else min(1.0, math.sqrt(_FULL_WEIGHT / max(1, len(kept))))
+        for episode in kept:
             tree = parse(episode.text, ()).tree
             if tree is not None and episode.target:
                 world = test_world(model, episode, where)
-                lessons.append(Lesson(looking(tree, episode.text, world), world, frozenset(episode.target)))
+                lessons.append(Lesson(looking(tree, episode.text, world), world, frozenset(episode.target), weight))
     model.teach(
         lessons,
         known_types=training.known_types,
