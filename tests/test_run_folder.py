@@ -208,7 +208,7 @@ def test_the_second_process_in_a_folder_is_told(tmp_path: Path, capsys: pytest.C
 def left_behind() -> set[str]:
     """What is in the machine's shared memory and temporary files that such programs leave."""
     places = [p for d in ("/dev/shm", "/tmp") if Path(d).is_dir() for p in Path(d).iterdir()]
-    return {str(p) for p in places if p.name.startswith(("sem.", "joblib", "loky", "pymp", "psm_"))}
+    return {str(p) for p in places if p.name.startswith(("sem.", "joblib", "loky", "pymp", "psm_", "dcg_torch-"))}
 
 
 @pytest.mark.slow

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 import os
 import signal
 import subprocess
@@ -44,8 +43,7 @@ def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> dict[str, bytes]:
 def test_a_sweep_goes_on(
     launcher: tuple[str, ...], number: signal.Signals, undisturbed: dict[str, bytes], tmp_path: Path
 ) -> None:
-    if launcher and importlib.util.find_spec("hydra_plugins.hydra_joblib_launcher") is None:
-        pytest.skip("the extra sweep is not installed")
+    pytest.importorskip("hydra_plugins.hydra_joblib_launcher", reason="the extra sweep is not installed")
     typed = command(tmp_path / "sweep", *launcher)
     process = subprocess.Popen(typed, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     until = time.monotonic() + 90.0

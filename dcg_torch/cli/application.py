@@ -109,17 +109,24 @@ def run_application(application: Callable[[], None], program: str = "run") -> in
         if signal.getsignal(number) is signal.SIG_DFL:  # not under nohup
             signal.signal(number, _stop)
     with one_line_errors(program=program):
-        if "--version" in sys.argv[1:]:
-            print(f"dcg_torch {__version__}")
-            return 0
-        # Hydra would answer an option that it doesn't have with ten lines of usage.
-        given, strange = get_args_parser().parse_known_args()
-        if strange:
-            return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
-        refuse_nothing(given.overrides)
-        register(program)
-        application()
-        sys.stdout.flush()
+        try:
+            return _run(application, program)
+        finally:
+            sys.stdout.flush()  # here, where a closed pipe is said in one line
+    raise AssertionError("an error ends the program")
+
+
+def _run(application: Callable[[], None], program: str) -> int:
+    if "--version" in sys.argv[1:]:
+        print(f"dcg_torch {__version__}")
+        return 0
+    # Hydra would answer an option that it doesn't have with ten lines of usage.
+    given, strange = get_args_parser().parse_known_args()
+    if strange:
+        return refuse(f"{strange[0]}: there is no such option; settings are written KEY=VALUE, without dashes")
+    refuse_nothing(given.overrides)
+    register(program)
+    application()
     return 0
 
 

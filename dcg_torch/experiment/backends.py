@@ -16,7 +16,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar
 
-from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, leave_with_parent, portable
+from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, leave_with_parent, portable, workers_folder
 from dcg_torch.settings import Backend, SettingsError
 from dcg_torch.storage.whole import remove
 
@@ -80,10 +80,12 @@ def work_off_joblib(
 
 
 def remove_shared_memory(process: int) -> None:
-    """Remove what joblib keeps in shared memory for a process that hands out no more tasks."""
+    """Remove what joblib keeps in shared memory, and the workers' socket, of a process that hands out no more tasks."""
     for pattern in (f"sem.loky-{process}-*", f"joblib_memmapping_folder_{process}_*"):
         for left in Path("/dev/shm").glob(pattern):
             remove(left)
+    if workers_folder(process).exists():
+        remove(workers_folder(process))
 
 
 def _caught(work: Callable[[T], object], task: T, *, near: bool) -> tuple[Exception | None, str]:

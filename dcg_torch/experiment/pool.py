@@ -12,16 +12,19 @@ import multiprocessing
 import os
 import pickle
 import queue
+import shutil
 import signal
+import tempfile
 import threading
 import time
 import traceback
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from multiprocessing import resource_tracker
+from multiprocessing import resource_tracker, util
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 from typing import Any, TypeVar
 
 from dcg_torch.storage.errors import UserError
@@ -121,7 +124,27 @@ def _context() -> ForkServerContext | SpawnContext:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     context.set_forkserver_preload(list(_PRELOADED))
+    _keep_sockets_in(workers_folder(os.getpid()))
     return context
+
+
+def workers_folder(process: int) -> Path:
+    """Where a process keeps the socket by which it starts workers: named, so that what a kill leaves can be removed."""
+    return Path(tempfile.gettempdir()) / f"dcg_torch-{process}"
+
+
+def _keep_sockets_in(folder: Path) -> None:
+    """Let multiprocessing put its files into a folder that ends with this process; nothing if it stands already."""
+    try:
+        folder.mkdir(mode=0o700)
+    except OSError:
+        return
+    before, tempfile.tempdir = tempfile.tempdir, str(folder)
+    try:
+        util.get_temp_dir()
+    finally:
+        tempfile.tempdir = before
+    util.Finalize(None, shutil.rmtree, args=(folder, True), exitpriority=-200)  # after what multiprocessing removes
 
 
 def _start(work: Callable[[T], object]) -> tuple[Connection, BaseProcess]:
