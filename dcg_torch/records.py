@@ -10,6 +10,19 @@ from typing import Annotated, Any, Literal
 from pydantic import AllowInfNan, BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
 
 Kind = Literal["known", "unknown", "learned"]
+NO_EFFECT = (
+    "name",
+    "trials",
+    "workers",
+    "backend",
+    "metric",
+    "animate",
+    "figures",
+    "tensorboard",
+    "screenshots",
+)
+"""Settings that change no byte of a trial: two runs that differ in these alone are of one configuration,
+and a run may be gone on with although these differ."""
 
 
 class _Record(BaseModel):

@@ -14,7 +14,7 @@ import torch
 from hypothesis import strategies as st
 from oracle import Oracle
 
-from dcg_torch.grounding.encode import example_bag
+from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.model import GroundingModel
@@ -149,7 +149,7 @@ def log_psi(
     features: FeatureSet, model: LogLinearFactor, phrase: Phrase, world: WorldModel, children: tuple[Child, ...] = ()
 ) -> torch.Tensor:
     """(len(world.objects), P): the factors of one phrase under one tuple of child groundings."""
-    rows = example_bag(Example(phrase, world, (), children), features)
+    rows = WorldEncoder(features, world).bag(Example(phrase, world, (), children))
     return model.log_psi(features.encode_phrases([phrase]), rows, np.zeros(len(rows), dtype=np.int64))
 
 

@@ -40,7 +40,7 @@ ONLY = {
     "hydra": HYDRA,
     "omegaconf": HYDRA,
     "torch": {"grounding", "experiment.worker", "bench", "evaluate", "report.board"},
-    "safetensors": {"model.checkpoint"},
+    "safetensors": {"model.stored"},
     "tensorboard": {"report.board"},
     "sentence_transformers": {"names.embedding"},
     "transformers": {"names.embedding"},
@@ -167,7 +167,7 @@ def test_every_module_that_may_import_a_package_does() -> None:
     ("module", "source", "says"),
     [
         ("language.parser", "import torch", "torch: only"),
-        ("model.core", "from safetensors.numpy import load", "safetensors.numpy: only model.checkpoint may"),
+        ("model.core", "from safetensors.numpy import load", "safetensors.numpy: only model.stored may"),
         ("experiment.trial", "def f():\n    import pybullet as p", "pybullet: only simulator may"),
         ("experiment", "from hydra.core import hydra_config", "only apps.talk.program, cli, evaluate may"),
         ("report.boardroom", "import torch.utils", "only"),

@@ -83,7 +83,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
     for j in range(len(world.objects)):
         mixture = 0.0
         for k in range(n):
-            row = taught.features.encode_placed(scene.layout(world), [[k]], ranking(modifier.phrase))[0, j : j + 1]
+            row = WorldEncoder(taught.features, world).placed([(k,)], ranking(modifier.phrase))[0, j : j + 1]
             active = float(taught.factor.log_psi(language, row, np.zeros(1, dtype=np.int64))[0, 2])
             mixture += math.exp(odds[landmark.phrase][k]) / total * math.exp(active)
         score.append(math.exp(odds[noun.phrase][j]) * ((1.0 - SLIP) * mixture + SLIP))

@@ -180,7 +180,7 @@ def test_growth_leaves_every_probability_as_it_was(pupil_of: Pupil) -> None:
     world = seen(model, ("cube", "red"), ("cube", "blue"), ("cylinder", "green"), ("prism", "c7"))
     trees = [take("cube", "red"), take(None, "blue"), take("cylinder"), take("gizmo", "crimson")]
     before = [model.ground(tree, world).probabilities for tree in trees]
-    features = model.features.grow(Symbol("pyramid", "wug")).name_color("mauve", "c9")
+    features = model.features.grow(Symbol("pyramid", "wug")).include(colors=("mauve", "c9"))
     assert features.shape > model.features.shape
     model.grow(features)
     assert [model.ground(tree, world).probabilities for tree in trees] == before

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from dcg_torch.records import Iteration, Timing
+from dcg_torch.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
 from dcg_torch.storage.errors import UserError
@@ -20,19 +20,6 @@ ITERATIONS, TIMINGS, MODEL, PARTS = "iterations.jsonl", "timings.jsonl", "model"
 SETTINGS, ORIGIN = "settings.json", "origin.json"
 MARKS = (SETTINGS, ".hydra")
 """Of these a run folder has one, from the first moment on."""
-
-# What may differ between a run and its continuation: it changes no byte of a trial.
-_FREE = (
-    "name",
-    "trials",
-    "workers",
-    "backend",
-    "metric",
-    "animate",
-    "figures",
-    "tensorboard",
-    "screenshots",
-)
 
 
 class RunFolderError(UserError):
@@ -88,7 +75,7 @@ def mark_as_own(settings: Settings, directory: Path) -> None:
 
 
 def _fingerprint(settings: Settings) -> str:
-    kept = {k: v for k, v in asdict(settings).items() if k not in _FREE}
+    kept = {k: v for k, v in asdict(settings).items() if k not in NO_EFFECT}
     worlds = (
         []
         if settings.worlds in ("committed", "generated")

@@ -28,7 +28,7 @@ from numpy.typing import NDArray
 from scipy.sparse import csr_array
 
 from dcg_torch.grounding import solvers
-from dcg_torch.grounding.design import row_hashes
+from dcg_torch.grounding.design import row_hashes, stack_bags
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor
 from dcg_torch.grounding.solution import SLIP
@@ -115,9 +115,8 @@ class Likelihood:
         self._l2 = l2
         rows = _Rows()
         noun, term = self._gather(choices, rows)
-        width = max(bag.shape[1] for bag in rows.bags)
         languages, groundings = features.shape
-        bag = np.concatenate([np.pad(b, ((0, 0), (0, width - b.shape[1])), constant_values=-1) for b in rows.bags])
+        bag = stack_bags(rows.bags)
         phrase = np.concatenate(rows.phrase)
         cell = np.where(bag < 0, -1, bag + (phrase * groundings)[:, None])
         first, which = np.unique(row_hashes(cell), return_index=True, return_inverse=True)[1:]

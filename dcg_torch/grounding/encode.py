@@ -185,7 +185,7 @@ class WorldEncoder:
 
 
 @dataclass(frozen=True)
-class Rows:
+class _Labelled:
     """Labelled factors of one phrase.
 
     Attributes:
@@ -196,18 +196,13 @@ class Rows:
 
     phrase: Phrase
     grounding: Bag
-    label: Sequence[Correspondence] | NDArray[np.int64]
+    label: NDArray[np.int64]
     weight: NDArray[np.float64]
 
 
-def example_bag(example: Example, features: FeatureSet) -> Bag:
-    """(groundings, k) bag of the grounding columns that fire for every grounding of an example's phrase."""
-    return WorldEncoder(features, example.world).bag(example)
-
-
-def rows_of(examples: Sequence[Example], features: FeatureSet) -> list[Rows]:
+def _labelled(examples: Sequence[Example], features: FeatureSet) -> list[_Labelled]:
     """The labelled factors of examples; those of one world that stand together share what is encoded of it."""
-    found: list[Rows] = []
+    found: list[_Labelled] = []
     encoder: WorldEncoder | None = None
     for example in examples:
         if encoder is None or encoder.world is not example.world:
@@ -215,7 +210,7 @@ def rows_of(examples: Sequence[Example], features: FeatureSet) -> list[Rows]:
         labelled = [j for j, c in enumerate(example.correspondences) if c is not None]
         own = example.weights or (1.0,) * len(example.correspondences)
         found.append(
-            Rows(
+            _Labelled(
                 example.phrase,
                 encoder.bag(example)[labelled],
                 np.array([example.correspondences[j] for j in labelled], dtype=np.int64),
@@ -228,21 +223,14 @@ def rows_of(examples: Sequence[Example], features: FeatureSet) -> list[Rows]:
 def encode(
     examples: Sequence[Example], features: FeatureSet, correspondences: Sequence[Correspondence]
 ) -> list[DesignMatrix]:
-    """The labelled factors of `examples` under the given columns."""
-    return design_matrices(rows_of(examples, features), features, correspondences)
-
-
-def design_matrices(
-    rows: Sequence[Rows], features: FeatureSet, correspondences: Sequence[Correspondence]
-) -> list[DesignMatrix]:
-    """Labelled factors with identical ones merged; rows of like width share a matrix."""
-    alike: dict[int, list[Rows]] = {}
-    for one in rows:
+    """The labelled factors of examples, identical ones merged; rows of like width share a matrix."""
+    alike: dict[int, list[_Labelled]] = {}
+    for one in _labelled(examples, features):
         alike.setdefault(max(3, one.grounding.shape[1].bit_length()), []).append(one)
     return [_merged(of_width, features, correspondences) for of_width in alike.values()]
 
 
-def _merged(rows: Sequence[Rows], features: FeatureSet, correspondences: Sequence[Correspondence]) -> DesignMatrix:
+def _merged(rows: Sequence[_Labelled], features: FeatureSet, correspondences: Sequence[Correspondence]) -> DesignMatrix:
     number: dict[Phrase, int] = {}
     phrase = [number.setdefault(one.phrase, len(number)) for one in rows]
     at = np.full(3, -1)
@@ -251,7 +239,7 @@ def _merged(rows: Sequence[Rows], features: FeatureSet, correspondences: Sequenc
         features.encode_phrases(list(number)),
         stack_bags([one.grounding for one in rows]),
         np.repeat(np.array(phrase, dtype=np.int64), [len(one.grounding) for one in rows]),
-        at[np.concatenate([np.asarray(one.label, dtype=np.int64) for one in rows]) + 1],
+        at[np.concatenate([one.label for one in rows]) + 1],
         np.concatenate([one.weight for one in rows]),
         len(correspondences),
     )

@@ -41,10 +41,6 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
 
 
-def _is_bare_group(noun: Item) -> bool:
-    return noun.noun in SETS["groups"] and not (noun.children or noun.words or noun.color)
-
-
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
     """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
     blocks", "this group") all that was said of it there."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +17,7 @@ from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
-from dcg_torch.grounding.fit import FitResult, Solver, fit
+from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over
@@ -29,11 +28,12 @@ from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
-from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
+from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
-from dcg_torch.model.teach import RELATION_L2, teach
+from dcg_torch.model.stored import Stored, write
+from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.teacher import Told, interpret
-from dcg_torch.model.variant import Variant, restrict
+from dcg_torch.model.variant import Variant, initial_features, restrict
 from dcg_torch.scene.upsilon import with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
@@ -76,18 +76,12 @@ class GroundingModel:
         variant = variant or Variant()
         training = replace(training, examples=tuple(restrict(training.examples, variant)))
         learner = learner or CommitFirst.start(training, learns_symbols=Group.UNKNOWN in variant.groups)
-        relations = Group.RELATION in variant.groups
-        words = [*training.symbols, *(place_symbols() if relations else ())]
-        corpus = [*learner.training_examples(FeatureSet(frozenset())), *(place_examples() if relations else ())]
-        features = FeatureSet.initial(variant.groups, words, training.colors, corpus)
-        if relations:
-            features = features.include(nouns=group_nouns())
-        features = learner.columns(features)
+        features = initial_features(variant, training, learner)
         model = cls(variant, features, LogLinearFactor(features.pairs, TERNARY if variant.ternary else BINARY), learner)
         if Group.NAMES in variant.groups:
             give_odds(model.factor, features)
         model.train()
-        if relations:
+        if Group.RELATION in variant.groups:
             designs = encode(place_examples(), features, model.factor.correspondences)
             model.fit_weights(designs, free=taught_mask(features), l2=RELATION_L2)
         return model
@@ -279,14 +273,16 @@ class GroundingModel:
             rounds: of expectation and maximisation.
             progress: called with the number of each round that is done.
         """
-        known: dict[str, Any] = {"known_types": known_types, "known_colors": known_colors}
-        teach(self, lessons, relations_only=relations_only, **known, rounds=rounds, progress=progress)
+        if relations_only:
+            teach_relations(self, lessons, rounds=rounds, progress=progress)
+            return
+        teach_corpus(
+            self, lessons, known_types=known_types, known_colors=known_colors, rounds=rounds, progress=progress
+        )
 
     def save(self, directory: Path | str) -> None:
         """Write the model into a folder, which is made if need be; `dcg_torch.load` reads it."""
-        from dcg_torch.model.checkpoint import save  # which knows this class
-
-        save(self, directory)
+        write(Stored(self.variant, self.features, self.factor, self.learner, self.prior, self.held), directory)
 
     def lexicon(self) -> list[Entry]:
         """Every noun with what it may mean, and from which commands."""
@@ -314,17 +310,7 @@ class GroundingModel:
         self.held = np.pad(self.held, [(0, more[0]), (0, more[1])])
         self.prior = np.pad(self.prior, [(0, 0), (0, more[0]), (0, more[1])])
 
-    def fit_weights(
-        self,
-        designs: Sequence[DesignMatrix],
-        *,
-        free: NDArray[np.bool_] | None,
-        l2: float,
-        tolerance: float = 1e-7,
-        max_steps: int = 500,
-        solver: Solver = "auto",
-    ) -> FitResult:
+    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place: see `fit`."""
-        how: dict[str, Any] = {"tolerance": tolerance, "max_steps": max_steps, "solver": solver}
-        self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior, **how)
+        self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior)
         return self.fitted

@@ -4,10 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, fit_choices
-from dcg_torch.grounding.encode import encode, firing
+from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.encode import WorldEncoder, encode, firing
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.fit import FitResult
+from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import (
     Lesson,
     Part,
@@ -17,14 +25,11 @@ from dcg_torch.learning.landmarks import (
     path_examples,
     said_of_words,
 )
-from dcg_torch.learning.learner import Experience, Taught
+from dcg_torch.learning.learner import Experience, Learner
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import taught_mask
 from dcg_torch.scene.upsilon import with_known
-from dcg_torch.types import Example, Symbol
-
-if TYPE_CHECKING:
-    from dcg_torch.model.core import GroundingModel as Teachable
+from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
@@ -35,52 +40,113 @@ _ON_THE_WAY, _SETTLED = 30, 60
 landmarks move it anyway."""
 
 
-def teach(
+Progress = Callable[[int], None]
+
+
+class Teachable(Protocol):
+    """What is taught: `GroundingModel` is it, and says what each member means."""
+
+    features: FeatureSet
+    factor: LogLinearFactor
+    learner: Learner
+    prior: NDArray[np.float64]
+    held: NDArray[np.bool_]
+
+    @property
+    def known_types(self) -> tuple[str, ...]:
+        """The types that are known."""
+        ...
+
+    def grow(self, features: FeatureSet) -> None:
+        """Columns of zero weight for what is new."""
+        ...
+
+    def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
+        """Of a tree of factors."""
+        ...
+
+    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
+        """Fit the free weights to labelled factors, in place."""
+        ...
+
+    def train(self) -> FitResult:
+        """Columns for all that was learned, and a fit from the present weights."""
+        ...
+
+
+def teach_relations(model: Teachable, lessons: Sequence[Lesson], *, rounds: int, progress: Progress | None) -> None:
+    """Teach what words for relations mean, and nothing of what things are called."""
+    parts = [part for lesson in lessons for part in parts_of(lesson)]
+    model.grow(model.features.extended((), said_of_words(parts, None, None).colors, _phrases(parts)))
+    always = example_choices(place_examples(), model.features)
+    _fit(
+        model,
+        _as_known(parts, model),
+        always,
+        free=taught_mask(model.features),
+        l2=RELATION_L2,
+        rounds=rounds,
+        progress=progress,
+    )
+
+
+def teach_corpus(
     model: Teachable,
     lessons: Sequence[Lesson],
     *,
-    relations_only: bool,
     known_types: Collection[str] | None,
     known_colors: Collection[str] | None,
     rounds: int,
-    progress: Callable[[int], None] | None,
+    progress: Progress | None,
 ) -> None:
-    """See `GroundingModel.teach`."""
+    """Teach all that commands about objects tell; for the arguments see `GroundingModel.teach`."""
     parts = [part for lesson in lessons for part in parts_of(lesson)]
-    _make_room(model, parts, said_of_words(parts, known_types, known_colors), relations_only=relations_only)
-    parts = [replace(part, world=with_known(part.world, model.known_types)) for part in parts]
-    free, l2 = (taught_mask(model.features), RELATION_L2) if relations_only else (None, CORPUS_L2)
-    kept = example_choices(place_examples(), model.features) if relations_only else []
-    if not relations_only:
-        # What was known before gives way to as much evidence as any.
-        model.prior = model.factor.weight.detach().cpu().numpy().copy()
-        paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
-        model.fit_weights(paths, free=None, l2=l2)
-        model.held |= firing(paths, model.features.shape)
+    said = said_of_words(parts, known_types, known_colors)
+    model.learner = model.learner.taught(said)
+    nouns = [Symbol(word, of) for word, types in said.nouns.items() for of in types]
+    model.grow(model.learner.columns(model.features).extended(nouns, said.colors, _phrases(parts)))
+    parts = _as_known(parts, model)
+    # What was known before gives way to as much evidence as any.
+    model.prior = model.factor.weight.detach().cpu().numpy().copy()
+    paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
+    model.fit_weights(paths, free=None, l2=CORPUS_L2)
+    fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
+    model.held |= fired | firing(paths, model.features.shape)
+    model.prior = model.factor.weight.detach().cpu().numpy().copy()
+    _hear(model, parts)
+
+
+def _fit(
+    model: Teachable,
+    parts: Sequence[Part],
+    always: Sequence[Choice],
+    *,
+    free: NDArray[np.bool_] | None,
+    l2: float,
+    rounds: int,
+    progress: Progress | None,
+) -> NDArray[np.bool_]:
+    """Fit the free weights to what is meant and to choices that are always there; (L, G) which features fired last."""
+    fired = np.zeros(model.features.shape, dtype=np.bool_)
 
     def fit_once(choices: list[Choice], last: bool) -> None:
+        nonlocal fired
         steps = _SETTLED if last else _ON_THE_WAY
-        fired = fit_choices(
-            model.factor, [*kept, *choices], model.features, free=free, l2=l2, prior=model.prior, max_steps=steps
-        )
-        if last and not relations_only:
-            model.held |= fired
+        every = [*always, *choices]
+        fired = fit_choices(model.factor, every, model.features, free=free, l2=l2, prior=model.prior, max_steps=steps)
 
     fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
-    if not relations_only:
-        model.prior = model.factor.weight.detach().cpu().numpy().copy()
-        _hear(model, parts)
+    return fired
 
 
-def _make_room(model: Teachable, parts: Sequence[Part], said: Taught, *, relations_only: bool) -> None:
-    """Columns for the words of lessons, and what they settle."""
-    phrases = [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
-    if relations_only:
-        model.grow(model.features.extended((), said.colors, phrases))
-        return
-    model.learner = model.learner.taught(said)
-    nouns = [Symbol(w, t) for w, of in said.nouns.items() for t in of]
-    model.grow(model.learner.columns(model.features).extended(nouns, said.colors, phrases))
+def _as_known(parts: Sequence[Part], model: Teachable) -> list[Part]:
+    """The parts in worlds whose objects are known or not as they are to the model by now."""
+    return [replace(part, world=with_known(part.world, model.known_types)) for part in parts]
+
+
+def _phrases(parts: Sequence[Part]) -> list[Example]:
+    """What is said, for the columns that it needs."""
+    return [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
 
 
 def _hear(model: Teachable, parts: Sequence[Part]) -> None:

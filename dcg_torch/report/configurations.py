@@ -11,10 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dcg_torch.records import Iteration
+from dcg_torch.records import NO_EFFECT, Iteration
 from dcg_torch.report.intervals import Estimate, mean_over_trials
 from dcg_torch.report.measures import Measures, measure
-from dcg_torch.report.runs import NO_EFFECT, Run
+from dcg_torch.report.runs import Run
 from dcg_torch.report.summary import flatten
 from dcg_torch.report.text import printable
 

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ValidationError
 
-from dcg_torch.records import Iteration, Timing
+from dcg_torch.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
@@ -23,19 +23,6 @@ from dcg_torch.report.text import printable
 from dcg_torch.storage.foreign import plain
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
-NO_EFFECT = (
-    "name",
-    "trials",
-    "workers",
-    "backend",
-    "metric",
-    "animate",
-    "figures",
-    "tensorboard",
-    "screenshots",
-)
-"""Settings that change no byte of a trial: two runs that differ in these alone are of one configuration."""
-
 Record = TypeVar("Record", bound=BaseModel)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -85,6 +85,34 @@ def files_below(path: Path, suffix: str) -> list[Path]:
     if not found:
         raise ImportFileError(f"{path}: holds no file that ends in {suffix}; give another folder, or a file")
     return found
+
+
+def each_file(
+    found: Converted, path: Path, suffix: str, what: str, take: Callable[[Path, str], None], tick: Callable[[int], None]
+) -> None:
+    """Take what is in a file, or in each file of a folder and below it; what can't be read in a folder is left out.
+
+    Args:
+        found: says what was left out.
+        what: a file holds, to be counted as left out.
+        take: is given each file and its name below the folder.
+        tick: called after each file with the number of all.
+
+    Raises:
+        ImportFileError: there is no such path or file, or the only one cannot be read.
+    """
+    files = files_below(path, suffix)
+    for file in files:
+        where = name_of(file, path, suffix)
+        try:
+            take(file, where)
+        except LeftOut as error:
+            found.leave_out(what, str(error), where)
+        except ImportFileError as error:
+            if path == file:
+                raise
+            found.leave_out(what, reason_of(error, file), where)
+        tick(len(files))
 
 
 def name_of(path: Path, root: Path, suffix: str) -> str:

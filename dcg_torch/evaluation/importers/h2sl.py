@@ -18,10 +18,8 @@ from dcg_torch.evaluation.importers.base import (
     Converted,
     ImportFileError,
     LeftOut,
-    files_below,
-    name_of,
+    each_file,
     numbers,
-    reason_of,
 )
 from dcg_torch.storage.foreign import read_xml
 
@@ -38,21 +36,15 @@ def convert(path: Path, tick: Callable[[int], None] = lambda total: None) -> Con
     Raises:
         ImportFileError: there is no such path, or no XML file in it.
     """
-    found, files = Converted(), files_below(path, ".xml")
-    for file in files:
-        where = name_of(file, path, ".xml")
-        try:
-            record, skipped = example(read_xml(file, "h2sl example", ImportFileError))
-            found.add({"id": where, **record}, where)
-            for reason, count in skipped.items():
-                found.leave_out("object", reason, where, count)
-        except LeftOut as error:
-            found.leave_out("file", str(error), where)
-        except ImportFileError as error:
-            if path == file:
-                raise
-            found.leave_out("file", reason_of(error, file), where)
-        tick(len(files))
+    found = Converted()
+
+    def take(file: Path, where: str) -> None:
+        record, skipped = example(read_xml(file, "h2sl example", ImportFileError))
+        found.add({"id": where, **record}, where)
+        for reason, count in skipped.items():
+            found.leave_out("object", reason, where, count)
+
+    each_file(found, path, ".xml", "file", take, tick)
     return found
 
 

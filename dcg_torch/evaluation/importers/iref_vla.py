@@ -14,13 +14,10 @@ from typing import Any
 
 from dcg_torch.evaluation.importers.base import (
     Converted,
-    ImportFileError,
     LeftOut,
-    files_below,
-    name_of,
+    each_file,
     numbers,
     read_json_file,
-    reason_of,
 )
 
 _GRAPH, _STATEMENTS = "_scene_graph.json", "_referential_statements.json"
@@ -38,18 +35,8 @@ def convert(path: Path, tick: Callable[[int], None] = lambda total: None) -> Con
     """
     if path.name.endswith(_STATEMENTS):
         path = path.with_name(path.name.removesuffix(_STATEMENTS) + _GRAPH)
-    found, files = Converted(), files_below(path, _GRAPH)
-    for file in files:
-        where = name_of(file, path, _GRAPH)
-        try:
-            _scene(file, where, found)
-        except LeftOut as error:
-            found.leave_out("scene", str(error), where)
-        except ImportFileError as error:
-            if path == file:
-                raise
-            found.leave_out("scene", reason_of(error, file), where)
-        tick(len(files))
+    found = Converted()
+    each_file(found, path, _GRAPH, "scene", lambda file, where: _scene(file, where, found), tick)
     return found
 
 

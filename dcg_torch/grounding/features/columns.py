@@ -92,12 +92,6 @@ class FeatureSet:
             groundings.append((Group.COLOR, f"color: {symbol.color}"))
         return self._with(languages, groundings)
 
-    def name_color(self, word: str, color: str) -> FeatureSet:
-        """Columns for a learned colour: the word that is said, and the colour as it is perceived."""
-        of_others = [(Group.RELATION, f"{of} color: {color}") for of in ("stack", "group")]
-        seen = [(Group.COLOR, f"color: {color}"), *of_others]
-        return self._with([(Group.COLOR, f"color: {word}")], seen)
-
     def include(
         self, *, nouns: Iterable[str] = (), types: Iterable[str] = (), colors: Iterable[str] = ()
     ) -> FeatureSet:
@@ -233,27 +227,12 @@ class FeatureSet:
         number = self.grounding.get
         return sorted({column for name in names if (column := number(name)) is not None})
 
-    def encode_placed(
-        self, where: scene.Layout, landmarks: Sequence[Sequence[int]], ranking: Ranking | None
-    ) -> NDArray[np.int64]:
-        """Grounding columns of a modifier's groundings: how every thing stands to every tuple of landmarks.
+    def relation_columns(self, found: NDArray[np.int16], ranking: Ranking) -> NDArray[np.int64]:
+        """(..., k) grounding columns of a modifier's groundings, by relations (..., families) of `scene.relations`.
 
         Args:
-            landmarks: c tuples of thing numbers.
             ranking: what the phrase counts that the modifier describes.
-
-        Returns:
-            (c, things, k) bag.
         """
-        ranking = ranking or Ranking("all")
-        if Group.RELATION not in self.groups:
-            bag = np.full((len(landmarks), len(where.things), 1), -1, dtype=np.int64)
-            bag[:] = self.placed_column
-            return bag
-        return self.relation_columns(scene.relations(where, landmarks, ranking.among), ranking)
-
-    def relation_columns(self, found: NDArray[np.int16], ranking: Ranking) -> NDArray[np.int64]:
-        """The same of relations (..., families) that have been found: indices into `scene.RELATION_NAMES`."""
         columns = [np.full((*found.shape[:-1], 1), self.placed_column), self.relation_of[found]]
         if (of_few := self.few_of(ranking)) is not None:
             columns.append(of_few[found])
