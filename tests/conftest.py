@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 import torch
@@ -12,6 +13,11 @@ from hypothesis import Phase, settings
 from dcg_torch.language import Parser, default_parser
 from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+
+if TYPE_CHECKING:
+    from robotics import Far
+
+    from dcg_torch.simulator import SimulatedRobot
 
 # Without hypothesis's explanations, which take minutes where an example is a whole trained model.
 PHASES = (Phase.explicit, Phase.reuse, Phase.generate, Phase.shrink)
@@ -51,3 +57,20 @@ def parser() -> Parser:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """The fast ones first, so that most failures show at once."""
     items.sort(key=lambda item: item.get_closest_marker("slow") is not None)
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[SimulatedRobot]:
+    """One robot in physics for all tests of a file that load their own world: it must not depend on those before."""
+    from dcg_torch.simulator import SimulatedRobot
+
+    with SimulatedRobot() as robot:
+        yield robot
+
+
+@pytest.fixture
+def far() -> Far:
+    """A robot that is known by its messages alone, at the origin."""
+    from robotics import Far
+
+    return Far.at_the_origin()
