@@ -175,7 +175,8 @@ def read_splits(settings: EvaluateSettings) -> list[Split]:
             raise SettingsError("test: no file given; write test=FILE, or train=FILE folds=5 to cross-validate one")
         return [Split(files["train"], files["test"])]
     if files["test"] or not files["train"] or settings.folds < 2:
-        raise SettingsError(f"folds={settings.folds}: give at least 2, a training file, and no test file")
+        wrong = "is too few; give at least 2" if settings.folds < 2 else "goes with train=FILE and no test file"
+        raise SettingsError(f"folds={settings.folds}: {wrong}")
     rng = np.random.default_rng(0)
     parts = {name: split_folds(episodes, settings.folds, rng) for name, episodes in files["train"].items()}
     return [

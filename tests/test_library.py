@@ -14,6 +14,7 @@ import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose, WorldModel
 from dcg_torch.grounding.threads import one_thread
 from dcg_torch.learning.word_posterior import WordPosterior
+from dcg_torch.model.checkpoint import CheckpointError
 
 ROOT = Path(__file__).parent.parent
 THINGS = (
@@ -230,3 +231,19 @@ class TestThreads:
             assert torch.get_num_threads() == 2
         finally:
             torch.set_num_threads(before)
+
+
+class TestWrongArguments:
+    @pytest.mark.parametrize("command", [None, 3, b"go to the mug"])
+    def test_what_is_no_command_is_said(self, model: GroundingModel, world: WorldModel, command: object) -> None:
+        with pytest.raises(TypeError, match="a command is text, a parse tree or what a parser made of it"):
+            model.ground(command, world)  # type: ignore[arg-type]
+
+    def test_no_word_is_settled_on_nothing(self, model: GroundingModel) -> None:
+        with pytest.raises(ValueError, match="not empty"):
+            model.correct(" ", "cube")
+        assert " " not in model.symbols
+
+    def test_a_model_is_not_saved_into_nowhere(self, model: GroundingModel) -> None:
+        with pytest.raises(CheckpointError, match="give its name"):
+            model.save("")

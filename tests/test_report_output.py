@@ -315,3 +315,16 @@ def test_a_pipe_that_closes_is_no_traceback(tmp_path: Path) -> None:
         assert process.stderr.read() == b""
         process.stderr.close()
         process.wait(timeout=60)
+
+
+@pytest.mark.parametrize("arguments", [["--help"], []])
+def test_an_output_without_room_or_closed_is_one_line(tmp_path: Path, arguments: list[str]) -> None:
+    sweep(tmp_path)
+    typed = ["env", "-u", "PYTHONUNBUFFERED", sys.executable, "-m", "dcg_torch.report", *(arguments or [str(tmp_path)])]
+    with open("/dev/full", "w") as full:  # argparse itself passes over an unbuffered help that finds no room
+        done = subprocess.run(typed, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
+    assert (done.returncode, done.stderr.count("\n")) == (2, 1), done.stderr
+    assert "No space left" in done.stderr
+    shut = subprocess.run(["sh", "-c", 'exec "$@" >&-', "sh", *typed], stderr=subprocess.PIPE, text=True, check=False)
+    assert (shut.returncode, shut.stderr.count("\n")) == (2, 1), shut.stderr
+    assert "standard output is closed" in shut.stderr

@@ -15,7 +15,7 @@ from hydra.errors import HydraException, MissingConfigException, OverrideParseEx
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
 
-from dcg_torch.cli.settings_help import SCHEMAS, settings_help
+from dcg_torch.cli.settings_help import SCHEMAS, config_groups, settings_help
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import (
     EvaluateSettings,
@@ -38,6 +38,7 @@ CONFIG_ERRORS = (HydraException, OmegaConfBaseException)
 # At import, since the jobs of a parallel sweep start in processes that never see `register`.
 OmegaConf.register_new_resolver("resource", lambda name: str(resource(name)), replace=True)
 OmegaConf.register_new_resolver("settings_help", settings_help, replace=True)
+OmegaConf.register_new_resolver("config_groups", config_groups, replace=True)
 # Two processes that start in the same second get folders of their own.
 OmegaConf.register_new_resolver("unique", lambda: secrets.token_hex(3), use_cache=True, replace=True)
 

@@ -10,6 +10,7 @@ from typing import Any
 from omegaconf import DictConfig, OmegaConf
 
 from dcg_torch.settings import EvaluateSettings, Settings, TalkSettings, described
+from dcg_torch.storage.resources import resource
 
 SCHEMAS: dict[str, type] = {"run": Settings, "evaluate": EvaluateSettings, "talk": TalkSettings}
 _MEANING = 34  # column at which the meanings begin
@@ -43,3 +44,9 @@ def _written(value: Any) -> str:
         return str(value).lower()
     plain = OmegaConf.to_container(value) if OmegaConf.is_config(value) else value
     return f"[{','.join(map(str, plain))}]" if isinstance(plain, list) else str(plain).replace("???", "")
+
+
+def config_groups() -> str:
+    """The groups of settings that come along, each with its choices; Hydra's own list names our schemas as well."""
+    groups = sorted(group for group in resource("conf").iterdir() if group.is_dir())
+    return "\n".join(f"{g.name}: {', '.join(sorted(one.stem for one in g.glob('*.yaml')))}" for g in groups)

@@ -162,6 +162,8 @@ class GroundingModel:
             from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
             command = parse_command(command, self.symbols.keys())
+        if not hasattr(command, "readings"):
+            raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
         readings = command.readings if Group.RELATION in self.variant.groups else command.readings[:1]
         if not readings:
             return Solution(None, world, problem=command.problem)
@@ -223,8 +225,10 @@ class GroundingModel:
         """Settle a noun on a type, by someone who knows, and retrain.
 
         Raises:
-            ValueError: nothing of this type was ever met.
+            ValueError: nothing of this type was ever met, or there is no word.
         """
+        if not word.strip():
+            raise ValueError("a word is text that is not empty")
         if type_ not in self.known_types:
             raise ValueError(f"{type_!r}: nothing of this type was ever met; types are {', '.join(self.known_types)}")
         self._told(word, type_)

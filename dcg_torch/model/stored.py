@@ -70,9 +70,15 @@ class Stored:
 
 
 def write(stored: Stored, directory: Path | str) -> None:
-    """Write a model into `directory`, which is made if need be. Each file appears whole or not at all."""
+    """Write a model into `directory`, which is made if need be. Each file appears whole or not at all.
+
+    Raises:
+        CheckpointError: no folder is named.
+        OSError: it cannot be written there.
+    """
+    if not str(directory).strip():
+        raise CheckpointError("a model is saved into a folder; give its name")
     directory = Path(directory)
-    directory.mkdir(parents=True, exist_ok=True)
     learner = stored.learner
     description = _Description(
         2,

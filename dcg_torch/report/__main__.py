@@ -39,13 +39,23 @@ Exit status: 0 done, 2 for what can't be read or written; one line says what, wh
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
+    if sys.stdout is None:
+        return _refuse("standard output is closed; leave it open, or send it to a file")
     try:
-        return _run(arguments)
-    finally:
-        try:
-            sys.stdout.flush()
-        except BrokenPipeError:  # whoever read has gone: Python is not to complain when it flushes at its end
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _flushed(_run(arguments))
+    except SystemExit as end:  # the help has been said, or nobody reads on
+        raise SystemExit(_flushed(int(end.code or 0))) from None
+
+
+def _flushed(status: int) -> int:
+    """The exit status when all that was said has gone out, or cannot."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python is not to complain at its end
+        if status == 0 and not isinstance(error, BrokenPipeError):
+            return _refuse(f"standard output: {error.strerror}; send it where there is room")
+    return status
 
 
 def _run(arguments: Sequence[str] | None) -> int:
@@ -64,7 +74,9 @@ def _run(arguments: Sequence[str] | None) -> int:
     except ReportError as error:
         return _refuse(str(error))
     except OSError as error:
-        return _refuse(f"{error.filename or 'a file'}: can't be written ({error.strerror}); give another place")
+        return _refuse(
+            f"{error.filename or 'standard output'}: can't be written ({error.strerror}); give another place"
+        )
     return 0
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
+from dcg_torch.scene.percepts import checked
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 HYPOTHETICAL_UNKNOWN = "hypothetical unknown"
@@ -28,7 +29,7 @@ def perceive_objects(
             attributes=p.attributes,
             rgb=p.rgb,
         )
-        for p in percepts
+        for p in checked(percepts)
     )
     return [o for o in seen if o.known or unknown]
 

@@ -1,0 +1,62 @@
+"""Percepts as they come from robots of others: checked and brought into one form before they enter Upsilon."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from typing import Any
+
+from dcg_torch.types import Percept
+
+_TAKEN = "hypothetical "
+"""How the ids of hypothetical objects begin."""
+
+
+def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
+    """The percepts; lists of numbers become tuples, attributes a frozen set.
+
+    Raises:
+        ValueError: one of them makes no sense; the message names it in one line.
+    """
+    ids: set[str] = set()
+    for percept in percepts:
+        id_ = percept.id
+        if not isinstance(id_, str) or id_.startswith(_TAKEN):
+            raise ValueError(f"percept {id_!r:.80}: an id is text that does not begin with {_TAKEN!r}")
+        if id_ in ids:
+            raise ValueError(f"percept {id_!r:.80}: two objects have this id; give each its own")
+        ids.add(id_)
+        yield _checked(percept)
+
+
+def _checked(percept: Percept) -> Percept:
+    position = _three(percept, "position", percept.position)
+    size = None if percept.size is None else _three(percept, "size", percept.size, least=0.0)
+    rgb = None if percept.rgb is None else _three(percept, "rgb", percept.rgb, least=0.0, most=255.0)
+    attributes = percept.attributes
+    if not isinstance(attributes, frozenset):
+        attributes = frozenset(attributes or ())
+    if position is percept.position and size is percept.size and rgb is percept.rgb:
+        return percept if attributes is percept.attributes else replace(percept, attributes=attributes)
+    return replace(percept, position=position, size=size, rgb=rgb, attributes=attributes)
+
+
+def _three(
+    percept: Percept, name: str, given: Any, *, least: float = -math.inf, most: float = math.inf
+) -> tuple[float, float, float]:
+    """Three finite numbers within bounds.
+
+    Raises:
+        ValueError: it is something else.
+    """
+    listed: tuple[Any, ...] = ()
+    try:
+        listed = tuple(given)
+        good = len(listed) == 3 and all(math.isfinite(v) and least <= v <= most for v in listed)
+    except (TypeError, ValueError, OverflowError):
+        good = False
+    if not good:
+        bounds = "" if least == -math.inf else f" of at least {least:g}" if most == math.inf else " from 0 to 255"
+        raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not three finite numbers{bounds}")
+    return given if isinstance(given, tuple) else (listed[0], listed[1], listed[2])

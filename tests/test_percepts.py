@@ -1,0 +1,63 @@
+"""What a robot of others may say it perceives, and what is refused by name."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from dcg_torch.scene.percepts import checked
+from dcg_torch.scene.upsilon import world_model
+from dcg_torch.types import Percept
+
+MUG = Percept("m1", "mug", "blue", (1.0, 0.5, 0.0))
+
+
+@pytest.mark.parametrize(
+    ("changed", "says"),
+    [
+        ({"position": (1.0, 0.0)}, "position"),
+        ({"position": (math.nan, 0.0, 0.0)}, "position"),
+        ({"position": (math.inf, 0.0, 0.0)}, "position"),
+        ({"position": None}, "position"),
+        ({"position": "x"}, "position"),
+        ({"position": "123"}, "position"),
+        ({"size": (1.0, 1.0)}, "size"),
+        ({"size": (1.0, 1.0, -1.0)}, "size"),
+        ({"rgb": (1.0, 0.0)}, "rgb"),
+        ({"rgb": (0.0, 0.0, 256.0)}, "rgb"),
+        ({"id": "hypothetical mug"}, "id"),
+        ({"id": 3}, "id"),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_one_line_that_names_it(changed: dict[str, Any], says: str) -> None:
+    with pytest.raises(ValueError, match=f"^percept .*: .*{says}") as error:
+        world_model([replace(MUG, **changed)], ())
+    assert "\n" not in str(error.value)
+    assert len(str(error.value)) < 250
+
+
+def test_two_objects_of_one_id_are_refused() -> None:
+    with pytest.raises(ValueError, match="'m1': two objects have this id"):
+        world_model([MUG, replace(MUG, color="red")], ())
+
+
+def test_lists_arrays_and_sets_come_into_one_form() -> None:
+    given_: dict[str, Any] = {"position": [1.0, 0.5, 0.0], "size": np.array([0.1, 0.1, 0.2]), "attributes": {"held"}}
+    (found,) = checked([replace(MUG, **given_)])
+    assert found == replace(MUG, size=(0.1, 0.1, 0.2), attributes=frozenset({"held"}))
+    hash(found)
+
+
+@given(st.tuples(*[st.floats(-1e6, 1e6)] * 3), st.none() | st.tuples(*[st.floats(0.0, 1e3)] * 3))
+def test_what_makes_sense_stays_as_it_is(
+    position: tuple[float, float, float], size: tuple[float, float, float] | None
+) -> None:
+    percept = replace(MUG, position=position, size=size)
+    (found,) = checked([percept])
+    assert found is percept
