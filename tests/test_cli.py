@@ -37,6 +37,12 @@ WRONG = [
     pytest.param(["worlds=no/such/place"], ["no/such/place", "no such directory"], id="no world files"),
     pytest.param(["name=${nothing}"], ["name", "nothing"], id="broken interpolation"),
     pytest.param(["trials"], ["trials", "KEY=VALUE"], id="no value"),
+    pytest.param(["+=0"], ["+=0", "KEY=VALUE"], id="no key"),
+    pytest.param(["model=true"], ["model=True", "choose from dcg, "], id="model a truth value"),
+    pytest.param(["model=[dcg,1]"], ["model=list of 2", "choose from dcg, "], id="several models"),
+    pytest.param(["~model"], ["model=null", "choose from dcg, "], id="no model"),
+    pytest.param(["experiment=null"], ["experiment=null", "paper"], id="experiment null"),
+    pytest.param(["hydra/launcher=3"], ["hydra/launcher=3", "give the name"], id="launcher a number"),
     pytest.param(["--trials=3"], ["--trials=3", "KEY=VALUE"], id="dashes"),
 ]
 

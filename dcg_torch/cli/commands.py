@@ -42,6 +42,7 @@ COMMANDS: Mapping[str, Command] = {
     "ros": Command(
         "ros", "a ROS 2 node: commands as messages, a robot that is known by its messages", "ros", ("rclpy",)
     ),
+    "pretrain": Command("cli.pretrain", "make the shipped model anew"),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }

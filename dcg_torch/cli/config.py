@@ -11,6 +11,8 @@ from typing import Any, cast
 
 from hydra.core.config_store import ConfigStore
 from hydra.core.hydra_config import HydraConfig
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import ChoiceSweep
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
@@ -29,6 +31,7 @@ from dcg_torch.settings import (
     check_values,
     described,
 )
+from dcg_torch.storage.foreign import plain, shown
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole
 
@@ -91,15 +94,27 @@ def talk_settings_of(config: DictConfig) -> TalkSettings:
 
 
 def refuse_nothing(overrides: Sequence[str]) -> None:
-    """See that no override chooses null where one of a group must be chosen; Hydra would answer with a traceback.
+    """See that an override that chooses one of a group names one.
+
+    To null, truth values and numbers Hydra would answer with a traceback; of a list of models it would mix one.
 
     Raises:
-        SettingsError: one does.
+        SettingsError: one does not.
+        OverrideParseException: one is no override.
     """
     for override in overrides:
-        group, _, values = override.partition("=")
-        if group in _GROUPS and "null" in values.split(","):
+        group, equals, _ = override.lstrip("+~").partition("=")
+        if not group:
+            raise SettingsError(f"{plain(override, 80)}: not an override; write KEY=VALUE")
+        if override.startswith("~") and group in _GROUPS:
             _refuse_choice(group, "null")
+        if not equals or not ("/" in group or group in (*_GROUPS, "experiment")):
+            continue
+        chosen = OverridesParser.create().parse_override(override).value()
+        for one in chosen.list if isinstance(chosen, ChoiceSweep) else (chosen,):
+            names = one if isinstance(one, list) and group not in _GROUPS else [one]
+            if any(name is None or isinstance(name, (bool, int, float, dict, list)) for name in names):
+                _refuse_choice(group, "null" if one is None else one)
 
 
 _GROUPS = ("model", "simulator")
@@ -113,9 +128,13 @@ def _refuse_choices() -> None:
             _refuse_choice(group, chosen or "null")
 
 
-def _refuse_choice(group: str, chosen: str) -> None:
+def _refuse_choice(group: str, chosen: object) -> None:
     there = sorted(path.stem for path in (resource("conf") / group).glob("*.yaml"))
-    raise SettingsError(f"{group}={chosen}: there is no such {group}; choose from {', '.join(there)}")
+    mend = f"choose from {', '.join(there)}" if there else "give the name of one"
+    raise SettingsError(f"{group}={shown(chosen).strip(_QUOTE)}: there is no such {group}; {mend}")
+
+
+_QUOTE = "'"
 
 
 def _refuse_added(config: DictConfig, schema: type) -> None:
@@ -155,7 +174,8 @@ def explain(error: Exception, program: str = "run") -> str:
         get = f", or install {extra[0]} (the extra {extra[1]}: pip install -e '.[{extra[1]}]')" if extra else ""
         return f"{group}={option}: there is no such {group}; choose from {', '.join(choices)}{get}"
     if isinstance(error, OverrideParseException):
-        return f"{error.override}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
+        given = plain(str(error.override), 80)
+        return f"{given}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
     if first.startswith(("Could not override", "Could not append")):
         return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])
