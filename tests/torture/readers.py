@@ -138,7 +138,7 @@ def _concept_graphs(rng: random.Random) -> bytes:
     return mutants.json_file(rng, good)
 
 
-_PERCEPT: dict[str, Any] = {
+_PERCEPT: dict[str, Any] = {"id": "m", "type": "mug", "color": "blue", "position": [1.0, 0.5, 0.0], "size": [0.1] * 3}
     "id": "m",
     "type": "mug",
     "color": "blue",
