@@ -139,12 +139,6 @@ def _concept_graphs(rng: random.Random) -> bytes:
 
 
 _PERCEPT: dict[str, Any] = {"id": "m", "type": "mug", "color": "blue", "position": [1.0, 0.5, 0.0], "size": [0.1] * 3}
-    "id": "m",
-    "type": "mug",
-    "color": "blue",
-    "position": [1.0, 0.5, 0.0],
-    "size": [0.1, 0.1, 0.2],
-}
 
 
 def _percepts(rng: random.Random) -> list[Percept]:
