@@ -180,8 +180,26 @@ def explain(error: Exception, program: str = "run") -> str:
     if first.startswith(("Could not override", "Could not append")):
         return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])
     if first.startswith("Error merging override") and cause is not None:
-        return f"{first.removeprefix('Error merging override ')}: {_lines(cause)[0]}"
+        given = first.removeprefix("Error merging override ")
+        return f"{plain(given, 120)}: {_wanted(_lines(cause)[0], given)}"
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
+
+
+def _wanted(said: str, given: str) -> str:
+    """What to give instead, from what OmegaConf says of a value of another kind."""
+    key, _, value = given.lstrip("+").partition("=")
+    for part, wanted in (
+        ("converted to Integer", "give a whole number"),
+        ("converted to Float", "give a number"),
+        ("is not a valid bool", "give true or false"),
+        ("is not a ListConfig", f"give a list in brackets, as in {plain(key)}=[{plain(value, 40) or 'a'}]"),
+        ("to string", "give a text"),
+        ("is not a subclass", f"it holds several settings; set one at a time, as in {plain(key)}.NAME=VALUE"),
+        ("expected one of [", f"give one of {said.rpartition('[')[2].rstrip(']')}"),
+    ):
+        if part in said:
+            return wanted
+    return plain(said, 200)
 
 
 _PLUGINS = {

@@ -105,5 +105,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("kind", metavar="KIND", choices=KINDS, help="of the files, one of those above")
     parser.add_argument("path", metavar="PATH", type=Path, help="a file or a folder")
-    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help="the file to write")
+    parser.add_argument(
+        "--out", metavar="FILE", type=Path, required=True, help="the file to write; its folder is made if need be"
+    )
     return parser

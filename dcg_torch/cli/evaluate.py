@@ -219,6 +219,8 @@ def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:
     ):
         if wanted is None:
             continue
+        if not taught:
+            raise SettingsError(f"{name}: it says what of the training episodes is kept; give train=FILE, too")
         strange = [one for one in wanted if one not in there]
         if strange or not wanted:
             what = f"{strange[0]!r} is meant in no training episode" if strange else "there is nothing to learn from"

@@ -33,6 +33,9 @@ def run_trial(
 ) -> Iterator[tuple[Iteration, Timing]]:
     """Ground, act and learn, command by command; each command's record is yielded as it ends.
 
+    As in Algorithm 1 the robot learns whether or not the drive arrived (line 16 follows line 15 in any case). It learns
+    from the grounding and from what was in view; that a way is blocked says nothing of what a word means.
+
     Args:
         model: freshly trained on the initial training set (lines 1 to 6); it learns in place.
         rng: draws the recogniser's mistakes, if it makes any.
