@@ -16,7 +16,6 @@ from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.speaker import Command
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import DriveResult, Percept, Pose
-from dcg_torch.watch.animation import animate
 from dcg_torch.watch.recording import Moment, RecordedCommand
 from dcg_torch.world.files import World
 
@@ -139,6 +138,8 @@ def export_gif(file: Path, to: Path) -> Path:
     Raises:
         UserError: the session is not valid, or it has no command.
     """
+    from dcg_torch.watch.animation import animate  # here: it draws in the physics, which need not be there
+
     commands = [_recorded(number, command) for number, command in enumerate(_commands(file))]
     if not commands:
         raise SessionError(f"{file}: this session has no command to animate; talk on, then export")

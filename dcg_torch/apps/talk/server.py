@@ -13,17 +13,17 @@ from dataclasses import dataclass
 from urllib.parse import unquote
 
 import uvicorn
-from fastapi import FastAPI, Response
+from fastapi import FastAPI, Response, WebSocket
 from nicegui import Client, ui
 
 from dcg_torch.apps.talk.gate import LOOPBACK, Gate
 from dcg_torch.apps.talk.host import Host
-from dcg_torch.apps.talk.looks import floor_file, object_file, robot_file
+from dcg_torch.apps.talk.live import PATH
+from dcg_torch.apps.talk.looks import object_looks, robot_looks
 from dcg_torch.apps.talk.page import CSS, Page
-from dcg_torch.apps.talk.scene import FLOOR_URL, ROBOT_URL
+from dcg_torch.apps.talk.scene import BODIES
 from dcg_torch.storage.errors import UserError
 
-_GLB = "model/gltf-binary"
 _KEEP = {"Cache-Control": "public, max-age=3600"}
 _TITLE = "Talk to the robot"
 
@@ -99,17 +99,17 @@ def add_routes(app: FastAPI, host: Host) -> None:
         ui.colors(primary="#1d4ed8")
         Page(host, client)
 
-    @app.get(ROBOT_URL)
+    @app.get(BODIES + "/robot.json")
     def robot() -> Response:
-        return Response(robot_file(), media_type=_GLB, headers=_KEEP)
+        return Response(robot_looks(), media_type="application/json", headers=_KEEP)
 
-    @app.get(FLOOR_URL)
-    def floor() -> Response:
-        return Response(floor_file(), media_type=_GLB, headers=_KEEP)
-
-    @app.get("/bodies/{type_}/{color}.glb")
+    @app.get(BODIES + "/{type_}/{color}.json")
     def body(type_: str, color: str) -> Response:
-        return Response(object_file(unquote(type_), unquote(color)), media_type=_GLB, headers=_KEEP)
+        return Response(object_looks(unquote(type_), unquote(color)), media_type="application/json", headers=_KEEP)
+
+    @app.websocket(PATH)
+    async def live(socket: WebSocket) -> None:
+        await host.live.serve(socket)
 
 
 async def _begin(host: Host, failed: list[Exception], server: uvicorn.Server) -> None:
