@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import hashlib
 import io
 import logging
@@ -114,8 +115,9 @@ class Host:
         await self.begin()
 
     async def end(self) -> None:
-        """Stop the robot and let go of the session."""
+        """Stop the robot and let go of the session; what it still does nobody hears."""
         self.stop()
+        self._loop = None
         self._thread.shutdown(wait=False, cancel_futures=True)
 
     def listen(self, listener: Callable[[str], None]) -> Callable[[], None]:
@@ -203,13 +205,17 @@ class Host:
 
     # What follows runs in the session's thread.
 
+    def _soon(self, do: Callable[[], object]) -> None:
+        """Do something in the event loop, while there is one."""
+        with contextlib.suppress(RuntimeError):  # it is closed
+            if (loop := self._loop) is not None:
+                loop.call_soon_threadsafe(do)
+
     def _post(self, part: str, **values: Any) -> None:
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(lambda: self._set(part, **values))
+        self._soon(lambda: self._set(part, **values))
 
     def _write(self, line: Line) -> None:
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(self.write, line)
+        self._soon(lambda: self.write(line))
 
     def _clear(self) -> None:
         self._post("lines", lines=[], dropped=0)
@@ -243,8 +249,7 @@ class Host:
         finally:
             if session is not None:
                 self._refresh(session)
-            if self._loop is not None:
-                self._loop.call_soon_threadsafe(lambda: self._set("status", waiting=self.state.waiting - 1))
+            self._soon(lambda: self._set("status", waiting=self.state.waiting - 1))
 
     def _replay(self) -> None:
         again, inputs = Session.replayed(self.file)
@@ -311,5 +316,4 @@ class Host:
         self._pictured, self._pictured_at = stands, time.monotonic()
         content = io.BytesIO()
         Image.fromarray(pixels).save(content, "JPEG", quality=80)
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(lambda: self.live.send(picture=content.getvalue()))
+        self._soon(lambda: self.live.send(picture=content.getvalue()))

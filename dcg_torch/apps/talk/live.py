@@ -11,6 +11,7 @@ from typing import Any
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 PATH = "/live"
+_KIND: dict[type, str] = {str: "text", bytes: "bytes"}
 
 
 @dataclass(eq=False)
@@ -56,7 +57,7 @@ class Live:
                 while not leaving.done():
                     messages, visitor.pending = visitor.pending, {}
                     for message in messages.values():
-                        await (socket.send_bytes if isinstance(message, bytes) else socket.send_text)(message)  # type: ignore[operator]
+                        await socket.send({"type": "websocket.send", _KIND[type(message)]: message})
                     visitor.wake.clear()
                     if not visitor.pending and not leaving.done():
                         await visitor.wake.wait()
