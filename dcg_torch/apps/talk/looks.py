@@ -12,11 +12,11 @@ from xml.etree import ElementTree
 import numpy as np
 
 import dcg_torch.simulator
-from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.simulator.bodies import Model, Part, extent, footprint, registered, rgb
 from dcg_torch.simulator.bodies.colors import RGB
 from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 
 _MODELS = Path(dcg_torch.simulator.__file__).parent / "models"
 _FAN = 4.0  # metres of the field of view that are drawn
