@@ -107,7 +107,9 @@ def _learn(s: Situation, errand: Errand) -> None:
     learned = s.model.learn(errand.solution, Experience(errand.looked, certain, source=errand.text))
     if learned.symbol is not None:
         s.emit(Learned(learned.symbol.word, learned.symbol.type, "outcome"))
-        s.say(f'I think that "{learned.symbol.word}" is what my camera calls "{learned.symbol.type}".')
+        word, type_ = learned.symbol.word, learned.symbol.type
+        what = "a good word for it; my camera calls it so, too" if word == type_ else f'what my camera calls "{type_}"'
+        s.say(f'I think that "{word}" is {what}.')
 
 
 def go_on(s: Situation, errand: Errand, asking: Question, reply: Reply) -> Done:
