@@ -35,6 +35,7 @@ _PICTURE_EVERY = 0.25  # seconds between two pictures of the camera: each holds 
 _MOVE = 1 / 30  # seconds that a move takes the robot
 _POSE_EVERY = 2  # moves between two poses that are sent; the pages draw the motion between them
 _GATHER = 0.005  # seconds in which changes are gathered before the pages hear of them
+_BREATH = 0.02  # seconds after an answer in which the event loop has the interpreter for itself, to send it
 _REPLAY = 4.0  # times as fast as it was
 _log = logging.getLogger(__name__)
 
@@ -284,6 +285,9 @@ class Host:
         line = line_of_event(event)
         if line is not None:
             self._write(line)
+        if self._pace and isinstance(event, events.Understood):
+            time.sleep(_BREATH)
+            self._pictured_at = time.monotonic()
         match event:
             case events.Moved(pose):
                 self._moved(pose)
