@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.agent.asking import Question, Reply
+from dcg_torch.agent.command import Look
 from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import ENDINGS, kind_of, said_of
 from dcg_torch.dialogue.situation import ASKING, Errand, Situation
@@ -120,6 +121,7 @@ def go_on(s: Situation, errand: Errand, asking: Question, reply: Reply) -> Done:
         s.emit(Understood("answer", f"You mean {s.the(reply.meant)}; {_doing(errand.solution)}.", reply.meant))
     else:
         s.emit(Understood("answer", "None of these, then."))
+    s.show(errand.looks, Look(s.robot.pose, errand.looks[-1].percepts, errand.solution))
     return _decide(s, errand, saying=None if reply.meant is None else "")
 
 
