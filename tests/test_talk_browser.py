@@ -157,7 +157,7 @@ def test_words_are_taught_and_a_question_is_answered_by_clicks(page: Page, start
         expect(page.get_by_label("Words it has learned")).to_contain_text(word)
     log, meant = page.get_by_role("log"), page.get_by_label("What may be meant")
     choices = log.get_by_role("button", name="green traffic cone")
-    answers = (lambda: click_in_the_world(page, "right"), lambda: choices.last.click())
+    answers: tuple[Callable[[], None], ...] = (lambda: click_in_the_world(page, "right"), choices.last.click)
     for turn, answer in enumerate(answers, start=1):
         say(page, "go to the wug")
         expect(choices).to_have_count(turn)
