@@ -20,7 +20,6 @@ from dcg_torch.simulator.bodies import laboratory as laboratory  # its types reg
 from dcg_torch.simulator.bodies import types
 from dcg_torch.simulator.bodies.colors import RGB, rgb
 from dcg_torch.simulator.bodies.looks import Model, Part, model, register, registered
-from dcg_torch.simulator.engine import pybullet
 
 __all__ = ["TYPES", "Model", "Part", "add_model", "add_object", "extent", "footprint", "register", "registered", "rgb"]
 
@@ -68,6 +67,8 @@ def add_object(client: int, type: str, color: str, position: tuple[float, float]
 
 def add_model(client: int, looks: Model, color: RGB, position: tuple[float, float], yaw: float = 0.0) -> int:
     """Put any model, registered or not, on the floor as one static body; arguments as for `add_object`."""
+    from dcg_torch.simulator.engine import pybullet  # here: looks, sizes and colours need no physics
+
     visuals = [
         pybullet.createVisualShape(
             pybullet.GEOM_MESH,
