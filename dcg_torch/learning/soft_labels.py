@@ -101,7 +101,7 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
 
     Of many types a noun is shown with those that it was heard among, and with the first `_MANY` of all.
     """
-    table, new = nouns.said_of()
+    table, new = nouns.said_of
     types, column = nouns.posterior.types, nouns.posterior.column
     rows = [(word, row) for word, row in enumerate(nouns.posterior.words) if row not in fixed]
     unheard = (NEVER_HEARD, *forgotten)
@@ -117,7 +117,7 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
 
 def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[_Odds]:
     """Every colour word with every colour, on a known type and on one not met."""
-    table, new = colors.said_of()
+    table, new = colors.said_of
     words = [*((w, row) for w, row in zip(colors.posterior.words, table, strict=True) if w not in fixed)]
     words.append((NEVER_HEARD, new))
     for noun, type_, scale in _anchors(nouns):
@@ -138,7 +138,7 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
     """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
     said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
     if colors.posterior.words:
-        row = colors.said_of()[0][0]
+        row = colors.said_of[0][0]
         color = colors.posterior.types[int(row.argmax())]
         said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
     for word, color_of, odds, ahead in said:
@@ -152,7 +152,7 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
     """A known noun with its type, and an unheard one with a type not met: on these, all else is shown."""
-    table, new = nouns.said_of()
+    table, new = nouns.said_of
     posterior = nouns.posterior
     if posterior.words:
         at = int(table[0].argmax())
