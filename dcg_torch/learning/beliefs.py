@@ -128,6 +128,12 @@ class Posterior:
         at = int(row.argmax())
         return self.types[at], float(row[at])
 
+    def best_of_all(self) -> dict[str, tuple[str, float]]:
+        """word -> its most probable type, and the probability."""
+        at = self.table.argmax(axis=1) if self.words else np.zeros(0, dtype=np.int64)
+        found = self.table[np.arange(len(at)), at].tolist()
+        return {w: (self.types[k], p) for w, k, p in zip(self.words, at.tolist(), found, strict=True)}
+
     @cached_property
     def _row(self) -> dict[str, int]:
         return {w: k for k, w in enumerate(self.words)}
