@@ -8,13 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 class Rows(Protocol):
@@ -173,6 +175,8 @@ class SparseRows:
 
 
 def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+    from scipy.sparse import csr_array  # here: only large fits need it
+
     small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
     return csr_array((np.ones(len(numbers)), numbers.astype(small), starts.astype(small)), shape=shape)
 

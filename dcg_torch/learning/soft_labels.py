@@ -110,14 +110,16 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
     heard = [[column[t] for t in nouns.heard[word].more] if word in nouns.heard else [] for _, word in words]
     kept = sorted({*range(min(_MANY, len(types))), len(types) - 1, *(k for of in heard for k in of)})
     unheard = (NEVER_HEARD, *forgotten)
-    odds = np.vstack([table[np.ix_([k for k, _ in words], kept)], np.broadcast_to(new[kept], (len(unheard), len(kept)))])
+    known = table[np.ix_([k for k, _ in words], kept)]
+    odds = np.vstack([known, np.broadcast_to(new[kept], (len(unheard), len(kept)))])
     shown = np.zeros(odds.shape, dtype=np.bool_)
     shown[:, :_MANY] = shown[:, -1] = True
     if len(types) > _MANY:
         place = {k: at for at, k in enumerate(kept)}
         for k, of in enumerate(heard):
             shown[k, [place[t] for t in of]] = True
-    yield _Odds([_phrase(w) for w in (*(w for _, w in words), *unheard)], [_object(types[k]) for k in kept], odds, shown)
+    phrases = [_phrase(word) for word in (*(word for _, word in words), *unheard)]
+    yield _Odds(phrases, [_object(types[k]) for k in kept], odds, shown)
 
 
 def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[_Odds]:

@@ -10,7 +10,6 @@ import itertools
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy.cluster.hierarchy import linkage
 
 from dcg_torch.geometry import to_robot_frame
 from dcg_torch.scene.layout import Floats
@@ -123,6 +122,8 @@ def _clusters(points: Floats) -> Iterable[list[int]]:
     n = len(points)
     if n < _LEAST:
         return
+    from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
+
     merges = linkage(points[:, :2], "single").tolist()
     members: list[list[int]] = [[k] for k in range(n)]
     spots = [1] * n  # how many places seen from above a cluster is at
