@@ -11,10 +11,10 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from dcg_torch.geometry import to_robot_frame
 from dcg_torch.scene.layout import Floats
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import to_robot_frame
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"
 ACROSS, ALONG = "lies across", "lies along"
