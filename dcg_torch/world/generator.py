@@ -64,7 +64,10 @@ def generate_world(
             square of `half_width` (after a bounded number of tries).
     """
     _check_request(types, colors, probability)
-    _check_distances(half_width, spacing, robot_spacing)
+    if min(spacing, robot_spacing) < 0.0 or (half_width is not None and half_width <= 0.0):
+        raise ValueError(
+            f"distances must not be negative: half_width {half_width}, spacing {spacing}, robot_spacing {robot_spacing}"
+        )
     chosen = _draw_objects(rng, types, colors, probability)
     width = _sufficient_half_width(len(chosen), spacing, robot_spacing) if half_width is None else half_width
     robot, feet = _place(rng, len(chosen), width, spacing, robot_spacing)
@@ -85,18 +88,6 @@ def _object_at(pair: tuple[str, str], foot: np.ndarray, yaw: float) -> WorldObje
         position=(_rounded(foot[0]), _rounded(foot[1])),
         yaw=_rounded(yaw),
     )
-
-
-def _check_distances(half_width: float | None, spacing: float, robot_spacing: float) -> None:
-    """See that none is negative.
-
-    Raises:
-        ValueError: one is.
-    """
-    if spacing < 0.0 or robot_spacing < 0.0 or (half_width is not None and half_width <= 0.0):
-        raise ValueError(
-            f"distances must not be negative: half_width {half_width}, spacing {spacing}, robot_spacing {robot_spacing}"
-        )
 
 
 def _check_request(types: Sequence[str], colors: Sequence[str], probability: float) -> None:
