@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 TABLE = Path(__file__).parent / "data" / "nouns.npz"
-"""Made by `python -m dcg_torch.names.build`."""
+"""Made by `tools/noun_table.py`."""
 
 
 class Nouns:
