@@ -12,17 +12,7 @@ from pydantic import AllowInfNan, SerializerFunctionWrapHandler, model_serialize
 from dcg_torch.storage.foreign import Strict
 
 Kind = Literal["known", "unknown", "learned"]
-NO_EFFECT = (
-    "name",
-    "trials",
-    "workers",
-    "backend",
-    "metric",
-    "animate",
-    "figures",
-    "tensorboard",
-    "screenshots",
-)
+NO_EFFECT = ("name", "trials", "workers", "backend", "metric", "animate", "figures", "tensorboard", "screenshots")
 """Settings that change no byte of a trial: two runs that differ in these alone are of one configuration,
 and a run may be gone on with although these differ."""
 

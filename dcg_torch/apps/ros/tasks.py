@@ -48,12 +48,7 @@ class Tasks:
     """
 
     def __init__(
-        self,
-        model: GroundingModel,
-        senses: Senses,
-        robot: TopicRobot,
-        options: Callable[[], Options],
-        outlet: Outlet,
+        self, model: GroundingModel, senses: Senses, robot: TopicRobot, options: Callable[[], Options], outlet: Outlet
     ) -> None:
         self.model = model
         self.percepts: tuple[Percept, ...] = ()
