@@ -27,7 +27,6 @@ class Closing(Protocol):
 
     def close(self) -> None:
         """Let go; a second call does nothing."""
-        ...
 
     def __enter__(self) -> Self:
         return self

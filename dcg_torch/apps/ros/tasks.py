@@ -28,15 +28,12 @@ class Outlet(Protocol):
 
     def say(self, topic: str, text: str) -> None:
         """Publish a text."""
-        ...
 
     def show(self, entries: list[Entry], percepts: tuple[Percept, ...]) -> None:
         """Publish the lexicon, as text and at what is seen."""
-        ...
 
     def complain(self, text: str) -> None:
         """Log what went wrong."""
-        ...
 
 
 class Tasks:
