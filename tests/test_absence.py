@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import pytest
 
@@ -84,6 +85,13 @@ def test_the_shares_of_what_is_there_do_not_change(model: GroundingModel) -> Non
     solution = _ground(model, "take the white ball", _things("red ball", "red ball"))
     assert solution.probabilities["0"] == pytest.approx(solution.probabilities["1"], rel=1e-9)
     assert sum(solution.probabilities.values()) == pytest.approx(1.0)
+
+
+def test_what_is_ruled_out_is_not_what_was_meant(model: GroundingModel) -> None:
+    world = model.world_model(_things("red ball", "green cube"), robot=Pose(0.0, 0.0), looked=True)
+    assert _absent(model.ground("take the red ball", world)) < 0.1
+    others = frozenset(o.id for o in world.objects if o.id != "0")
+    assert _absent(model.ground("take the red ball", replace(world, meant=others))) > 0.5
 
 
 def test_before_a_look_round_and_without_names_nothing_is_said_of_it(model: GroundingModel) -> None:

@@ -34,12 +34,14 @@ _NEW = 7.0
 def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> float | None:
     """The log-odds that nothing there is meant; None where that is not judged by names.
 
-    That is so before the robot has looked all round, of groups and places, and where nothing is there.
+    That is so before the robot has looked all round, of groups and places, and where nothing is there. What the speaker
+    has ruled out counts for nothing.
     """
     features, objects = encoder.features, encoder.world.objects
     if not features.groups >= {Group.NAMES, Group.RELATION} or in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None
-    seen = encoder.perceived[: len(objects)]
+    meant = encoder.world.meant
+    seen = np.array([not o.hypothetical and (meant is None or o.id in meant) for o in objects], dtype=np.bool_)
     if not seen.any() or not any(o.hypothetical and LOOKED_ROUND in o.attributes for o in objects):
         return None
     strange = _excess(_noun_gap(tables, encoder, phrase), *_STRANGE)
