@@ -54,7 +54,7 @@ _COUNT, _SHARE = Bounds(1, MOST), Bounds(0, 1)
 
 
 class Speaker(enum.StrEnum):
-    """Who gives the commands; see `dcg_torch.speaker`."""
+    """Who gives the commands; see `dcg_torch.world.speaker`."""
 
     canonical = "canonical"
     written = "written"

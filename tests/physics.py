@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.simulator import SimulatedRobot
 from dcg_torch.simulator.bodies import extent
 from dcg_torch.types import Percept
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 from dcg_torch.world.files import RobotStart, World, WorldObject
 
 HALF_VIEW = FIELD_OF_VIEW / 2

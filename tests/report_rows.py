@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from dcg_torch.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.report.measures import measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import write_summary
+from dcg_torch.storage.records import Iteration, Kind, ObjectRecord, ParsedRecord, PoseRecord, Timing
 
 KNOWN = ("cube", "cylinder", "sphere")
 NEW = ("door handle", "drill", "fire hydrant", "mailbox", "traffic cone")

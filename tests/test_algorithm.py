@@ -17,9 +17,9 @@ from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN, hypothesize_objects, perceive_objects
 from dcg_torch.simulator import FakeRobot
-from dcg_torch.speaker import Command
 from dcg_torch.types import Correspondence, Example, ParseTree, PhraseKind
 from dcg_torch.world.files import World
+from dcg_torch.world.speaker import Command
 
 ACTIVE = Correspondence.ACTIVE
 Pupil = Callable[[], GroundingModel]

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dcg_torch.agent.asking import AskingPolicy, Question, Reply, candidates, describe, question, truthful
-from dcg_torch.geometry import NEXT_TO
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, Pose, WorldModel
+from dcg_torch.types.geometry import NEXT_TO
 
 START = Pose(0.0, 0.0, 0.0)
 NAMES = {"cube": "cube", "sphere": "ball"}

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from dcg_torch.agent.explore import LookBefore, Worth, in_sight, meanings_out_of_view, missing, next_place
-from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 from dcg_torch.world.files import World, WorldObject
 
 

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from dcg_torch.geometry import (
+from dcg_torch.types import Pose
+from dcg_torch.types.geometry import (
     bearing,
     from_robot_frame,
     in_field_of_view,
@@ -21,7 +22,6 @@ from dcg_torch.geometry import (
     wrap_angle,
     wrap_angles,
 )
-from dcg_torch.types import Pose
 
 Floats = NDArray[np.float64]
 

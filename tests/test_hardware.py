@@ -11,15 +11,15 @@ from hydra import compose, initialize_config_dir
 
 from dcg_torch.cli.config import register, settings_of
 from dcg_torch.experiment.plan import trial_commands, trial_generators
+from dcg_torch.experiment.recording.recorder import Recorder
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
-from dcg_torch.records import Iteration
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import SimulatedRobot
+from dcg_torch.storage.records import Iteration
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import Object
-from dcg_torch.watch.recording import Recorder
 
 
 @pytest.fixture(scope="module")

@@ -11,13 +11,13 @@ import pytest
 
 from dcg_torch.language import Parser
 from dcg_torch.lessons.relations import KNOWN, relational_lessons
-from dcg_torch.speaker import RelationalSpeaker
-from dcg_torch.speaker.fit import Surroundings
-from dcg_torch.speaker.phrases import command, wording
-from dcg_torch.speaker.referring import RELATIONS, SETS, SPOKEN, Description, generate
 from dcg_torch.types import ParseTree
 from dcg_torch.world.files import World, WorldObject
 from dcg_torch.world.generator import TYPES, generate_world
+from dcg_torch.world.speaker import RelationalSpeaker
+from dcg_torch.world.speaker.fit import Surroundings
+from dcg_torch.world.speaker.phrases import command, wording
+from dcg_torch.world.speaker.referring import RELATIONS, SETS, SPOKEN, Description, generate
 
 SIZES = (0.2, 0.3, 0.45, 0.7)
 

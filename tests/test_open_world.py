@@ -24,11 +24,11 @@ from dcg_torch.lessons import initial_training
 from dcg_torch.model import Experience, GroundingModel, Variant
 from dcg_torch.model.checkpoint import load, save
 from dcg_torch.model.pretrain import train_open_world
-from dcg_torch.records import Iteration
 from dcg_torch.simulator import FakeRobot
-from dcg_torch.speaker import Command, GeneratingSpeaker, draw_trial
+from dcg_torch.storage.records import Iteration
 from dcg_torch.types import Object, ParseTree, Percept, Phrase, PhraseKind, Symbol
 from dcg_torch.world.generator import COLORS, generate_world
+from dcg_torch.world.speaker import Command, GeneratingSpeaker, draw_trial
 
 
 def open_world() -> GroundingModel:

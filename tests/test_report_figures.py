@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 from PIL import Image
 from report_rows import PAPER, row, run, timings, write_run
 
-from dcg_torch.records import Iteration
 from dcg_torch.report import figures
 from dcg_torch.report.canvas import save_figure
 from dcg_torch.report.comparison import draw_comparison
@@ -22,6 +21,7 @@ from dcg_torch.report.configurations import configurations
 from dcg_torch.report.intervals import wilson
 from dcg_torch.report.measures import measure
 from dcg_torch.report.runs import load_runs
+from dcg_torch.storage.records import Iteration
 
 NAMES = ["accuracy", "symbols", "shares", "errors", "calibration"]
 NOTHING = row(correct=False, chosen=None, arrived=None, probability=None, grounded=None)

@@ -10,11 +10,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from report_rows import OBJECTS, row, run, thing, timing
 
-from dcg_torch.records import ParsedRecord, PoseRecord
 from dcg_torch.report.causes import CAUSES, error_cause, is_right, names_of_types
 from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import measure, path_efficiency
 from dcg_torch.report.seconds import PHASES, summarise_seconds
+from dcg_torch.storage.records import ParsedRecord, PoseRecord
 
 WRONG: dict[str, Any] = {"correct": False}
 UNKNOWN: dict[str, Any] = {"noun": "drill", "target": "d", "kind": "unknown"}

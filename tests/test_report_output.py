@@ -13,7 +13,6 @@ import pytest
 from report_rows import PAPER, row, run, timings, write_run
 from rich.console import Console
 
-from dcg_torch.records import Iteration
 from dcg_torch.report.__main__ import main
 from dcg_torch.report.measures import measure
 from dcg_torch.report.paper import follows_paper
@@ -22,6 +21,7 @@ from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.show import print_several
 from dcg_torch.report.summary import read_summary, write_summary
 from dcg_torch.report.tables import print_errors, print_iterations, print_measures
+from dcg_torch.storage.records import Iteration
 
 NOTHING = row(correct=False, chosen=None, arrived=None, probability=None, grounded=None)
 

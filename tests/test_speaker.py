@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 from making import world_file
 
 from dcg_torch.language import Parser
-from dcg_torch.speaker import (
+from dcg_torch.world.files import World, WrittenCommand
+from dcg_torch.world.generator import COLORS, TYPES, generate_world
+from dcg_torch.world.speaker import (
     CANONICAL_FORMS,
     GeneratingSpeaker,
     SpeakerError,
@@ -20,8 +22,6 @@ from dcg_torch.speaker import (
     human_names,
     make_speaker,
 )
-from dcg_torch.world.files import World, WrittenCommand
-from dcg_torch.world.generator import COLORS, TYPES, generate_world
 
 WORLD = world_file(("red cube", 1.0, 0.0), ("blue fire hydrant", 0.0, 2.0), ("green door handle", -2.0, 0.0))
 seeds = st.integers(0, 2**32)

@@ -18,16 +18,16 @@ from dcg_torch.agent.command import Look, Stopwatch, carry_out
 from dcg_torch.experiment.folder import ITERATIONS
 from dcg_torch.experiment.runner import run
 from dcg_torch.experiment.trial import run_trial
-from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.language import Parser
 from dcg_torch.model import GroundingModel
-from dcg_torch.records import Iteration, Timing
 from dcg_torch.settings import RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.simulator.limits import ARRIVED
-from dcg_torch.speaker import Command
+from dcg_torch.storage.records import Iteration, Timing
 from dcg_torch.types import DriveResult, Pose
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 from dcg_torch.world.files import RobotStart, World
+from dcg_torch.world.speaker import Command
 
 Pupil = Callable[[], GroundingModel]
 

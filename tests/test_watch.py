@@ -15,13 +15,17 @@ from PIL import Image
 from dcg_torch.agent.command import Look
 from dcg_torch.experiment.folder import ITERATIONS, animation_of
 from dcg_torch.experiment.outcome import save_screenshots
+from dcg_torch.experiment.recording import paint
+from dcg_torch.experiment.recording.animation import SIZE, animate, frames, schedule
+from dcg_torch.experiment.recording.floor import FloorPanel
+from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand, Recorder
+from dcg_torch.experiment.recording.wording import bars, doing, label, meant, name_of, words
 from dcg_torch.experiment.runner import run
 from dcg_torch.grounding.solution import Hypothesis, Solution
-from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
 from dcg_torch.simulator import Camera, FakeRobot, SimulatedRobot
 from dcg_torch.simulator.stage import Stage
-from dcg_torch.speaker import Command
+from dcg_torch.storage.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import (
     Child,
@@ -36,12 +40,8 @@ from dcg_torch.types import (
     Pose,
     WorldModel,
 )
-from dcg_torch.watch import paint
-from dcg_torch.watch.animation import SIZE, animate, frames, schedule
-from dcg_torch.watch.floor import FloorPanel
-from dcg_torch.watch.recording import Moment, RecordedCommand, Recorder
-from dcg_torch.watch.wording import bars, doing, label, meant, name_of, words
 from dcg_torch.world.files import World, WorldObject
+from dcg_torch.world.speaker import Command
 
 THERE = World(
     name="there",

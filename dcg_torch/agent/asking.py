@@ -13,9 +13,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.geometry import NEXT_TO, bearing, to_robot_frame, wrap_angle
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept, Pose
+from dcg_torch.types.geometry import NEXT_TO, bearing, to_robot_frame, wrap_angle
 
 Fits = Callable[[Percept], bool]
 """Whether some words fit an object."""

@@ -15,9 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.agent.robot import Robot
-from dcg_torch.geometry import FIELD_OF_VIEW, segment_distances
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept
+from dcg_torch.types.geometry import FIELD_OF_VIEW, segment_distances
 
 Point = tuple[float, float]
 

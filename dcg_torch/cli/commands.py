@@ -26,7 +26,7 @@ class Command:
 
 COMMANDS: Mapping[str, Command] = {
     "run": Command("cli.run", "one experiment, or a sweep of them with -m (the default)"),
-    "evaluate": Command("evaluate", "ground the commands of episode files, perhaps after training on others"),
+    "evaluate": Command("cli.evaluate", "ground the commands of episode files, perhaps after training on others"),
     "report": Command("report.__main__", "tables of runs and sweeps"),
     "collect": Command(
         "apps.collect.program",
@@ -34,13 +34,16 @@ COMMANDS: Mapping[str, Command] = {
         "collect",
         ("fastapi", "jinja2", "sqlalchemy", "uvicorn"),
     ),
-    "convert": Command("convert", "scenes and commands of others as episode files"),
+    "convert": Command("cli.convert", "scenes and commands of others as episode files"),
     "talk": Command(
         "apps.talk.program", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)
     ),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "ros": Command(
-        "ros", "a ROS 2 node: commands as messages, a robot that is known by its messages", "ros", ("rclpy",)
+        "apps.ros.program",
+        "a ROS 2 node: commands as messages, a robot that is known by its messages",
+        "ros",
+        ("rclpy",),
     ),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),

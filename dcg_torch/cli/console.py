@@ -9,7 +9,7 @@ from typing import Self
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
-from dcg_torch.records import Iteration
+from dcg_torch.storage.records import Iteration
 
 _LOG_WIDTH = 140  # columns; into a pipe or a file there is no width to keep to
 

@@ -12,13 +12,13 @@ from dcg_torch.dialogue.events import Candidates, Event, Moved
 from dcg_torch.dialogue.file import Input, SessionError
 from dcg_torch.dialogue.session import Session, standing_at, with_stops
 from dcg_torch.dialogue.situation import Errand
-from dcg_torch.records import Iteration, ObjectRecord, PoseRecord
-from dcg_torch.speaker import Command
+from dcg_torch.experiment.recording.animation import animate
+from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand
+from dcg_torch.storage.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import DriveResult, Percept, Pose
-from dcg_torch.watch.animation import animate
-from dcg_torch.watch.recording import Moment, RecordedCommand
 from dcg_torch.world.files import World
+from dcg_torch.world.speaker import Command
 
 _EVERY = 3  # of the moves, 30 to a second, those that an animation has
 

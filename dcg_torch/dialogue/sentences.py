@@ -7,12 +7,12 @@ from collections.abc import Mapping, Sequence
 
 from dcg_torch.agent.asking import describe
 from dcg_torch.dialogue.events import Candidate
-from dcg_torch.geometry import bearing
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.learning.lexicon import Entry
+from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import DriveResult, Object, Percept, Pose
-from dcg_torch.vocabulary import PLACE_WORDS
+from dcg_torch.types.geometry import bearing
 
 Names = Mapping[str, str]
 """type -> a word for it that the robot is sure of."""

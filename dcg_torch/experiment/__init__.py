@@ -11,4 +11,5 @@ backends the same over joblib's backends: loky, Ray, Dask
 worker   what such a process does with a trial
 runner   an experiment: the trials that are not finished yet
 outcome  figures, curves and summary of a finished one
+recording what happens in a trial as plain values, and as an animation
 """

@@ -10,10 +10,10 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from dcg_torch.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.storage.whole import write_whole
 
 ITERATIONS, TIMINGS, MODEL, PARTS = "iterations.jsonl", "timings.jsonl", "model", "trials"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS, TIMINGS, part_of, split_lines
-from dcg_torch.records import Iteration, Timing
+from dcg_torch.storage.records import Iteration, Timing
 from dcg_torch.storage.whole import write_whole
 
 

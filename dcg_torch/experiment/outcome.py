@@ -14,7 +14,6 @@ from pathlib import Path
 from dcg_torch.experiment.journal import read_run
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
 from dcg_torch.experiment.pool import work_off
-from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.intervals import Estimate
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
@@ -22,6 +21,7 @@ from dcg_torch.report.runs import varied_settings
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import ReportError, read_summary, write_summary
 from dcg_torch.settings import Metric, Settings
+from dcg_torch.storage.records import Iteration, Timing
 from dcg_torch.storage.whole import sweep_parts
 from dcg_torch.world.files import World
 

@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from dcg_torch.settings import Order, Settings, SettingsError
-from dcg_torch.speaker import Command, draw_trial, make_speaker
 from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import World, load_worlds
 from dcg_torch.world.generator import generate_world
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
+from dcg_torch.world.speaker import Command, draw_trial, make_speaker
 
 
 def trial_generators(seed: int, trial: int) -> list[np.random.Generator]:

@@ -30,8 +30,8 @@ from dcg_torch.experiment.folder import (
 from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off
-from dcg_torch.records import Iteration
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
+from dcg_torch.storage.records import Iteration
 
 SEEN_WITHIN = 90.0
 """Seconds after which a file that another machine has written should be seen here; NFS remembers for 60."""

@@ -14,8 +14,8 @@ from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, car
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.model import GroundingModel
-from dcg_torch.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
-from dcg_torch.speaker import Command
+from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
+from dcg_torch.world.speaker import Command
 
 
 def run_trial(

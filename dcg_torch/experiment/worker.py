@@ -16,6 +16,8 @@ from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.experiment.factory import make_asking, make_explorer, make_model
 from dcg_torch.experiment.folder import MODEL, ORIGIN, animation_of, lexicon_of, part_of
 from dcg_torch.experiment.plan import trial_commands, trial_generators
+from dcg_torch.experiment.recording.recorder import Recorder
+from dcg_torch.experiment.recording.wording import meant
 from dcg_torch.experiment.robots import make_robot
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parse, default_parser
@@ -23,11 +25,9 @@ from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import LearnerKind, Settings
-from dcg_torch.speaker import Command
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 from dcg_torch.types import Pose
-from dcg_torch.watch.recording import Recorder
-from dcg_torch.watch.wording import meant
+from dcg_torch.world.speaker import Command
 
 
 def run_one(
@@ -90,7 +90,9 @@ def _save_outcome(
 ) -> None:
     """What a trial leaves beside its lines: an animation, what words mean to its robot, and the last one its model."""
     if recorder:
-        from dcg_torch.watch.animation import animate  # here, because it costs a third of a second to import
+        from dcg_torch.experiment.recording.animation import (
+            animate,  # here, because it costs a third of a second to import
+        )
 
         write_whole(animation_of(directory, trial), lambda path: animate(recorder.commands, path))
     if settings.model.learner is LearnerKind.word_posterior:

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
+from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
-from dcg_torch.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:

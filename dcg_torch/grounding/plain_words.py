@@ -8,8 +8,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from dcg_torch.names.normal import normalise
-from dcg_torch.types import ParseTree, Phrase, PhraseKind
-from dcg_torch.vocabulary import (
+from dcg_torch.names.vocabulary import (
     BY_COMPASS,
     COMPASS,
     DEGREES,
@@ -28,6 +27,7 @@ from dcg_torch.vocabulary import (
     VERTICAL,
     WORKSPACE,
 )
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 NEAREST = "closest to"
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from dcg_torch.names.vocabulary import DIRECTIONS, EITHER_END, GROUP_WORDS, OWNERS, PLACE_WORDS, SIDE_WORDS
 from dcg_torch.scene.groups import groups
 from dcg_torch.scene.places import places
 from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Pose, Symbol, WorldModel
-from dcg_torch.vocabulary import DIRECTIONS, EITHER_END, GROUP_WORDS, OWNERS, PLACE_WORDS, SIDE_WORDS
 
 _AMBIGUOUS = 0.1
 _WEIGHT = 3.0

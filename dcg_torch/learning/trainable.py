@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.vocabulary import GROUP_WORDS, PLACE_TYPES, PLACE_WORDS
+from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_TYPES, PLACE_WORDS
 
 Mask = NDArray[np.bool_]
 

@@ -28,8 +28,8 @@ from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry, lexicon
 from dcg_torch.learning.soft_labels import Unseen, soft_labels
 from dcg_torch.learning.trainable import believed_mask
+from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, Example, Object, PhraseKind, Symbol
-from dcg_torch.vocabulary import GROUP_WORDS, PLACE_WORDS
 
 OUT_OF_VIEW = 1.0 - 57.0 / 360.0
 """Share of the ground that is out of view before the robot turns."""

@@ -14,11 +14,11 @@ import numpy as np
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import with_places
-from dcg_torch.speaker.fit import Surroundings
-from dcg_torch.speaker.phrases import command
-from dcg_torch.speaker.referring import DIRECTED, RELATIONS, generate
 from dcg_torch.types import Percept
 from dcg_torch.world.generator import TYPES, generate_world
+from dcg_torch.world.speaker.fit import Surroundings
+from dcg_torch.world.speaker.phrases import command
+from dcg_torch.world.speaker.referring import DIRECTED, RELATIONS, generate
 
 KNOWN = ("cube", "sphere", "cylinder")
 """The types that the lessons call by name; they are known from the start."""

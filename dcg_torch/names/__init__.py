@@ -1,4 +1,4 @@
-"""What the names that a recogniser gives say about the words that people use: nouns, colours, values of attributes.
+"""What words say about things: the names that a recogniser gives, words for colours, attributes, places and groups.
 
     normal      one normal form for each name
     wordnet     the table: synonyms, and what is a kind of what
@@ -7,6 +7,7 @@
     attributes  facts between words and the attributes of an object
     colors      colour words as regions of CIELAB; facts between a colour word and the name of a colour
     embedding   cosines of a sentence embedding (the extra `embeddings`)
+    vocabulary  words with a fixed meaning: places, groups, who owns a side
     build       makes the table and the weights
 
 Everything but the reading of the data is a pure function. Nothing is normalised in what a caller keeps: names are

@@ -16,9 +16,9 @@ from tensorboard.compat.proto.summary_pb2 import Summary  # type: ignore[import-
 from torch.utils.tensorboard import SummaryWriter
 from torch.utils.tensorboard.summary import hparams as hparams_summaries
 
-from dcg_torch.records import Iteration, Timing
 from dcg_torch.report.measures import IterationMeasures, Measures, measure
 from dcg_torch.report.seconds import PHASES, summarise_seconds, total_seconds
+from dcg_torch.storage.records import Iteration, Timing
 
 _SUFFIX = ".dcg_torch"  # tells our event files from others in the folder
 

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
-from dcg_torch.records import Iteration
+from dcg_torch.storage.records import Iteration
 
 _NOTHING: Mapping[str, str] = MappingProxyType({})
 

@@ -13,11 +13,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from dcg_torch.records import NO_EFFECT
 from dcg_torch.report.configurations import Configuration, distinguish, paired_difference
 from dcg_torch.report.measures import Measures
 from dcg_torch.report.runs import Run
 from dcg_torch.report.text import number, percent, percent_interval, points_interval, seconds
+from dcg_torch.storage.records import NO_EFFECT
 
 _ALL_PAIRS = 4  # up to so many configurations every pair is shown; of more, each against the first
 

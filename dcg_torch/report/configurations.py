@@ -11,12 +11,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dcg_torch.records import NO_EFFECT, Iteration
 from dcg_torch.report.intervals import Estimate, mean_over_trials
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.runs import Run
 from dcg_torch.report.summary import flatten
 from dcg_torch.report.text import printable
+from dcg_torch.storage.records import NO_EFFECT, Iteration
 
 _Key = tuple[int | None, int, int]
 

@@ -13,7 +13,6 @@ from pathlib import Path
 from matplotlib.figure import Figure
 from matplotlib.ticker import PercentFormatter
 
-from dcg_torch.records import Iteration, Timing
 from dcg_torch.report import paper
 from dcg_torch.report.calibration import Calibration
 from dcg_torch.report.canvas import (
@@ -41,6 +40,7 @@ from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import KINDS, Measures, measure
 from dcg_torch.report.seconds import PHASES, summarise_seconds
 from dcg_torch.report.text import counted, percent, percent_interval
+from dcg_torch.storage.records import Iteration, Timing
 
 _KIND_STYLE = {"known": (BLUE, "o"), "unknown": (ORANGE, "s"), "learned": (GREEN, "^")}
 _ENOUGH = 20  # right commands that a point of the shares is to rest on

@@ -25,11 +25,11 @@ from collections.abc import Iterable, Sequence
 from dataclasses import asdict, dataclass, replace
 from typing import Any, get_args
 
-from dcg_torch.records import Iteration, Kind
 from dcg_torch.report.calibration import Calibration, calibrate
 from dcg_torch.report.causes import CAUSES
 from dcg_torch.report.intervals import Estimate, mean_over_trials, slope_over_trials, wilson
 from dcg_torch.report.steps import Step, steps_of
+from dcg_torch.storage.records import Iteration, Kind
 
 KINDS: tuple[Kind, ...] = get_args(Kind)
 ARRIVAL_RADIUS = 0.5  # metres; nearer than this to the object the robot need not come

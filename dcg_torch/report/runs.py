@@ -15,12 +15,12 @@ from typing import Any, TypeVar
 import yaml
 from pydantic import BaseModel, ValidationError
 
-from dcg_torch.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
 from dcg_torch.report.text import printable
 from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
 Record = TypeVar("Record", bound=BaseModel)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from dcg_torch.records import Timing
+from dcg_torch.storage.records import Timing
 
 PHASES = ("load_world", "parse", "perceive", "ground", "explore", "drive", "train")
 """The parts of a command's time, in the order they happen; they do not overlap."""

@@ -6,8 +6,8 @@ from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from dcg_torch.records import Iteration
 from dcg_torch.report.causes import error_cause, is_right, names_of_types
+from dcg_torch.storage.records import Iteration
 
 
 @dataclass(frozen=True, slots=True)

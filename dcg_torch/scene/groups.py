@@ -13,10 +13,10 @@ import numpy as np
 from scipy.cluster.hierarchy import linkage
 from scipy.sparse.csgraph import connected_components
 
-from dcg_torch.geometry import to_robot_frame
 from dcg_torch.scene.layout import Bools, Floats
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import to_robot_frame
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"
 ACROSS, ALONG = "lies across", "lies along"

@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.geometry import to_robot_frame
 from dcg_torch.scene.neighbours import Neighbours, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.types import Object, Pose, WorldModel
+from dcg_torch.types.geometry import to_robot_frame
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]

@@ -10,9 +10,9 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from dcg_torch.geometry import from_robot_frame, to_robot_frame
 from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import from_robot_frame, to_robot_frame
 
 Bounds = tuple[float, float, float, float]
 """(near, far, right, left) of a workspace, seen from the robot, metres."""

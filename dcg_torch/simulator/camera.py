@@ -11,10 +11,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.geometry import FIELD_OF_VIEW, from_robot_frame
 from dcg_torch.simulator.client import Client
 from dcg_torch.simulator.view import Pixels, View, direction
 from dcg_torch.types import Pose
+from dcg_torch.types.geometry import FIELD_OF_VIEW, from_robot_frame
 
 NEAR, FAR = 0.02, 30.0
 """Metres between which the camera shows anything."""

@@ -6,12 +6,12 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
-from dcg_torch.geometry import wrap_angle
 from dcg_torch.simulator import navigation
 from dcg_torch.simulator.base import MAX_SPEED, ROBOT_RADIUS, Base, speed_towards, turn_towards
 from dcg_torch.simulator.navigation import Circle, Points
 from dcg_torch.simulator.track import Track
 from dcg_torch.types import DriveResult, Percept
+from dcg_torch.types.geometry import wrap_angle
 
 Planner = Callable[[dict[str, Circle]], Points | None]
 """A path from where the robot is among obstacles, given by the id of the object; None: there is no way."""

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.geometry import bearing, in_field_of_view, wrap_angle
 from dcg_torch.simulator.limits import ARRIVED, MAX_DISTANCE, check_spin, find_percept
 from dcg_torch.types import DriveResult, Percept, Pose
+from dcg_torch.types.geometry import bearing, in_field_of_view, wrap_angle
 from dcg_torch.world.files import World
 
 Labels = Callable[[Sequence[str], np.random.Generator], Sequence[str | None]]

@@ -19,8 +19,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.geometry import segment_distances, segments_clear
 from dcg_torch.simulator.roadmap import roadmap_path, shortest, tightened
+from dcg_torch.types.geometry import segment_distances, segments_clear
 
 Points = NDArray[np.float64]
 

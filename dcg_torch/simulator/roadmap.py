@@ -22,7 +22,7 @@ from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import ConvexHull
 
-from dcg_torch.geometry import segments_clear
+from dcg_torch.types.geometry import segments_clear
 
 Points = NDArray[np.float64]
 Ints = NDArray[np.int64]

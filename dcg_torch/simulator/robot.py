@@ -11,7 +11,6 @@ from types import TracebackType
 
 import numpy as np
 
-from dcg_torch.geometry import bearing
 from dcg_torch.simulator import navigation
 from dcg_torch.simulator.base import ROBOT_RADIUS, Base
 from dcg_torch.simulator.bodies import add_object, extent, footprint
@@ -25,6 +24,7 @@ from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.simulator.view import Pixels
 from dcg_torch.simulator.window import OPTIONS, Window
 from dcg_torch.types import DriveResult, Percept, Pose
+from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import World, WorldObject
 
 _REACH = 0.47  # metres from the target's middle at which a drive is planned to end

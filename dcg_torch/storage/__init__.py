@@ -2,5 +2,6 @@
 
 whole    `write_whole`: a file that appears at once, with all its content
 claim    `claim`: a folder for one process at a time
+records  the lines of a run's files
 foreign  text, YAML and JSON that somebody else wrote, and short messages about what is wrong in it
 """

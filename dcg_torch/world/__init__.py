@@ -1,1 +1,1 @@
-"""Worlds: their files, the random generator, and Upsilon (what the robot believes is there)."""
+"""Worlds: their files, the random generator, and the speakers, who give commands in them."""

@@ -20,7 +20,7 @@ from typing import Final
 
 import numpy as np
 
-from dcg_torch.geometry import FIELD_OF_VIEW, bearing
+from dcg_torch.types.geometry import FIELD_OF_VIEW, bearing
 from dcg_torch.world.files import RobotStart, World, WorldObject
 from dcg_torch.world.writing import yaml_lines
 

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from dcg_torch.apps.gym.scenario import Act, Observation, Reply, experiment_settings, make_spaces
 from dcg_torch.experiment.plan import trial_commands, trial_generators
 from dcg_torch.experiment.robots import new_robot
-from dcg_torch.speaker import Command
 from dcg_torch.types import Percept
+from dcg_torch.world.speaker import Command
 
 
 class GroundEnv(gymnasium.Env[Observation, NDArray[np.int64]]):

@@ -15,11 +15,11 @@ from geometry_msgs.msg import Pose as PoseMessage
 from geometry_msgs.msg import PoseStamped, Quaternion
 from visualization_msgs.msg import Marker, MarkerArray
 
-from dcg_torch.geometry import from_robot_frame
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.names.palette import color_log_likelihood
 from dcg_torch.storage.foreign import plain, shown
 from dcg_torch.types import Percept, Pose
+from dcg_torch.types.geometry import from_robot_frame
 from dcg_torch.world.files import REACH_OF_A_WORLD
 
 # The basic colour terms of English (Berlin and Kay 1969): finer ones are not what people say of things.

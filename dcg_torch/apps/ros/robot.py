@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 
 from dcg_torch.apps.ros.options import Options
 from dcg_torch.apps.ros.senses import HaltedError, Senses, apart
-from dcg_torch.geometry import wrap_angle
 from dcg_torch.types import DriveResult, Percept, Pose
+from dcg_torch.types.geometry import wrap_angle
 
 _BERTH = 0.5  # metres from the middle of another object to where the robot may stand
 _LEAVE = 2.0  # metres that it drives to leave an object

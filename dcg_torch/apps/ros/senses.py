@@ -9,8 +9,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeVar
 
-from dcg_torch.geometry import wrap_angle
 from dcg_torch.types import DriveResult, Percept, Pose
+from dcg_torch.types.geometry import wrap_angle
 
 T = TypeVar("T")
 _MOVED, _TURNED = 0.02, 0.03  # metres, radians: less is the jitter of a robot that stands

@@ -25,12 +25,12 @@ from visualization_msgs.msg import MarkerArray
 
 from dcg_torch.apps.ros.messages import percept_markers, pose_message, read_pose, to_stamp
 from dcg_torch.cli.application import one_line_errors
-from dcg_torch.geometry import wrap_angle
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.simulator.bodies.colors import rgb
 from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import DriveResult, Pose
+from dcg_torch.types.geometry import wrap_angle
 from dcg_torch.world.files import World, load_world
 
 _FRAME = "map"

@@ -12,8 +12,8 @@ from nicegui import ui
 from nicegui.events import SceneClickEventArguments, SceneDragEventArguments
 
 from dcg_torch.apps.talk.looks import height_of, radius_of
-from dcg_torch.geometry import FIELD_OF_VIEW
 from dcg_torch.types import Pose
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 from dcg_torch.world.files import World, WorldObject
 
 ROBOT_URL, FLOOR_URL = "/bodies/robot.glb", "/bodies/floor.glb"

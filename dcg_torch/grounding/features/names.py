@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
+from dcg_torch.names.vocabulary import ORDINALS
 from dcg_torch.types import (
     LOOKED_ROUND,
     NOT,
@@ -16,7 +17,6 @@ from dcg_torch.types import (
     Phrase,
     PhraseKind,
 )
-from dcg_torch.vocabulary import ORDINALS
 
 
 class Group(enum.StrEnum):

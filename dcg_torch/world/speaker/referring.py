@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.speaker.fit import (
+from dcg_torch.types import ParseTree
+from dcg_torch.world.speaker.fit import (
     ABOUT_ROBOT,
     DIRECTIONS,
     NEARNESS,
@@ -26,8 +27,7 @@ from dcg_torch.speaker.fit import (
     by_distance,
     from_landmark,
 )
-from dcg_torch.speaker.phrases import PLURALS, a_side, noun_phrase, person, plural, prepositional
-from dcg_torch.types import ParseTree
+from dcg_torch.world.speaker.phrases import PLURALS, a_side, noun_phrase, person, plural, prepositional
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from dcg_torch.agent.command import Look
+from dcg_torch.experiment.recording.recorder import RecordedCommand
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Object
-from dcg_torch.watch.recording import RecordedCommand
 from dcg_torch.world.files import WorldObject
 
 

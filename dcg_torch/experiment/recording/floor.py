@@ -9,14 +9,14 @@ from typing import Final
 import numpy as np
 from PIL import Image, ImageChops, ImageDraw
 
+from dcg_torch.experiment.recording import paint
+from dcg_torch.experiment.recording.recorder import RecordedCommand
+from dcg_torch.experiment.recording.wording import label
 from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.stage import ROBOT_HEIGHT, ROBOT_RADIUS, Stage
 from dcg_torch.simulator.view import Box, Points, circle, sector
 from dcg_torch.types import Pose
-from dcg_torch.watch import paint
-from dcg_torch.watch.recording import RecordedCommand
-from dcg_torch.watch.wording import label
 
 _OVERSAMPLING: Final = 2
 _DOWN: Final = math.radians(50.0)

@@ -10,12 +10,12 @@ from typing import Final, NamedTuple
 import numpy as np
 from PIL import Image, ImageDraw
 
+from dcg_torch.experiment.recording import paint
+from dcg_torch.experiment.recording.floor import FloorPanel
+from dcg_torch.experiment.recording.recorder import RecordedCommand
+from dcg_torch.experiment.recording.wording import bars, doing, words
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.stage import Stage
-from dcg_torch.watch import paint
-from dcg_torch.watch.floor import FloorPanel
-from dcg_torch.watch.recording import RecordedCommand
-from dcg_torch.watch.wording import bars, doing, words
 
 SIZE: Final = (860, 500)
 _HEAD: Final = 68  # pixels of the title

@@ -6,9 +6,9 @@ from dataclasses import dataclass, field
 
 from dcg_torch.agent.command import Look
 from dcg_torch.agent.robot import Robot
-from dcg_torch.records import Iteration
-from dcg_torch.speaker import Command
+from dcg_torch.storage.records import Iteration
 from dcg_torch.types import Pose
+from dcg_torch.world.speaker import Command
 
 
 @dataclass(frozen=True)

@@ -15,11 +15,11 @@ from typing import Protocol
 import numpy as np
 import yaml
 
-from dcg_torch.speaker.fit import Surroundings
-from dcg_torch.speaker.phrases import wording
-from dcg_torch.speaker.referring import SPOKEN, generate
 from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import World, WorldObject
+from dcg_torch.world.speaker.fit import Surroundings
+from dcg_torch.world.speaker.phrases import wording
+from dcg_torch.world.speaker.referring import SPOKEN, generate
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.geometry import NEXT_TO, to_robot_frame, wrap_angles
+from dcg_torch.types.geometry import NEXT_TO, to_robot_frame, wrap_angles
 from dcg_torch.world.files import World
 
 Floats = NDArray[np.float64]

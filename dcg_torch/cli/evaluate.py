@@ -1,0 +1,298 @@
+"""`python -m dcg_torch.evaluate test=FILE [train=FILE]`: ground the commands of episode files."""
+
+from __future__ import annotations
+
+import gc
+import json
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import hydra
+import numpy as np
+import torch
+from hydra.core.hydra_config import HydraConfig
+from omegaconf import DictConfig
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from dcg_torch.cli.application import one_line_errors, run_application
+from dcg_torch.cli.config import evaluate_settings_of, save_composed
+from dcg_torch.cli.console import Bar, make_console
+from dcg_torch.evaluation.baselines import make_baseline, run_baseline
+from dcg_torch.evaluation.baselines.run import Outcome
+from dcg_torch.evaluation.certify import certify
+from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds, unused_note
+from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
+from dcg_torch.evaluation.summary import by_file, summarise
+from dcg_torch.evaluation.summary import figures as of_all
+from dcg_torch.experiment.factory import make_model
+from dcg_torch.grounding.devices import device_of
+from dcg_torch.grounding.explanation import Reason, explain, rivalry
+from dcg_torch.language import default_parser
+from dcg_torch.model import GroundingModel
+from dcg_torch.model.checkpoint import save
+from dcg_torch.settings import EvaluateSettings, SettingsError
+from dcg_torch.storage.claim import claim
+from dcg_torch.storage.resources import resource
+from dcg_torch.storage.whole import write_whole, write_whole_folder
+
+PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
+MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")
+_REASONS = 8  # shown for each phrase
+
+
+@dataclass(frozen=True)
+class Split:
+    """What one model is taught and tested on: files by their stems."""
+
+    train: dict[str, list[Episode]]
+    test: dict[str, list[Episode]]
+
+
+def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> dict[str, object]:
+    """Train, ground, write `predictions.jsonl` and the model into `directory`; the figures.
+
+    Raises:
+        DeviceError: torch cannot use the device here.
+        EpisodeError: an episode file is missing or not valid.
+        SettingsError: a setting makes no sense.
+    """
+    torch.set_num_threads(1)
+    device_of(settings.device)
+    splits = read_splits(settings)
+    _check(settings, splits)
+    # With folds, too, the first split has all episodes.
+    if note := unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part):
+        console.print(f"note: {note}", markup=False)
+    found: list[Answer] = []
+    learned: dict[str, str] = {}
+    train_seconds = 0.0
+    for name in (PREDICTIONS, SUMMARY):
+        (directory / name).unlink(missing_ok=True)
+    part = directory / f"{PREDICTIONS}.part"
+    with part.open("w", encoding="utf-8") as file:
+        for split in splits:
+            model = make_model(settings.model, settings.names, settings.training).to(settings.device)
+            train_seconds += _train(model, split, settings, console)
+            first = set(model.symbols)
+            with Bar("grounding", sum(map(len, split.test.values())), console) as bar:
+                for answer in _answers(model, split, settings, console):
+                    found.append(answer)
+                    file.write(json.dumps(answer.record(), ensure_ascii=False) + "\n")
+                    bar.advance()
+            learned |= {w: s.type for w, s in model.symbols.items() if w not in first}
+    part.replace(directory / PREDICTIONS)
+    if settings.save and not settings.folds:
+        write_whole_folder(directory / MODEL, lambda folder: save(model, folder))
+    if settings.baseline:
+        baselines = _baselines(settings, splits, console)
+    if settings.certify:
+        certified = _certify(model, splits, console)
+    figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
+    _print_files(figures["by_file"], console)
+    _print_errors(found, console)
+    if settings.baseline:
+        figures["baselines"] = baselines
+    if settings.certify:
+        figures["certify"] = certified
+    if settings.learn:
+        figures["learned"] = learned
+        told = ", ".join(f"{word} = {meaning}" for word, meaning in learned.items()) or "none"
+        console.print(f"nouns learned: {told}", markup=False)
+    return figures
+
+
+def _baselines(settings: EvaluateSettings, splits: Sequence[Split], console: Console) -> dict[str, Any]:
+    """The figures of other ways to answer, on the same episodes and candidates."""
+    found: dict[str, Any] = {}
+    for name in settings.baseline:
+        outcomes: list[Outcome] = []
+        for split in splits:
+            baseline = make_baseline(name, _noun_phrase)
+            taught = [e for episodes in split.train.values() for e in episodes]
+            with Bar(name, sum(map(len, split.test.values())), console) as bar:
+                outcomes += run_baseline(baseline, taught, split.test, advance=bar.advance)
+        found[name] = {**of_all(outcomes), "by_file": by_file(outcomes)}
+        console.print(f"{name}: {found[name]['accuracy']:.3f} right", markup=False)
+    return found
+
+
+def _noun_phrase(text: str) -> str:
+    parse = default_parser().parse(text)
+    return " ".join(word for word in (parse.color, parse.noun) if word)
+
+
+def _certify(model: GroundingModel, splits: Sequence[Split], console: Console) -> dict[str, Any]:
+    """How often the answer follows a small change of the episode; by the model of the last split."""
+    test = [e for episodes in splits[-1].test.values() for e in episodes]
+
+    def answer(episode: Episode) -> tuple[str, ...]:
+        return next(iter(answers(model, [episode], default_parser().parse))).predicted
+
+    found = certify(answer, test)
+    for kind, of in found.items():
+        console.print(f"{kind}: {of['right']} of {of['n']} changes followed", markup=False)
+    return found
+
+
+def _train(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> float:
+    """Teach a model its training files, if there are any; the seconds that it took."""
+    if not split.train:
+        return 0.0
+    console.print(f"training on {sum(map(len, split.train.values()))} episodes, {settings.rounds} rounds")
+    training = Training(settings.known_types, settings.known_colors, settings.rounds)
+    with Bar("training", settings.rounds, console) as bar:
+        seconds = train(model, list(split.train.values()), default_parser().parse, training, bar.advance)
+    gc.collect()
+    gc.freeze()  # walking what is left of the corpus would stop a command for up to 0.1 s now and then
+    return seconds
+
+
+def _answers(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> Iterable[Answer]:
+    """The answers to all test files, one after the other."""
+    for name, episodes in split.test.items():
+        for answer in answers(model, episodes, default_parser().parse, file=name, learn=settings.learn):
+            if answer.episode.id == settings.explain:
+                _print_reasons(model, answer, console)
+            yield answer
+
+
+def read_splits(settings: EvaluateSettings) -> list[Split]:
+    """What to train and test on; a split for each fold if there are folds.
+
+    Raises:
+        EpisodeError: an episode file is missing or not valid.
+        SettingsError: files are missing or too many, or two have one name.
+    """
+    files = {key: _read(key, getattr(settings, key)) for key in ("train", "test")}
+    if not settings.folds:
+        if not files["test"]:
+            raise SettingsError("test: no file given; write test=FILE, or train=FILE folds=5 to cross-validate one")
+        return [Split(files["train"], files["test"])]
+    if files["test"] or not files["train"] or settings.folds < 2:
+        wrong = "is too few; give at least 2" if settings.folds < 2 else "goes with train=FILE and no test file"
+        raise SettingsError(f"folds={settings.folds}: {wrong}")
+    rng = np.random.default_rng(0)
+    parts = {name: split_folds(episodes, settings.folds, rng) for name, episodes in files["train"].items()}
+    return [
+        Split(
+            {name: [e for other in of if other is not of[k] for e in other] for name, of in parts.items()},
+            {name: of[k] for name, of in parts.items()},
+        )
+        for k in range(settings.folds)
+    ]
+
+
+def _read(key: str, given: object) -> dict[str, list[Episode]]:
+    """The files of a setting that names none, one or several."""
+    named = [] if given is None else list(given) if isinstance(given, list | tuple) else [given]
+    if not all(isinstance(one, str) and one for one in named):
+        raise SettingsError(f"{key}: write {key}=FILE, or {key}=[FILE,FILE]")
+    found: dict[str, list[Episode]] = {}
+    for one in named:
+        path = Path(str(one)).expanduser()
+        if path.stem in found:
+            raise SettingsError(f"{key}: two files are called {path.stem}; rename one")
+        found[path.stem] = read_episodes(path)
+    return found
+
+
+def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:
+    """See that the settings fit the episodes, before anything is written.
+
+    Raises:
+        SettingsError: one does not.
+    """
+    test = [e for split in splits for episodes in split.test.values() for e in episodes]
+    if settings.explain is not None and not any(e.id == settings.explain for e in test):
+        some = ", ".join(e.id for e in test[:5])
+        raise SettingsError(f"explain={settings.explain}: no test episode has this id; ids are {some} ...")
+    taught = [e for split in splits for episodes in split.train.values() for e in episodes]
+    meant = [o for e in taught for o in e.objects if o.id in e.target]
+    for name, wanted, there in (
+        ("known_types", settings.known_types, {o.type for o in meant}),
+        ("known_colors", settings.known_colors, {o.color for o in meant if o.color is not None}),
+    ):
+        if wanted is None:
+            continue
+        strange = [one for one in wanted if one not in there]
+        if strange or not wanted:
+            what = f"{strange[0]!r} is meant in no training episode" if strange else "there is nothing to learn from"
+            raise SettingsError(f"{name}={wanted}: {what}; choose from {', '.join(sorted(there)) or 'none'}")
+
+
+def _print_files(by_file: dict[str, dict[str, Any]], console: Console) -> None:
+    if len(by_file) < 2:
+        return
+    table = Table(title="By file")
+    for column in ("file", "commands", "right", "95 % interval", "calibration error"):
+        table.add_column(column, justify="left" if column == "file" else "right")
+    for name, of in by_file.items():
+        low, high = of["ci95"]
+        error = of["calibration_error"]
+        shown = "-" if error is None else f"{error:.3f}"
+        table.add_row(escape(name), str(of["n"]), f"{of['accuracy']:.3f}", f"{low:.3f} to {high:.3f}", shown)
+    console.print(table)
+
+
+def _print_errors(found: Sequence[Answer], console: Console) -> None:
+    counts = Counter(a.cause for a in found if a.cause is not None)
+    table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(found)} commands")
+    for column in ("cause", "commands", "share"):
+        table.add_column(column, justify="left" if column == "cause" else "right")
+    for cause in CAUSES:
+        table.add_row(cause, str(counts[cause]), f"{100 * counts[cause] / len(found):.1f} %")
+    console.print(table)
+
+
+def _print_reasons(model: GroundingModel, answer: Answer, console: Console) -> None:
+    """Which phrases, which groundings, which features moved them; and what told the answer from the second best."""
+    console.print(f"{answer.episode.id}: {answer.episode.text}", markup=False)
+    solution = answer.solution
+    if solution is None or solution.object is None:
+        console.print(f"not grounded: {answer.parse.problem}", markup=False)
+        return
+    console.print(f"grounded to {list(answer.predicted)}, probability {answer.probability:.3f}", markup=False)
+    _print_table("what moved it, as log-odds", explain(model, solution), console)
+    second = rivalry(model, solution)
+    if second is not None:
+        probability = solution.probabilities[second.object.id]
+        title = (
+            f"what told {solution.object.id} from the second best, {second.object.id} (probability {probability:.3f}): "
+            f"log-odds {second.log_odds:+.2f}"
+        )
+        _print_table(title, second.reasons, console)
+
+
+def _print_table(title: str, reasons: Iterable[Reason], console: Console) -> None:
+    table = Table(title=title, title_justify="left")
+    for column in ("phrase", "grounding", "feature of the phrase", "feature of the grounding", "log-odds"):
+        table.add_column(column, justify="right" if column == "log-odds" else "left")
+    shown: Counter[tuple[str, str]] = Counter()
+    for reason in reasons:
+        shown[reason.phrase, reason.grounding] += 1
+        if shown[reason.phrase, reason.grounding] <= _REASONS:
+            cells = (reason.phrase, reason.grounding, reason.language, reason.feature)
+            table.add_row(*map(escape, cells), f"{reason.log_odds:+.2f}")
+    console.print(table)
+
+
+def _application(config: DictConfig) -> None:
+    directory, console = Path(HydraConfig.get().runtime.output_dir), make_console()
+    with one_line_errors(directory, program="evaluate"):
+        settings = evaluate_settings_of(config)
+        with claim(directory, MARKS):
+            figures = evaluate(settings, directory, console)
+            save_composed(config, directory)
+            write_whole(directory / SUMMARY, json.dumps(figures, indent=1) + "\n")
+            print(json.dumps({**figures, "run_dir": str(directory)}), flush=True)
+
+
+def main() -> int:
+    """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
+    wrap = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="evaluate")
+    return run_application(wrap(_application), "evaluate")
