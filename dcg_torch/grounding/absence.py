@@ -18,8 +18,8 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.evidence import unheard_of
+from dcg_torch.names.vocabulary import ANYTHING, PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
-from dcg_torch.vocabulary import ANYTHING, PLACE_WORDS
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
