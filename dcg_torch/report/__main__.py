@@ -53,6 +53,8 @@ def _flushed(status: int) -> int:
         sys.stdout.flush()
     except OSError as error:
         close_output()
+        if status:  # it has been said
+            return status
         closed = isinstance(error, BrokenPipeError)
         return _refuse(CLOSED if closed else f"standard output: {error.strerror}; send it where there is room")
     return status
