@@ -5,9 +5,9 @@ from __future__ import annotations
 import difflib
 import functools
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from hydra.core.config_store import ConfigStore
 from hydra.core.hydra_config import HydraConfig
@@ -35,6 +35,7 @@ from dcg_torch.storage.foreign import plain, shown
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole
 
+T = TypeVar("T")
 CONFIG_ERRORS = (HydraException, OmegaConfBaseException)
 """What Hydra raises when overrides or YAML files are wrong; `explain` says it in one line."""
 
@@ -69,27 +70,24 @@ def settings_of(config: DictConfig) -> Settings:
         SettingsError: a value makes no sense, or is of no use to any setting.
         OmegaConfBaseException: a value is missing, or refers to one that does not exist.
     """
-    _refuse_choices()
-    _refuse_added(config, Settings)
-    settings = cast(Settings, OmegaConf.to_object(config))
-    check(settings)
-    return settings
+    return _checked(config, Settings, check)
 
 
 def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     """The same for `evaluate`; what depends on the episodes is checked with them."""
-    _refuse_choices()
-    _refuse_added(config, EvaluateSettings)
-    settings = cast(EvaluateSettings, OmegaConf.to_object(config))
-    check_bounds(settings)
-    return settings
+    return _checked(config, EvaluateSettings, check_bounds)
 
 
 def talk_settings_of(config: DictConfig) -> TalkSettings:
     """The same for `talk`."""
-    _refuse_added(config, TalkSettings)
-    settings = cast(TalkSettings, OmegaConf.to_object(config))
-    check_values(settings)
+    return _checked(config, TalkSettings, check_values)
+
+
+def _checked(config: DictConfig, schema: type[T], check_them: Callable[[T], None]) -> T:
+    _refuse_choices()
+    _refuse_added(config, schema)
+    settings = cast(T, OmegaConf.to_object(config))
+    check_them(settings)
     return settings
 
 

@@ -14,6 +14,7 @@ from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, car
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.model import GroundingModel
+from dcg_torch.report.seconds import PHASES
 from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.world.speaker import Command
 
@@ -152,7 +153,7 @@ def _of_model(model: GroundingModel, first_words: frozenset[str], met: int) -> d
 def _timing(clock: Stopwatch, model: GroundingModel, robot: SimulationRobot) -> dict[str, Any]:
     fitted = model.fitted
     return {
-        **{name: clock.seconds[name] for name in _TIMED},
+        **{name: clock.seconds[name] for name in PHASES},
         "groundings": clock.counts["ground"],
         "train_steps": 0 if fitted is None else fitted.steps,
         "train_loss": 0.0 if fitted is None else fitted.value,
@@ -161,9 +162,6 @@ def _timing(clock: Stopwatch, model: GroundingModel, robot: SimulationRobot) -> 
         "grounding_columns": model.features.shape[1],
         "moving": robot.seconds,
     }
-
-
-_TIMED = ("load_world", "parse", "perceive", "ground", "explore", "drive", "train")
 
 
 def _chosen(outcome: Outcome) -> str | None:

@@ -68,7 +68,7 @@ def _run(arguments: Sequence[str] | None) -> int:
         runs = load_runs(options.directories)
         console = make_console()
         if len(runs) == 1:
-            print_run(runs[0], console)
+            print_run(runs[0].measures, runs[0].seconds, runs[0].config, console)
         else:
             print_several(runs, console)
         for path in _write(runs, options):
