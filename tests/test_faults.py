@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+import torch
 
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose
@@ -46,6 +47,13 @@ def pair(type_: str, color: str, other: str, other_color: str) -> list[Percept]:
 )
 def test_10_names_are_one_however_they_are_written(model: GroundingModel, text: str, things: list[Percept]) -> None:
     assert meant(model, text, things) == ["it"]
+
+
+@pytest.mark.parametrize("id_", ["hypothetical cube", "hypothetical unknown", "hypothetical sphere"])
+def test_12_a_real_thing_is_found_whatever_it_is_called(model: GroundingModel, id_: str) -> None:
+    things = [Percept(id_, "cube", "red", (2.0, 1.0, 0.0)), Percept("other", "sphere", "blue", (2.0, -1.0, 0.0))]
+    answer = model.ground("go to the red cube", model.world_model(things))
+    assert [(thing.id, thing.hypothetical) for thing in answer.objects] == [(id_, False)]
 
 
 @pytest.mark.parametrize("text", ["say hello", "count the cups", "tell me the time", "follow me"])
@@ -106,6 +114,7 @@ def test_17_a_learned_noun_leaves_the_verbs_alone(parser: Parser) -> None:
         ("go to cube 3", "cube", None, ("3",)),
         ("drive to crate number 4", "crate", None, ("4",)),
         ("go to the red_cube", "cube", "red", ()),
+        ("go to the extra large clamp", "clamp", None, ("large",)),
     ],
 )
 def test_18_numbers_and_names_with_underscores_are_read(
@@ -115,3 +124,17 @@ def test_18_numbers_and_names_with_underscores_are_read(
     assert tree is not None
     target = [t.phrase for t in tree.walk()][-1]
     assert (target.noun, target.color, target.words) == (noun, color, words)
+
+
+def test_19_no_call_changes_the_number_of_threads() -> None:
+    before = torch.get_num_threads()
+    try:
+        torch.set_num_threads(2)
+        own = dcg_torch.pretrained()
+        assert torch.get_num_threads() == 2
+        answer = own.ground("go to the mug", own.world_model(pair("mug", "red", "cube", "blue")))
+        assert torch.get_num_threads() == 2
+        own.learn(answer)
+        assert torch.get_num_threads() == 2
+    finally:
+        torch.set_num_threads(before)
