@@ -52,7 +52,7 @@ ONLY = {
     "glum": {"bench.peers"},
     "pycrfsuite": {"bench.peers"},
     "fastapi": {"apps.collect.page", "apps.talk.server"},
-    "starlette": {"apps.collect.page", "apps.talk.gate"},
+    "starlette": {"apps.collect.page", "apps.talk.gate", "apps.talk.live"},
     "jinja2": {"apps.collect.page"},
     "sqlalchemy": {"apps.collect"},
     "uvicorn": {"apps.collect.program", "apps.talk.server"},

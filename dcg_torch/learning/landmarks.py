@@ -97,13 +97,17 @@ def fit_landmarks_em(
 
 
 def parts_of(lesson: Lesson) -> list[Part]:
-    """The noun phrases that a lesson joins, each in the world with the groups that it may speak of."""
+    """The noun phrases that a lesson joins, each in the world with the groups that it may speak of.
+
+    Without hypothetical objects: what a lesson means is there, and it says nothing of what is not.
+    """
     found = []
+    seen = replace(lesson.world, objects=tuple(o for o in lesson.world.objects if not o.hypothetical))
     trees = coordinated(lesson.tree)
     for tree in trees:
         noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
-            world = with_groups(lesson.world) if speaks_of_groups(tree) else lesson.world
+            world = with_groups(seen) if speaks_of_groups(tree) else seen
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
 
