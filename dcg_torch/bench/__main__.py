@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 import torch
@@ -118,12 +118,12 @@ def hostile(rng: np.random.Generator) -> str:
     return stop.join(letters[4 * k : 4 * k + 4] for k in range(min(size, 66)))
 
 
-def bench_hostile(count: int = 2_000) -> Result:
+def bench_hostile(count: int = 2_000) -> Iterator[Result]:
     """Each of `count` hostile strings, all different; the highest is the worst case."""
     rng = np.random.default_rng(0)
     parse = default_parser().parse
     parse("go to the cube", TYPES)
-    return result("a hostile string", [milliseconds(parse, hostile(rng), TYPES) for _ in range(count)], goal=50)
+    yield result("a hostile string", [milliseconds(parse, hostile(rng), TYPES) for _ in range(count)], goal=50)
 
 
 def bench_robot() -> Iterator[Result]:
@@ -171,28 +171,30 @@ def bench_workers(counts: Sequence[int] = (1, 2), trials: int = 200) -> Iterator
         yield result(name, [seconds / 1000], "s", 10 if workers == 2 else None, curve=curve, at=workers)
 
 
-def peak_memory() -> Result:
+def peak_memory() -> Iterator[Result]:
     """Of this process, so far."""
     from resource import RUSAGE_SELF, getrusage  # not on Windows
 
     peak = getrusage(RUSAGE_SELF).ru_maxrss
-    return result("peak memory", [peak / (1024 if sys.platform != "darwin" else 1024**2)], "MB", goal=1024)
+    yield result("peak memory", [peak / (1024 if sys.platform != "darwin" else 1024**2)], "MB", goal=1024)
 
 
-def run_benchmarks() -> Iterator[Result]:
-    """All of them, as they are done; the memory is measured before scikit-learn takes any."""
+PARTS: dict[str, tuple[str, Sequence[Callable[[], Iterable[Result]]]]] = {
+    "start": ("Start, training, reading", (bench_start, bench_model, bench_teaching, bench_hostile)),
+    "grounding": ("Grounding", (bench_grounding,)),
+    "learning": ("Learning", (bench_learn, bench_life)),
+    "robot": ("The simulated robot", (bench_robot,)),
+    "experiments": ("Experiments", (bench_workers, peak_memory)),
+    "fits": ("The fit and its peers", (bench_fits,)),
+}
+"""Name -> heading and benchmarks, in their order: the memory is measured before scikit-learn takes any."""
+
+
+def run_part(name: str) -> Iterator[Result]:
+    """The benchmarks of one of `PARTS`, as they are done."""
     torch.set_num_threads(1)
-    yield from _part("Start, training, reading", bench_start(), bench_model(), [bench_teaching(), bench_hostile()])
-    yield from _part("Grounding", bench_grounding())
-    yield from _part("Learning", bench_learn(), bench_life())
-    yield from _part("The simulated robot", bench_robot())
-    yield from _part("Experiments", bench_workers(), [peak_memory()])
-    yield from _part("The fit and its peers", bench_fits())
-
-
-def _part(title: str, *groups: Iterable[Result]) -> Iterator[Result]:
-    """Results under their heading."""
-    return (replace(found, part=title) for group in groups for found in group)
+    title, benchmarks = PARTS[name]
+    return (replace(found, part=title) for bench in benchmarks for found in bench())
 
 
 def _processor() -> str:
@@ -215,14 +217,31 @@ def _grid(results: Iterable[Result]) -> Grid:
     return grid
 
 
+def _kept(path: Path | None, parts: Sequence[str]) -> list[Result]:
+    """What a file has of other parts than these."""
+    if path is None or not path.exists() or set(parts) == set(PARTS):
+        return []
+    titles = {PARTS[name][0] for name in parts}
+    kept = (Result(**one) for one in json.loads(path.read_text(encoding="utf-8"))["benchmarks"])
+    return [r for r in kept if r.part not in titles]
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
     parser = Arguments(prog="python -m dcg_torch.bench", description="Time the parts of dcg_torch.")
     parser.add_argument("--json", metavar="FILE", type=Path, help="also write the results into this file")
+    parser.add_argument(
+        "--part", nargs="+", choices=PARTS, default=[*PARTS], help="these alone; a file keeps what it has of others"
+    )
     options = parser.parse_args(arguments)
     console = make_console()
-    with console.status("running the benchmarks"):
-        results = list(run_benchmarks())
+    with one_line_errors():
+        kept, results = _kept(options.json, options.part), list[Result]()
+        for name in options.part:
+            with console.status(f"running the benchmarks: {name}"):
+                results += run_part(name)
+            if options.json is not None:
+                write_whole(options.json, json.dumps(_document([*kept, *results]), indent=1) + "\n")
     console.print(_grid(results))
     load, cpus = os.getloadavg()[0], os.cpu_count() or 1
     if load > cpus:
@@ -230,13 +249,17 @@ def main(arguments: Sequence[str] | None = None) -> int:
             f"Others are busy here (load {load:.1f} on {cpus} CPUs): the times are higher than on a quiet machine."
         )
     if options.json is not None:
-        versions = {"python": platform.python_version(), "torch": torch.__version__, "numpy": np.__version__}
-        machine = {**versions, "processor": _processor(), "processors": cpus, "load": load}
-        found = {"machine": machine, "benchmarks": [asdict(r) for r in results]}
-        with one_line_errors():
-            write_whole(options.json, json.dumps(found, indent=1) + "\n")
         console.print(f"written to {options.json}")
     return 0
+
+
+def _document(results: Sequence[Result]) -> dict[str, Any]:
+    """What a file holds: the machine, and the results in the order of their parts."""
+    titles = [title for title, _ in PARTS.values()]
+    versions = {"python": platform.python_version(), "torch": torch.__version__, "numpy": np.__version__}
+    hardware = {"processor": _processor(), "processors": os.cpu_count() or 1, "load": os.getloadavg()[0]}
+    ordered = sorted(results, key=lambda r: titles.index(r.part))
+    return {"machine": {**versions, **hardware}, "benchmarks": [asdict(r) for r in ordered]}
 
 
 if __name__ == "__main__":

@@ -103,7 +103,7 @@ def bench_life(commands: int = 600) -> Iterator[Result]:
         yield result(f"a command, {start + 1:,} to {end:,} of a life", times, "ms CPU", curve=curve, at=end)
 
 
-def bench_teaching(lessons: int = 300) -> Result:
+def bench_teaching(lessons: int = 300) -> Iterator[Result]:
     """Teaching relations by generated lessons, as the shipped model was."""
     parse = default_parser().parse
     made = generated_lessons(parse, lessons)
@@ -112,7 +112,7 @@ def bench_teaching(lessons: int = 300) -> Result:
     def teach() -> None:
         model.copy().teach(made, relations_only=True, rounds=3)
 
-    return result(f"teaching {lessons} generated lessons", [cpu_milliseconds(teach)], "ms CPU")
+    yield result(f"teaching {lessons} generated lessons", [cpu_milliseconds(teach)], "ms CPU")
 
 
 def main() -> int:
