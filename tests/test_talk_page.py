@@ -23,18 +23,17 @@ from nicegui.testing import User, user_simulation
 from dcg_torch.apps.talk import files, program
 from dcg_torch.apps.talk.gate import Gate
 from dcg_torch.apps.talk.host import Host
-from dcg_torch.apps.talk.lines import Line, names_of, with_inputs
+from dcg_torch.apps.talk.lines import Line, names_of
 from dcg_torch.apps.talk.looks import object_looks, robot_looks
 from dcg_torch.apps.talk.panels import candidates_table, words_table
 from dcg_torch.apps.talk.server import Address, add_routes
-from dcg_torch.dialogue.events import Candidate, Done, Said
+from dcg_torch.dialogue.events import Candidate
 from dcg_torch.dialogue.file import Input, read_session
 from dcg_torch.dialogue.session import Session
 from dcg_torch.settings import TalkSettings
 from dcg_torch.simulator.bodies import extent
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.resources import resource
-from dcg_torch.types import Pose
 from dcg_torch.world.files import World, load_world
 
 Talk = Callable[[User, Host], Awaitable[None]]
@@ -187,20 +186,6 @@ def test_what_is_no_file_of_ours_changes_nothing(host: Host) -> None:
         assert len(read_session(host.file)[1]) == 2
 
     visit(host, talk)
-
-
-def test_lines_of_a_played_session_stand_before_their_events(laboratory: World) -> None:
-    found: list[Any] = []
-    watch = with_inputs(laboratory, [Input(say="one"), Input(click="cube")], found.append, found.append)
-    events = (Said("a"), Said("b"), Done(Pose(0, 0), "done"), Said("c"), Done(Pose(0, 0), "done"))
-    for event in events:
-        watch(event)
-    assert found == [
-        Line("you", "one"),
-        *events[:3],
-        Line("you", "(points at the blue cube)"),
-        *events[3:],
-    ]
 
 
 def test_alike_objects_are_told_apart_by_their_ids(laboratory: World) -> None:

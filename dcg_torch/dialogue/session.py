@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -114,8 +114,13 @@ class Session:
         return session, inputs
 
     @classmethod
-    def open(cls, file: Path, watch: Watcher | None = None) -> Session:
-        """Go on with a session: all its inputs are played again, with their events to `watch`.
+    def open(
+        cls,
+        file: Path,
+        watch: Watcher | None = None,
+        before: Callable[[Session, Input], object] | None = None,
+    ) -> Session:
+        """Go on with a session: all its inputs are played again, each after a call of `before`, its events to `watch`.
 
         This is how a killed server comes back: an input that was under way is carried out to its end.
         """
@@ -127,6 +132,8 @@ class Session:
             kept.close()
             raise
         for line, stop_at in with_stops(kept.inputs):
+            if before is not None:
+                before(session, line)
             session.play(line, stop_at, watch)
         session._file = kept
         return session

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from nicegui import Client, events, ui
+from nicegui import events, ui
 
 from dcg_torch.apps.talk.host import Host
 from dcg_torch.apps.talk.lines import Line
@@ -26,10 +26,9 @@ class Page:
 
     Args:
         host: the conversation.
-        client: the visitor's connection; the page goes when it goes.
     """
 
-    def __init__(self, host: Host, client: Client) -> None:
+    def __init__(self, host: Host) -> None:
         self._host = host
         self._said = 0  # lines of the conversation that were shown, those that are gone included
         self._pointed: str | None = None
@@ -43,7 +42,7 @@ class Page:
         ui.keyboard(self._key, ignore=[], repeating=False)
         for part in ("status", "world", "lines", "candidates", "words"):
             self.show(part)
-        client.on_delete(host.listen(self.show))
+        host.changed.subscribe(self.show)
 
     def show(self, part: str) -> None:
         """Bring a part of the page up to date: as `Host` names it."""

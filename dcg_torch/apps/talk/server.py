@@ -16,7 +16,7 @@ from urllib.parse import unquote
 
 import uvicorn
 from fastapi import FastAPI, Response, WebSocket
-from nicegui import Client, ui
+from nicegui import ui
 
 from dcg_torch.apps.talk.gate import LOOPBACK, Gate
 from dcg_torch.apps.talk.host import Host
@@ -115,11 +115,11 @@ def add_routes(app: FastAPI, host: Host) -> None:
     """The page, and the looks of what is in its scene."""
 
     @ui.page("/")
-    def talk(client: Client) -> None:
+    def talk() -> None:
         ui.add_css(CSS)
         ui.add_head_html(f"<script>{_NO_CARD}</script>")
         ui.colors(primary="#1d4ed8")
-        Page(host, client)
+        Page(host)
 
     @app.get(BODIES + "/robot.json")
     def robot() -> Response:
