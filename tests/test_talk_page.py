@@ -148,6 +148,41 @@ def test_a_session_comes_back_and_replays_to_the_same_bytes(host: Host, laborato
     visit(host, talk)
 
 
+def test_a_stop_brings_a_replay_to_its_end_and_changes_nothing_in_it(tmp_path: Path, laboratory: World) -> None:
+    file = tmp_path / "session.jsonl"
+    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=4.0)
+
+    async def talk(user: User, host: Host) -> None:
+        host.say("move towards the cone")
+        await dealt_with(host)
+        before = list(host.state.lines)
+        host.replay()
+        while host.state.lines[-1:] == before[-1:]:  # until it begins
+            await asyncio.sleep(0.005)
+        host.stop()
+        await dealt_with(host)
+        assert host.state.lines[:-1] == before
+        assert "the same to the last byte" in host.state.lines[-1].text
+
+    visit(shown, talk)
+
+
+def test_who_waits_is_told_so_at_once(tmp_path: Path, laboratory: World) -> None:
+    file = tmp_path / "session.jsonl"
+    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=4.0)
+
+    async def talk(user: User, host: Host) -> None:
+        for text in ("turn around", "turn left", "turn right"):
+            host.say(text)
+        notes = [line.text for line in host.state.lines if line.who == "note"]
+        assert ["after" in note for note in notes] == [False, True]
+        assert all("busy" in note for note in notes)
+        await dealt_with(host)
+        assert len(read_session(file)[1]) == 3
+
+    visit(shown, talk)
+
+
 def test_worlds_models_and_sessions_are_taken_home_and_brought_back(host: Host, laboratory: World) -> None:
     async def talk(user: User, host: Host) -> None:
         host.say("move towards the cone")

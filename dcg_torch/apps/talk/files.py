@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import itertools
+import shutil
 import tempfile
 import zipfile
 import zlib
@@ -32,12 +33,8 @@ def world_file(session: Session, file: Path) -> bytes:
 def model_file(session: Session, file: Path) -> bytes:
     """What the robot has learned, as a folder in a zip file."""
     with tempfile.TemporaryDirectory() as place:
-        folder, packed = Path(place) / "model", io.BytesIO()
-        session.save_model(folder)
-        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-            for part in sorted(folder.iterdir()):
-                archive.write(part, part.name)
-        return packed.getvalue()
+        session.save_model(Path(place) / "model")
+        return Path(shutil.make_archive(f"{place}/packed", "zip", f"{place}/model")).read_bytes()
 
 
 def session_file(session: Session, file: Path) -> bytes:
@@ -58,12 +55,11 @@ def animation_file(session: Session, file: Path) -> bytes:
 def with_world(file: Path, content: bytes) -> Change:
     """A new session in the world of a YAML file, with all that the robot has learned."""
 
-    def make(session: Session, fresh: Path) -> Session:
+    def make(session: Session, model: Path, fresh: Path) -> Session:
         with tempfile.TemporaryDirectory() as place:
             path = Path(place) / "world.yaml"
             path.write_bytes(content)
             world = load_world(path)
-        model = _free(file, "-model", "")
         session.save_model(model)
         return Session(world, model, file=fresh, simulator=session.header.simulator)
 
@@ -73,14 +69,9 @@ def with_world(file: Path, content: bytes) -> Change:
 def with_model(file: Path, content: bytes) -> Change:
     """A new session in the same world, with the model of a zip file that `model_file` made."""
 
-    def make(session: Session, fresh: Path) -> Session:
-        model = _free(file, "-model", "")
-        try:
-            _unpack(content, model)
-            return Session(session.world, model, file=fresh, simulator=session.header.simulator)
-        except BaseException:
-            remove(model)
-            raise
+    def make(session: Session, model: Path, fresh: Path) -> Session:
+        _unpack(content, model)
+        return Session(session.world, model, file=fresh, simulator=session.header.simulator)
 
     return lambda session: _exchange(session, file, make)
 
@@ -88,20 +79,21 @@ def with_model(file: Path, content: bytes) -> Change:
 def with_session(file: Path, content: bytes) -> Change:
     """A session that goes on from a session file."""
 
-    def make(session: Session, fresh: Path) -> Session:
+    def make(session: Session, model: Path, fresh: Path) -> Session:
         fresh.write_bytes(content)
         return Session.open(fresh)
 
     return lambda session: _exchange(session, file, make)
 
 
-def _exchange(session: Session, file: Path, make: Callable[[Session, Path], Session]) -> None:
+def _exchange(session: Session, file: Path, make: Callable[[Session, Path, Path], Session]) -> None:
     """Make a new session beside the present one, and put its file in the place of the present one's, which is kept."""
-    fresh = _free(file, "-new", file.suffix)
+    fresh, model = _free(file, "-new", file.suffix), _free(file, "-model", "")
     try:
-        make(session, fresh).close()
+        make(session, model, fresh).close()
     except BaseException:
-        fresh.unlink(missing_ok=True)
+        remove(fresh)
+        remove(model)
         raise
     session.close()
     file.rename(_free(file, "-before", file.suffix))
@@ -113,10 +105,7 @@ def _unpack(content: bytes, folder: Path) -> None:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             if sum(item.file_size for item in archive.infolist()) > MOST:
                 raise UserError(f"the model is larger than {MOST // 1_000_000} MB; save a smaller one")
-            folder.mkdir(parents=True)
-            for item in archive.infolist():
-                if not item.is_dir():
-                    (folder / Path(item.filename).name).write_bytes(archive.read(item))
+            archive.extractall(folder)  # which lets no name lead out of the folder
     except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError) as error:
         raise UserError(f"that is no model: {error}; take a zip file that this page saved") from None
 

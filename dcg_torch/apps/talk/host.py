@@ -39,8 +39,6 @@ _BREATH = 0.02  # seconds after an answer in which the event loop has the interp
 _REPLAY = 4.0  # times as fast as it was
 _log = logging.getLogger(__name__)
 
-OpenSession = Callable[[events.Watcher], Session]
-"""Makes a session, or goes on with one; what happened in it before goes to the watcher."""
 Change = Callable[[Session], None]
 """Puts another session's file in the place of the present one's, which it closes; or raises, and changes nothing."""
 

@@ -130,7 +130,7 @@ class Page:
         if self._pointed not in names:
             self._pointed = None
         self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
-        self._tools.show_world(world)
+        self._choose()
 
     def _state_of_affairs(self) -> str:
         state = self._host.state
@@ -155,7 +155,12 @@ class Page:
 
     def _point(self, event: events.ValueChangeEventArguments[Any]) -> None:
         self._pointed = event.value
-        self._view.point(event.value)
+        self._choose()
+
+    def _choose(self) -> None:
+        self._view.point(self._pointed)
+        things = {thing.id: thing for thing in self._shown.objects} if self._shown is not None else {}
+        self._tools.choose(things.get(self._pointed or ""))
 
     def _drag(self, object_id: str, place: tuple[float, float]) -> None:
         self._tools.move(object_id, place)
