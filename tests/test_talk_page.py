@@ -174,9 +174,8 @@ def test_who_waits_is_told_so_at_once(tmp_path: Path, laboratory: World) -> None
     async def talk(user: User, host: Host) -> None:
         for text in ("turn around", "turn left", "turn right"):
             host.say(text)
-        notes = [line.text for line in host.state.lines if line.who == "note"]
-        assert ["after" in note for note in notes] == [False, True]
-        assert all("busy" in note for note in notes)
+        said = [line.text for line in host.state.lines if line.who == "robot"]
+        assert said == ["I am still busy; this comes next.", "I am still busy; this comes next after 1 more."]
         await dealt_with(host)
         assert len(read_session(file)[1]) == 3
 
@@ -186,8 +185,8 @@ def test_who_waits_is_told_so_at_once(tmp_path: Path, laboratory: World) -> None
 def test_worlds_models_and_sessions_are_taken_home_and_brought_back(host: Host, laboratory: World) -> None:
     async def talk(user: User, host: Host) -> None:
         host.say("move towards the cone")
-        functions = (files.world_file, files.model_file, files.session_file)
-        world, model, session = [await host.ask(functools.partial(f, file=host.file)) for f in functions]
+        kinds = ("World", "Model", "Session")
+        world, model, session = [await host.ask(functools.partial(files.saved, k, file=host.file)) for k in kinds]
         lines = list(host.state.lines)
         await host.exchange(files.with_world(host.file, world))
         assert host.state.lines == []

@@ -25,31 +25,28 @@ MOST = 64_000_000
 """Bytes of a file that a visitor may bring along, packed or not."""
 
 
-def world_file(session: Session, file: Path) -> bytes:
-    """The world as it is now, as YAML."""
-    return _written(session.save_world, "world.yaml")
+def _save_model(session: Session, file: Path, to: Path) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        session.save_model(Path(folder) / "model")
+        shutil.make_archive(str(to.with_suffix("")), "zip", f"{folder}/model")
 
 
-def model_file(session: Session, file: Path) -> bytes:
-    """What the robot has learned, as a folder in a zip file."""
-    with tempfile.TemporaryDirectory() as place:
-        session.save_model(Path(place) / "model")
-        return Path(shutil.make_archive(f"{place}/packed", "zip", f"{place}/model")).read_bytes()
+SAVED: dict[str, tuple[str, Callable[[Session, Path, Path], object]]] = {
+    "World": ("world.yaml", lambda session, file, to: session.save_world(to)),
+    "Model": ("model.zip", _save_model),
+    "Session": ("session.jsonl", lambda session, file, to: shutil.copy(file, to)),
+    "Episodes": ("episodes.jsonl", lambda session, file, to: export_episodes(file, to)),
+    "GIF": ("session.gif", lambda session, file, to: export_gif(file, to)),
+}
+"""What visitors may have -> the name of the file, and what writes it."""
 
 
-def session_file(session: Session, file: Path) -> bytes:
-    """The session as it is kept."""
-    return file.read_bytes()
-
-
-def episodes_file(session: Session, file: Path) -> bytes:
-    """The commands of the session as an episode file."""
-    return _written(lambda path: export_episodes(file, path), "episodes.jsonl")
-
-
-def animation_file(session: Session, file: Path) -> bytes:
-    """The commands of the session as a GIF."""
-    return _written(lambda path: export_gif(file, path), "session.gif")
+def saved(what: str, session: Session, file: Path) -> bytes:
+    """One of `SAVED`."""
+    name, write = SAVED[what]
+    with tempfile.TemporaryDirectory() as folder:
+        write(session, file, Path(folder) / name)
+        return (Path(folder) / name).read_bytes()
 
 
 def with_world(file: Path, content: bytes) -> Change:
@@ -114,10 +111,3 @@ def _free(file: Path, name: str, suffix: str) -> Path:
     """A path beside `file` that nothing is at yet."""
     paths = (file.with_name(f"{file.stem}{name}-{number}{suffix}") for number in itertools.count(1))
     return next(path for path in paths if not path.exists())
-
-
-def _written(write: Callable[[Path], object], name: str) -> bytes:
-    with tempfile.TemporaryDirectory() as place:
-        path = Path(place) / name
-        write(path)
-        return path.read_bytes()

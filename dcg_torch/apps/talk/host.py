@@ -141,8 +141,8 @@ class Host:
             return
         self.write(line_of_input(done, self.state.names))
         if self.state.waiting:
-            others = f", after {self.state.waiting - 1} of others" if self.state.waiting > 1 else ""
-            self.write(Line("note", f"The robot is still busy; this is next{others}. Stop ends what it does."))
+            others = f" after {self.state.waiting - 1} more" if self.state.waiting > 1 else ""
+            self.write(Line("robot", f"I am still busy; this comes next{others}."))
         self._submit(lambda session: session.play(done, watch=self._watch))
 
     async def ask(self, do: Callable[[Session], Any]) -> Any:
@@ -275,7 +275,7 @@ class Host:
         if self._moves % _POSE_EVERY == 0:
             self._post("pose", pose=pose)
         now = time.monotonic()
-        if now - self._pictured_at >= _PICTURE_EVERY and self.live and self._session is not None:
+        if now - self._pictured_at >= _PICTURE_EVERY and self.live.visitors and self._session is not None:
             self._take_picture(self._session)
         step = _MOVE / (self._pace or math.inf)
         self._due = max(self._due, now - step) + step  # a late move is not made up for by many quick ones

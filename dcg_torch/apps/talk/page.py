@@ -11,9 +11,8 @@ from dcg_torch.apps.talk.host import Host
 from dcg_torch.apps.talk.lines import Line
 from dcg_torch.apps.talk.panels import candidates_table, words_table
 from dcg_torch.apps.talk.scene import WorldView
-from dcg_torch.apps.talk.tools import Tools
+from dcg_torch.apps.talk.tools import Tools, told
 from dcg_torch.dialogue.file import Input
-from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import World
 
 CSS = Path(__file__).with_name("page.css")
@@ -34,11 +33,20 @@ class Page:
         self._pointed: str | None = None
         self._shown: World | None = None
         with ui.element("main").classes("talk"):
-            self._head()
+            with ui.element("header").classes("head"):
+                ui.html("Talk to the robot", tag="h1", sanitize=False)
+                self._status = ui.label().classes("status").props("role=status")
             self._world()
             self._chat()
-            self._see_and_mean()
-            self._words_and_tools()
+            with ui.element("div").classes("pair"):
+                with _card("Its camera").classes("camera"):
+                    self._view.camera()
+                with _card("What may be meant"):
+                    self._means = ui.html(sanitize=False)
+            with ui.element("div").classes("side"):
+                with _card("Words it has learned"):
+                    self._words = ui.html(sanitize=False)
+                self._tools = Tools(self._host, self._view.by_hand)
         ui.keyboard(self._key, ignore=[], repeating=False)
         for part in ("status", "world", "lines", "candidates", "words"):
             self.show(part)
@@ -54,20 +62,17 @@ class Page:
                 self._words.set_content(words_table(state.words))
             case "candidates":
                 self._means.set_content(candidates_table(state.candidates))
-            case "world" if state.world is not None and state.world is not self._shown:
-                self._view.show_world(state.world)
-                self._show_names(state.world)
+            case "world" if state.world is not None:
+                self._view.show_world(state.world)  # what was dragged and did not stay there goes back
+                if state.world is not self._shown:
+                    self._show_names(state.world)
             case "status":
-                self._status.set_text(self._state_of_affairs())
-
-    def _head(self) -> None:
-        with ui.element("header").classes("head"):
-            ui.html("Talk to the robot", tag="h1", sanitize=False)
-            self._status = ui.label().classes("status").props("role=status")
+                busy = f"busy, {state.waiting - 1} waiting" if state.waiting > 1 else "busy"
+                self._status.set_text("waking up" if not state.ready else busy if state.waiting else "listening")
 
     def _world(self) -> None:
         with ui.element("section").classes("view").props('aria-label="World"'):
-            self._view = WorldView(self._click, self._drag)
+            self._view = WorldView(self._click, lambda id_, place: self._tools.move(id_, place))
             with ui.element("div").classes("views"):
                 for name, where in (("Overview", "overview"), ("Above", "above"), ("Robot", "robot")):
                     ui.button(name, on_click=lambda where=where: self._look(where)).props(
@@ -88,19 +93,6 @@ class Page:
                 self._pointing = ui.select({None: "nothing"}, label="Pointing at", on_change=self._point)
                 self._pointing.props("outlined dense options-dense")
                 ui.button("Why?", on_click=self._why).props('flat no-caps aria-label="Why: factors and features"')
-
-    def _see_and_mean(self) -> None:
-        with ui.element("div").classes("pair"):
-            with _card("Its camera").classes("camera"):
-                self._view.camera()
-            with _card("What may be meant"):
-                self._means = ui.html(sanitize=False)
-
-    def _words_and_tools(self) -> None:
-        with ui.element("div").classes("side"):
-            with _card("Words it has learned"):
-                self._words = ui.html(sanitize=False)
-            self._tools = Tools(self._host, self._view.by_hand)
 
     def _show_lines(self) -> None:
         state = self._host.state
@@ -132,14 +124,6 @@ class Page:
         self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
         self._choose()
 
-    def _state_of_affairs(self) -> str:
-        state = self._host.state
-        if not state.ready:
-            return "waking up"
-        if state.waiting > 1:
-            return f"busy, {state.waiting - 1} waiting"
-        return "busy" if state.waiting else "listening"
-
     def _say(self) -> None:
         text, pointed = self._input.value or "", self._pointed
         self._input.set_value("")
@@ -162,9 +146,6 @@ class Page:
         things = {thing.id: thing for thing in self._shown.objects} if self._shown is not None else {}
         self._tools.choose(things.get(self._pointed or ""))
 
-    def _drag(self, object_id: str, place: tuple[float, float]) -> None:
-        self._tools.move(object_id, place)
-
     def _look(self, where: str) -> None:
         if self._host.state.world is not None:
             self._view.look(where, self._host.state.world, self._host.state.pose)
@@ -174,13 +155,11 @@ class Page:
             self._host.stop()
 
     async def _why(self) -> None:
-        try:
+        with told():
             lines = await self._host.ask(lambda session: session.reasons())
-        except UserError as error:
-            lines = [str(error)]
-        with ui.dialog(value=True) as dialog, ui.card():
-            ui.label("\n".join(lines) or "Nothing was grounded yet.").classes("reasons")
-            ui.button("Close", on_click=dialog.close).props("no-caps")
+            with ui.dialog(value=True) as dialog, ui.card():
+                ui.label("\n".join(lines) or "Nothing was grounded yet.").classes("reasons")
+                ui.button("Close", on_click=dialog.close).props("no-caps")
 
 
 def _card(title: str) -> ui.element:

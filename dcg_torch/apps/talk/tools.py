@@ -2,29 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 from nicegui import events, ui
 
 from dcg_torch.apps.talk import files
 from dcg_torch.apps.talk.host import Change, Host
 from dcg_torch.dialogue.file import Input, Move
-from dcg_torch.dialogue.session import Session
 from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import WorldObject
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
-
-_Content = Callable[[Session, Path], bytes]
-_SAVED: tuple[tuple[str, str, _Content], ...] = (
-    ("World", "world.yaml", files.world_file),
-    ("Model", "model.zip", files.model_file),
-    ("Session", "session.jsonl", files.session_file),
-    ("Episodes", "episodes.jsonl", files.episodes_file),
-    ("GIF", "session.gif", files.animation_file),
-)
 
 
 class Tools:
@@ -77,10 +67,9 @@ class Tools:
 
     def _files(self) -> None:
         ui.label("Save:").classes("wide")
-        for name, file, content in _SAVED:
-            ui.button(name, on_click=lambda f=file, c=content: self._save(f, c)).props("outline dense no-caps").props(
-                f'aria-label="Save: {name}"'
-            )
+        for what in files.SAVED:
+            button = ui.button(what, on_click=lambda what=what: self._save(what))
+            button.props(f'outline dense no-caps aria-label="Save: {what}"')
         ui.button("Replay", on_click=self._host.replay).props("outline dense no-caps")
         ui.label("Load; what is there now is kept beside it:").classes("wide")
         for name, accepted, change in (
@@ -113,23 +102,24 @@ class Tools:
         id_ = next(i for i in ids if i not in taken)
         self._host.do(Input(add=WorldObject(id=id_, type=type_, color=color, position=(x, y), yaw=yaw)))
 
-    async def _save(self, name: str, content: _Content) -> None:
-        await _told(lambda: self._hand_out(name, content))
-
-    async def _hand_out(self, name: str, content: _Content) -> None:
-        ui.download.content(await self._host.ask(lambda session: content(session, self._host.file)), name)
+    async def _save(self, what: str) -> None:
+        with told():
+            content = await self._host.ask(lambda session: files.saved(what, session, self._host.file))
+            ui.download.content(content, files.SAVED[what][0])
 
     async def _load(
         self, event: events.UploadEventArguments, upload: ui.upload, change: Callable[[Path, bytes], Change]
     ) -> None:
         content = await event.file.read()
         upload.reset()
-        await _told(lambda: self._host.exchange(change(self._host.file, content)))
+        with told():
+            await self._host.exchange(change(self._host.file, content))
 
 
-async def _told(do: Callable[[], Awaitable[Any]]) -> None:
-    """Do something, and tell the visitor if it can't be done."""
+@contextlib.contextmanager
+def told() -> Iterator[None]:
+    """Tell the visitor if something can't be done."""
     try:
-        await do()
+        yield
     except UserError as error:
         ui.notify(str(error), type="warning", multi_line=True)
