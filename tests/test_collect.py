@@ -249,9 +249,11 @@ def test_pictures_and_worlds_are_made_once_and_never_mixed(tmp_path: Path) -> No
         (["serve", "per_person=0"], "from 1 to"),
         (["serve", "worlds=nowhere"], "no such directory of world files"),
         (["hit"], "pictures_at="),
+        (["hit", "pictures_at=http://example.org/p"], "write the https address"),
         (["import"], "say what"),
         (["import", "no.csv", "worlds=committed"], "no such file of results"),
         (["import", "no.csv"], "no folder of worlds beside it"),
+        (["import", "sqlite:////nope", "worlds=committed"], "there is no file /nope"),
         (["import", "odd://x", "worlds=committed"], "database=odd://x"),
     ],
 )

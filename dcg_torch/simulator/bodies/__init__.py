@@ -16,14 +16,11 @@ import functools
 import math
 from typing import Any
 
-from dcg_torch.simulator.bodies import laboratory as laboratory  # its types register themselves
-from dcg_torch.simulator.bodies import types
+from dcg_torch.simulator.bodies import laboratory, types  # noqa: F401 - their types register themselves
 from dcg_torch.simulator.bodies.colors import RGB, rgb
 from dcg_torch.simulator.bodies.looks import Model, Part, model, register, registered
 
-__all__ = ["TYPES", "Model", "Part", "add_model", "add_object", "extent", "footprint", "register", "registered", "rgb"]
-
-TYPES = types.TYPES
+__all__ = ["Model", "Part", "add_model", "add_object", "extent", "footprint", "register", "registered", "rgb"]
 
 
 def extent(type: str) -> tuple[float, float, float]:
