@@ -176,7 +176,8 @@ def _answers(odds: Matrix, repeat: float, out: Matrix) -> Matrix:
 def _product(factors: Matrix) -> Vector:
     """(T,) of the factors of each type; there is no telling beyond 1e300."""
     with np.errstate(over="ignore"):
-        return np.minimum(factors.prod(axis=0), 1e300)
+        product: Vector = np.minimum(factors.prod(axis=0), 1e300)
+    return product
 
 
 def _scaled(psi: Matrix) -> Matrix:

@@ -269,7 +269,7 @@ def _summary() -> Any:
 def _report(folder: Path) -> None:
     console = Console(file=io.StringIO(), width=100)
     one = load_run(folder)
-    print_run(one, console)
+    print_run(one.measures, one.seconds, one.config, console)
     print_several([one, one], console)
     to_csv([one])
 
