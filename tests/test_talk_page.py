@@ -6,6 +6,8 @@ import asyncio
 import functools
 import io
 import json
+import subprocess
+import sys
 import zipfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
@@ -326,6 +328,37 @@ def test_what_is_wrong_is_said_in_one_line(
     status, out, err = typed(capsys, program.main, "dcg_torch.talk", *settings, wrong)
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert says in err
+
+
+@pytest.mark.parametrize("says", [(), ("turn left",)])
+def test_a_talk_leaves_a_session_only_if_something_was_said(
+    says: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    async def serve(host: Host) -> None:
+        await host.begin()
+        for text in says:
+            host.say(text)
+        await dealt_with(host)
+        await host.end()
+
+    monkeypatch.setattr(program, "serve", lambda host, address, show: asyncio.run(serve(host)))
+    monkeypatch.chdir(tmp_path)
+    assert typed(capsys, program.main, "dcg_torch.talk", "simulator=fake", "pace=0")[0] == 0
+    assert len(list(tmp_path.glob("runs/*/session.jsonl"))) == len(list(tmp_path.glob("runs/*"))) == len(says)
+
+
+def test_the_page_needs_no_pybullet_for_the_fake_robot() -> None:
+    code = """
+import sys
+sys.modules["pybullet"] = None  # as if it were not installed
+from dcg_torch.apps.talk import looks, program
+from dcg_torch.dialogue.session import Session
+from dcg_torch.settings import TalkSettings
+session = Session(program.world_of(TalkSettings()), simulator="fake")
+print([looks.object_looks(thing.type, thing.color)[:1] for thing in session.world.objects], looks.robot_looks()[:1])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("['[', '[', '['] [\n", "")
 
 
 def test_worlds_are_committed_generated_or_ones_own(tmp_path: Path, laboratory: World) -> None:
