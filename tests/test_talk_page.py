@@ -169,17 +169,24 @@ def test_a_stop_brings_a_replay_to_its_end_and_changes_nothing_in_it(tmp_path: P
     visit(shown, talk)
 
 
-def test_who_waits_is_told_so_at_once(tmp_path: Path, laboratory: World) -> None:
+def test_who_waits_is_answered_or_told_so_at_once(tmp_path: Path, laboratory: World) -> None:
+    """A question that takes no look is answered while the robot turns; what has to wait is dealt with in turn."""
     file = tmp_path / "session.jsonl"
-    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=4.0)
+    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=2.0)
 
     async def talk(user: User, host: Host) -> None:
-        for text in ("turn around", "turn left", "turn right"):
+        host.say("turn around")
+        for text in ("turn left", "what is a cube?", "what do you see?"):
             host.say(text)
-        said = [line.text for line in host.state.lines if line.who == "robot"]
-        assert said == ["I am still busy; this comes next.", "I am still busy; this comes next after 1 more."]
         await dealt_with(host)
-        assert len(read_session(file)[1]) == 3
+        said = [line.text for line in host.state.lines if line.who == "robot"]
+        assert said[0] == "I turn left by 180 degrees."
+        assert said[1] == "I am still busy; this comes next."
+        assert said[2].startswith("A cube is")
+        assert said[3] == "I am still busy; this comes next after 1 more."
+        assert said[4] == "I turn left by 90 degrees."
+        assert said[5].startswith("I see")
+        assert [line.say for line in read_session(file)[1]] == ["turn around", "turn left", "what do you see?"]
 
     visit(shown, talk)
 

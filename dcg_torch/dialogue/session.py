@@ -27,6 +27,7 @@ from dcg_torch.dialogue.file import (
     read_session,
 )
 from dcg_torch.dialogue.situation import Situation
+from dcg_torch.language.requests import Question
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
@@ -263,6 +264,14 @@ class Session:
         """word -> type -> probability: what each word heard or taught may mean, those of the start left out."""
         new = [e for e in self.model.lexicon() if not e.settled or e.word in self.state.taught]
         return {e.word: {"not met yet" if t == UNMET else t: p for t, p in e.types} for e in new}
+
+    def answer(self, text: str) -> str | None:
+        """The answer to a question that takes neither a look nor a move; None for any other text.
+
+        It changes nothing and is not kept. From the session's own thread, also from `watch`, while the robot drives.
+        """
+        act = read_act(text, self.model.symbols.keys(), asked=self.state.open is not None)
+        return questions.answer_at_once(self.state, act) if isinstance(act, Question) else None
 
     def reasons(self, most: int = 12) -> list[str]:
         """Why the last command was grounded as it was: factors and features with their log-odds, a line each."""

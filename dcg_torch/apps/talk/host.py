@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import asyncio
+import collections
 import contextlib
+import functools
 import hashlib
 import io
 import logging
@@ -88,6 +90,7 @@ class Host:
         self._loop: asyncio.AbstractEventLoop | None = None
         self._usual, self._pace = pace, 0.0  # the latter: now
         self._replays = False
+        self._asides: collections.deque[Input] = collections.deque()  # texts that came while it was busy
         self._due, self._moves, self._pictured_at = 0.0, 0, 0.0
         self._pictured: tuple[Pose, World] | None = None
         self._digest = hashlib.sha256()  # of all events of the session
@@ -140,10 +143,21 @@ class Host:
             self.write(Line("note", "Too many wait for the robot already; say it again later."))
             return
         self.write(line_of_input(done, self.state.names))
+        if self.state.waiting and done.say is not None:
+            self._asides.append(done)  # the robot may answer it while it drives
+        else:
+            self._queue(done)
+
+    def _queue(self, done: Input) -> None:
         if self.state.waiting:
             others = f" after {self.state.waiting - 1} more" if self.state.waiting > 1 else ""
             self.write(Line("robot", f"I am still busy; this comes next{others}."))
         self._submit(lambda session: session.play(done, watch=self._watch))
+
+    def _dealt_with(self) -> None:
+        self._set("status", waiting=self.state.waiting - 1)
+        while self._asides:
+            self._queue(self._asides.popleft())
 
     async def ask(self, do: Callable[[Session], Any]) -> Any:
         """What a function of the session returns, when its turn comes.
@@ -224,7 +238,7 @@ class Host:
         finally:
             if session is not None:
                 self._refresh(session)
-            self._soon(lambda: self._set("status", waiting=self.state.waiting - 1))
+            self._soon(self._dealt_with)
 
     def _replay(self, present: Session) -> None:
         again, inputs = Session.replayed(self.file)
@@ -271,6 +285,13 @@ class Host:
                 self._post("world", world=self._session.world)
 
     def _moved(self, pose: Pose) -> None:
+        while self._asides and self._session is not None and not self._replays:
+            aside = self._asides.popleft()
+            answer = self._session.answer(aside.say or "") if aside.pointing_at is None else None
+            if answer is None:
+                self._soon(functools.partial(self._queue, aside))
+            else:
+                self._write(Line("robot", answer))
         self._moves += 1
         if self._moves % _POSE_EVERY == 0:
             self._post("pose", pose=pose)
