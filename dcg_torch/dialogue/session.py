@@ -21,10 +21,11 @@ from dcg_torch.dialogue.file import (
     Header,
     Input,
     Move,
-    SessionError,
     SessionFile,
+    checked_model,
     model_hash,
     read_session,
+    with_stops,
 )
 from dcg_torch.dialogue.situation import Situation
 from dcg_torch.language.requests import Question
@@ -111,7 +112,7 @@ class Session:
         """
         header, inputs = read_session(file)
         session = cls.__new__(cls)
-        session._begin(_checked(header, file))
+        session._begin(checked_model(header, file))
         return session, inputs
 
     @classmethod
@@ -128,7 +129,7 @@ class Session:
         kept = SessionFile(file)
         try:
             session = cls.__new__(cls)
-            session._begin(_checked(kept.header, file))
+            session._begin(checked_model(kept.header, file))
         except BaseException:
             kept.close()
             raise
@@ -298,17 +299,6 @@ class Session:
             self._file.close()
 
 
-def with_stops(inputs: Sequence[Input]) -> list[tuple[Input, int | None]]:
-    """The inputs, each with the number of the event after which it was stopped."""
-    found: list[tuple[Input, int | None]] = []
-    for line in inputs:
-        if line.stop is None:
-            found.append((line, None))
-        elif found:
-            found[-1] = (found[-1][0], line.stop)
-    return found
-
-
 def _robot(simulator: str) -> InteractiveRobot:
     if simulator == "fake":
         from dcg_torch.simulator.fake import FakeRobot
@@ -322,11 +312,3 @@ def _robot(simulator: str) -> InteractiveRobot:
 def standing_at(world: World, pose: Pose) -> World:
     """The world with the robot at this pose."""
     return world.model_copy(update={"robot": RobotStart(x=pose.x, y=pose.y, yaw=pose.yaw)})
-
-
-def _checked(header: Header, file: Path) -> Header:
-    """See that the model is the one that the session began with."""
-    if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
-        where = header.model or "the shipped model"
-        raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")
-    return header

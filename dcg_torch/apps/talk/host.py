@@ -24,8 +24,8 @@ from dcg_torch.apps.talk.lines import Line, line_of_event, line_of_input, names_
 from dcg_torch.apps.talk.live import Live
 from dcg_torch.dialogue import events
 from dcg_torch.dialogue.acts import is_stop
-from dcg_torch.dialogue.file import Input
-from dcg_torch.dialogue.session import Session, with_stops
+from dcg_torch.dialogue.file import Input, with_stops
+from dcg_torch.dialogue.session import Session
 from dcg_torch.storage.errors import UserError
 from dcg_torch.types import Pose
 from dcg_torch.world.files import World
