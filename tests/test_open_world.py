@@ -95,8 +95,8 @@ def fresh() -> GroundingModel:
 
 
 @pytest.fixture
-def model() -> GroundingModel:
-    return open_world()
+def model(fresh: GroundingModel) -> GroundingModel:
+    return copy.deepcopy(fresh)
 
 
 def test_the_model_says_what_the_posterior_says(model: GroundingModel) -> None:
