@@ -108,10 +108,12 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
     odds = np.vstack([table[[k for k, _ in rows]], np.broadcast_to(new, (len(unheard), len(types)))])
     shown = np.zeros(odds.shape, dtype=np.bool_)
     shown[:, :_MANY] = shown[:, -1] = True
-    if len(types) > _MANY:
-        for k, (_, word) in enumerate(rows):
-            if word in nouns.heard:
-                shown[k, [column[t] for t in nouns.heard[word].more]] = True
+    for k, (_, word) in enumerate(rows):
+        if word in nouns.heard:
+            among = [column[t] for t in nouns.heard[word].more]
+            shown[k, among] = True
+            for t in among if nouns.prior.names else ():
+                odds[k, t] = max(odds[k, t], nouns.akin(word, types[t]))
     yield _Odds([_phrase(w) for w in (*(w for _, w in rows), *unheard)], [_object(t) for t in types], odds, shown)
 
 

@@ -40,6 +40,9 @@ _ON_THE_WAY, _SETTLED = 30, 60
 landmarks move it anyway."""
 
 
+def L2(model): return CORPUS_L2
+
+
 Progress = Callable[[int], None]
 
 
@@ -110,7 +113,7 @@ def teach_corpus(
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
-    fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
+    fired = _fit(model, parts, (), free=None, l2=L2(model), rounds=rounds, progress=progress)
     model.held |= fired | firing(paths, model.features.shape)
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     _hear(model, parts)
@@ -122,7 +125,7 @@ def _fit(
     always: Sequence[Choice],
     *,
     free: NDArray[np.bool_] | None,
-    l2: float,
+    l2: float | NDArray[np.float64],
     rounds: int,
     progress: Progress | None,
 ) -> NDArray[np.bool_]:
