@@ -45,7 +45,7 @@ docs: $(VENV)/installed-docs ## Build the documentation as a site, in build/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 pretrain: $(VENV)/installed ## Make the shipped model anew from what is in the repository
-	$(BIN)/python -m dcg_torch.model.pretrain
+	$(BIN)/python -m dcg_torch.cli.pretrain
 
 clean: ## Remove .venv, caches and build products; runs/ stays
 	rm -rf $(VENV) build dist .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache

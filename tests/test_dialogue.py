@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from talking import Played, play, script
+from talking import Played, play, script, transcript
 
-from dcg_torch.dialogue.events import Asked, Done, Learned, Moved, Said, Understood, transcript
+from dcg_torch.dialogue.events import Asked, Done, Learned, Moved, Said, Understood
 from dcg_torch.dialogue.export import export_episodes, replay
 from dcg_torch.dialogue.file import SessionError
 from dcg_torch.dialogue.session import Session
-from dcg_torch.dialogue.text import converse, spoken
+from dcg_torch.dialogue.text import spoken
 from dcg_torch.evaluation.episodes import read_episodes
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import Percept
@@ -258,6 +258,5 @@ def test_a_world_and_a_model_are_saved_and_loaded(laboratory: Session, tmp_path:
 
 
 def test_a_conversation_in_plain_text(laboratory: Session) -> None:
-    lines = list(converse(laboratory, ["this is a box [crate]", "", "[crate]"]))
-    assert [line for line in lines if line.startswith(">")] == ["> this is a box [crate]", "> [crate]"]
-    assert lines[-1] == "It is a brown box."
+    laboratory.say("this is a box", pointing_at="crate")
+    assert spoken(laboratory.click("crate"))[-1] == "It is a brown box."

@@ -50,7 +50,7 @@ ONLY = {
     "visualization_msgs": {"apps.ros"},
     "sklearn": {"evaluation.baselines", "bench"},
     "fastapi": {"apps.collect.page", "apps.talk.server"},
-    "starlette": {"apps.collect.page", "apps.talk.gate"},
+    "starlette": {"apps.collect.page", "apps.talk.gate", "apps.talk.live"},
     "jinja2": {"apps.collect.page"},
     "sqlalchemy": {"apps.collect"},
     "uvicorn": {"apps.collect.program", "apps.talk.server"},

@@ -75,7 +75,7 @@ def expected(model: GroundingModel, text: str, percepts: tuple[Percept, ...] = W
     reading, words = read(text), words_of(model)
 
     def said(beliefs: Beliefs, word: str, type_: str | None) -> float:
-        table, new = beliefs.said_of()
+        table, new = beliefs.said_of
         posterior = beliefs.posterior
         row = table[posterior.words.index(word)] if word in posterior.words else new
         return float(row[-1 if type_ not in posterior.types else posterior.types.index(type_)])

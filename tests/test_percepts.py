@@ -33,6 +33,12 @@ MUG = Percept("m1", "mug", "blue", (1.0, 0.5, 0.0))
         ({"rgb": (0.0, 0.0, 256.0)}, "rgb"),
         ({"id": "hypothetical mug"}, "id"),
         ({"id": 3}, "id"),
+        ({"type": 3}, "type"),
+        ({"type": None}, "type"),
+        ({"color": ["red"]}, "color"),
+        ({"attributes": "held"}, "attributes"),
+        ({"attributes": [["held"]]}, "attributes"),
+        ({"attributes": 3}, "attributes"),
     ],
 )
 def test_what_makes_no_sense_is_refused_in_one_line_that_names_it(changed: dict[str, Any], says: str) -> None:

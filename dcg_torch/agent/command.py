@@ -25,17 +25,14 @@ class ParsedCommand(ReadCommand, Protocol):
     @property
     def tree(self) -> ParseTree | None:
         """The phrases of the likeliest reading, or None if there is a problem."""
-        ...
 
     @property
     def noun(self) -> str | None:
         """The noun of the object meant."""
-        ...
 
     @property
     def color(self) -> str | None:
         """The colour stated of the object meant."""
-        ...
 
 
 CommandParser = Callable[[str, Collection[str]], ParsedCommand]
@@ -48,21 +45,17 @@ class Grounder(Protocol):
     @property
     def symbols(self) -> Mapping[str, Any]:
         """The known words."""
-        ...
 
     def sure_names(self) -> Mapping[str, str]:
         """type -> a word for it that the robot holds for certain."""
-        ...
 
     def world_model(
         self, percepts: Iterable[Percept], robot: Pose | None = None, *, looked: bool = False
     ) -> WorldModel:
         """Upsilon of what was perceived from this start pose."""
-        ...
 
     def ground(self, command: ReadCommand, world: WorldModel) -> Solution:
         """What a command means in a world."""
-        ...
 
 
 @dataclass

@@ -9,12 +9,12 @@ import os
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from dcg_torch.model.checkpoint import DESCRIPTION, WEIGHTS
 from dcg_torch.model.pretrain import SHIPPED
 from dcg_torch.storage.errors import UserError, explain_os_error
-from dcg_torch.storage.foreign import problem_of, read_json, read_text
+from dcg_torch.storage.foreign import Strict, problem_of, read_json, read_text
 from dcg_torch.world.files import FileName, Metres, Radians, World, WorldObject
 
 MOST_CHARACTERS = 2_000
@@ -25,11 +25,7 @@ class SessionError(UserError):
     """A session that cannot be made or played; the message is one line."""
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class Header(_Strict):
+class Header(Strict):
     """What a session begins with; `sha256` is of the model's files, whose folder is `model`, None for the shipped."""
 
     dcg_torch_session: Literal[1] = 1
@@ -40,7 +36,7 @@ class Header(_Strict):
     seed: Annotated[int, Field(ge=0)] = 0
 
 
-class Move(_Strict):
+class Move(Strict):
     """An object that is put elsewhere; metres, radians."""
 
     id: FileName
@@ -48,7 +44,7 @@ class Move(_Strict):
     yaw: Radians | None = None
 
 
-class Input(_Strict):
+class Input(Strict):
     """One input: a text (with what was pointed at), a click, or a change of the world by hand.
 
     Or `stop`, a line of its own behind the input that it stopped: after how many events of it.

@@ -25,7 +25,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import row_hashes, stack_bags
@@ -112,6 +111,8 @@ class Likelihood:
         l2: float | Floats,
         prior: Floats,
     ) -> None:
+        from scipy.sparse import csr_array  # here: only who teaches needs it
+
         rows = _Rows()
         noun, term = self._gather(choices, rows)
         languages, groundings = features.shape
@@ -206,6 +207,8 @@ class Likelihood:
 
         The diagonal of the Gauss-Newton matrix: the variance, over what may be meant, of the score's derivative.
         """
+        from scipy.sparse import csr_array
+
         table = np.stack(self._fixed)
         table -= np.logaddexp.reduce(table, axis=0)
         mean = self._signs @ np.exp(table)

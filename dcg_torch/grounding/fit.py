@@ -89,7 +89,7 @@ def fit(
     pairs = factor.pairs.cpu().numpy()
     active = pairs if free is None else pairs & free
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
-    if not (strength[active] > 0.0).all():
+    if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
     fixed = np.where(active, 0.0 if prior is None else prior, weight)
     where = factor.weight.device if device is None else device_of(device)
@@ -103,7 +103,9 @@ def fit(
             raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
     factor.set_weight(new)
     rest = np.flatnonzero(pairs & ~active)  # of the active ones that don't move the prior is the optimum
-    distance = (fixed if prior is None else fixed - prior).reshape(len(weight), -1)[:, rest] if len(rest) else 0.0
+    distance = fixed.reshape(len(weight), -1)[:, rest]
+    if prior is not None:
+        distance = distance - prior.reshape(len(weight), -1)[:, rest]
     return FitResult(
         value=found.point.value + constant + 0.5 * float(np.sum(strength.reshape(-1)[rest] * distance * distance)),
         gradient=found.point.norm,

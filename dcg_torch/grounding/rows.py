@@ -8,13 +8,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 class Rows(Protocol):
@@ -34,34 +36,33 @@ class ArrowheadRows:
     """Rows of which many have a variable of their own beside those that they share: the Hessian is an arrowhead.
 
     A noun with a type is such a variable, where every pair of them is shown once. Rows that share the same variables
-    are of one pattern. The variables are the S shared ones, then the R own ones.
+    are of one pattern. The variables are the S shared ones, then the R own ones, which the first R rows have.
 
     Attributes:
         patterns: (M, S) what fires of the shared variables.
         pattern: (N,) the pattern of each row; None: each row is its own.
-        own: (R,) the row of each own variable, no two of one row.
-        entry: (R,) how much it counts there.
+        entry: (R,) how much each own variable counts in its row.
     """
 
     patterns: Floats
     pattern: Ints | None
-    own: Ints
     entry: Floats
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
         shared = self.patterns.shape[1]
-        total: Floats = d[:, :shared] @ self.patterns.T
-        if self.pattern is not None:
-            total = total[:, self.pattern]
-        if len(self.own):
-            total[:, self.own] += self.entry * d[:, shared:]
+        total = self.by_row(d[:, :shared] @ self.patterns.T)
+        total[:, : len(self.entry)] += self.entry * d[:, shared:]
         return total
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
         shared = self.by_pattern(residual) @ self.patterns
-        return np.concatenate([shared, self.entry * residual[:, self.own]], axis=1) if len(self.own) else shared
+        return np.concatenate([shared, self.entry * residual[:, : len(self.entry)]], axis=1)
+
+    def by_row(self, values: Floats) -> Floats:
+        """(n, N) for each row the value (n, M) of its pattern."""
+        return values if self.pattern is None else values.take(self.pattern, axis=1)
 
     def by_pattern(self, values: Floats) -> Floats:
         """(n, M) sums over the rows of each pattern, of values (n, N)."""
@@ -174,6 +175,8 @@ class SparseRows:
 
 
 def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+    from scipy.sparse import csr_array  # here: only large fits need it
+
     small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
     return csr_array((np.ones(len(numbers)), numbers.astype(small), starts.astype(small)), shape=shape)
 

@@ -10,19 +10,22 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.absence import log_odds_of_absence
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, ranking
 from dcg_torch.grounding.patterns import Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
-from dcg_torch.types import NOT, Child, Correspondence, Grounding, ParseTree, PhraseKind
+from dcg_torch.types import NOT, Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 _IN_THE_SET = math.log(0.5)
-"""A thing is compared where it is described at least half as well as the best."""
+_BEHIND = 6.0
+"""A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
+just the name and of another colour is still described well, but not where one of the colour is there."""
 
 _FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
@@ -81,9 +84,14 @@ class Search:
         self._nouns: dict[tuple[ParseTree, bool], _Scored] = {}
         self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
         self._modifiers: dict[ParseTree, ModifierFactor] = {}
+        self._absence: dict[Phrase, float | None] = {}
 
-    def solve(self, tree: ParseTree) -> Solution:
-        """The best configuration, and the probabilities of all that it may be about."""
+    def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
+        """The best configuration, and the probabilities of all that it may be about.
+
+        Args:
+            brief: leave out the runner-up.
+        """
         world = self.encoder.world
         if not world.objects:
             return Solution(tree, world, problem="there is nothing here to mean")
@@ -106,7 +114,7 @@ class Search:
             by_id(np.exp(totals - np.logaddexp.reduce(totals))),
             by_id(fits),
             by_id(odds),
-            self._runner_up(root, best),
+            None if brief else self._runner_up(root, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,
             1.0 if noun is None else self._named(noun),
@@ -150,7 +158,10 @@ class Search:
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
             found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            self._nouns[key] = found if landmark else self._only_objects(tree, found)
+            if not landmark:
+                found = self._only_objects(tree, found)
+                found = self._or_absent(tree, found) if is_noun else found
+            self._nouns[key] = found
         return self._nouns[key]
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
@@ -230,16 +241,19 @@ class Search:
     def _comparison_set(self, tree: ParseTree, modifiers: Sequence[ModifierFactor]) -> Bools:
         """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best."""
         table = self._tables.unranked(self.encoder, replace(tree.phrase, words=()))
-        fit: Floats = table[self._tables.factor.correspondences.index(Correspondence.ACTIVE)]
+        number = self._tables.factor.correspondences.index
+        fit: Floats = np.where(self.encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
+        odds = fit - table[number(Correspondence.INACTIVE)]
         for modifier in modifiers:
-            fit = fit + modifier.log_psi
-        fit = np.where(self.encoder.perceived, fit, -np.inf)
-        found: Bools = fit >= fit.max() + _IN_THE_SET
+            fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
+        found: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
         return found
 
     def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
+        if world.meant is None and not world.groups and not world.places:
+            return found
         meanable = len(world.meanable)
         scores = found.scores[:, :meanable]
         odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))
@@ -253,6 +267,23 @@ class Search:
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
             code = None
         return replace(found, scores=scores, log_odds=odds, log_fit=fit, code=code)
+
+    def _or_absent(self, tree: ParseTree, found: _Scored) -> _Scored:
+        """With as much for what is not there as `absence` says, where it says something."""
+        bare = replace(
+            tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
+        )
+        if bare not in self._absence:
+            self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
+        log_odds = self._absence[bare]
+        if log_odds is None:
+            return found
+        there = self.encoder.perceived[: found.scores.shape[1]]
+        totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
+        shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
+        if not np.isfinite(shift):
+            return found
+        return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""

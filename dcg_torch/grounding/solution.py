@@ -153,7 +153,7 @@ class Solution:
         if self.object.members:
             members = set(self.object.members)
             return tuple(o for o in self.world.objects if o.id in members)
-        if not noun.plural and (noun.count or 1) == 1:
+        if self.object.hypothetical or (not noun.plural and (noun.count or 1) == 1):
             return (self.object,)
         ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
         if noun.count is not None:

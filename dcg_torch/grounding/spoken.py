@@ -14,12 +14,10 @@ class WeightedReading(Protocol):
     @property
     def tree(self) -> ParseTree:
         """What it says."""
-        ...
 
     @property
     def log_weight(self) -> float:
         """log p(reading | command) before the world has spoken."""
-        ...
 
 
 class ReadCommand(Protocol):
@@ -28,14 +26,11 @@ class ReadCommand(Protocol):
     @property
     def text(self) -> str:
         """As it was said."""
-        ...
 
     @property
     def readings(self) -> Sequence[WeightedReading]:
         """The likeliest first; none where there is a problem."""
-        ...
 
     @property
     def problem(self) -> str | None:
         """Why there is no reading."""
-        ...

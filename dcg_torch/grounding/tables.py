@@ -14,9 +14,9 @@ import numpy as np
 import torch
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.features import FeatureSet, Ranking, padded, ranking
+from dcg_torch.grounding.features import FeatureSet, Ranking, Said, padded, ranking
 from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor, distinct
-from dcg_torch.types import Child, GroundingKind, Phrase
+from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
 
 _ENTRIES = 1 << 16
 """Weights that are gathered at once; beyond, they are added column by column."""
@@ -54,6 +54,21 @@ class Tables:
         coded = encoder.unranked(phrase)
         table = self._log_psi(phrase, coded.bag)
         return table if coded.code is None else table[:, coded.code]
+
+    def log_odds(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
+        """(objects,) of a noun phrase as if it ranked nothing: ACTIVE against INACTIVE."""
+        return self._against_inactive(self.unranked(encoder, phrase)[:, : len(encoder.world.objects)])
+
+    def log_odds_of(self, phrase: Phrase, things: Sequence[Object]) -> Floats:
+        """(things,) the same, of things that need not be in the world."""
+        named = self.features.said_columns(Said.of(phrase), things, [-1] * len(things))
+        bag = padded([self.features.thing_columns(o) + said for o, said in zip(things, named, strict=True)])
+        return self._against_inactive(self._log_psi(phrase, bag))
+
+    def _against_inactive(self, table: Floats) -> Floats:
+        of = self.factor.correspondences.index
+        odds: Floats = table[of(Correspondence.ACTIVE)] - table[of(Correspondence.INACTIVE)]
+        return odds
 
     def placed(self, encoder: WorldEncoder, phrase: Phrase, landmarks: Sequence[tuple[int, ...]]) -> Floats:
         """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks."""
@@ -95,9 +110,8 @@ class Tables:
         if found is None:
             assert self._weight is not None
             found = np.zeros((len(self._weight), self._weight.shape[2] + 1))
-            names = set(self.features.language_names(phrase))
-            for column in sorted(self.features.language[name] for name in names):
-                found[:, :-1] += self._weight[:, column]
+            columns = sorted({self.features.language[name] for name in self.features.language_names(phrase)})
+            self._weight[:, columns].sum(axis=1, out=found[:, :-1])
             self._sides[phrase] = found
         return found
 

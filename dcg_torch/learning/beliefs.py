@@ -130,6 +130,12 @@ class Posterior:
         at = int(row.argmax())
         return self.types[at], float(row[at])
 
+    def best_of_all(self) -> dict[str, tuple[str, float]]:
+        """word -> its most probable type, and the probability."""
+        at = self.table.argmax(axis=1) if self.words else np.zeros(0, dtype=np.int64)
+        found = self.table[np.arange(len(at)), at].tolist()
+        return {w: (self.types[k], p) for w, k, p in zip(self.words, at.tolist(), found, strict=True)}
+
     @cached_property
     def _row(self) -> dict[str, int]:
         return {w: k for k, w in enumerate(self.words)}
@@ -203,7 +209,8 @@ class Beliefs:
         """P(word names type), for every word heard, every type met, and a word never heard."""
         prior, types = self.prior, (*self.types, UNMET)
         column = {t: k for k, t in enumerate(types)}
-        named = np.array([t in set(self.settled.values()) for t in self.types] + [False])
+        settled = set(self.settled.values())
+        named = np.array([t in settled for t in self.types] + [False])
         free = ~named
         free[-1] = False
         weight = np.where(named, prior.synonym, 1.0)
@@ -222,6 +229,7 @@ class Beliefs:
         new = weight * (1.0 - found.taken * (1.0 - prior.synonym))
         return Posterior((*self.settled, *self.heard), types, np.vstack([fixed, found.word]), new / new.sum())
 
+    @cached_property
     def said_of(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """How readily each word is said of an object of each type: the posterior, with slips.
 

@@ -72,7 +72,7 @@ class Part:
 def fit_landmarks_em(
     parts: Sequence[Part],
     features: FeatureSet,
-    ground: GroundEncoded,
+    ground_now: Callable[[], GroundEncoded],
     fit: Callable[[list[Choice], bool], None],
     *,
     rounds: int,
@@ -82,7 +82,7 @@ def fit_landmarks_em(
 
     Args:
         features: the columns; only weights change meanwhile, so what a world looks like is encoded once.
-        ground: grounds with the present weights.
+        ground_now: gives what grounds with the present weights.
         fit: fits them to choices; told whether it is the last round, before which they are only on their way.
         rounds: of expectation and maximisation.
         progress: called with the number of each round that is done.
@@ -90,19 +90,24 @@ def fit_landmarks_em(
     encoders: dict[WorldModel, WorldEncoder] = {}
     encoded = [(part, encoders.setdefault(part.world, WorldEncoder(features, part.world))) for part in parts]
     for number in range(rounds):
+        ground = ground_now()
         fit([choice for part, encoder in encoded for choice in _expected(part, encoder, ground)], number == rounds - 1)
         if progress is not None:
             progress(number)
 
 
 def parts_of(lesson: Lesson) -> list[Part]:
-    """The noun phrases that a lesson joins, each in the world with the groups that it may speak of."""
+    """The noun phrases that a lesson joins, each in the world with the groups that it may speak of.
+
+    Without hypothetical objects: what a lesson means is there, and it says nothing of what is not.
+    """
     found = []
+    seen = replace(lesson.world, objects=tuple(o for o in lesson.world.objects if not o.hypothetical))
     trees = coordinated(lesson.tree)
     for tree in trees:
         noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
-            world = with_groups(lesson.world) if speaks_of_groups(tree) else lesson.world
+            world = with_groups(seen) if speaks_of_groups(tree) else seen
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
 

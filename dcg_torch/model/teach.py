@@ -14,9 +14,11 @@ from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import WorldEncoder, encode, firing
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.fit import FitResult
+from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import (
+    GroundEncoded,
     Lesson,
     Part,
     example_choices,
@@ -28,6 +30,7 @@ from dcg_torch.learning.landmarks import (
 from dcg_torch.learning.learner import Experience, Learner
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import taught_mask
+from dcg_torch.model.variant import Variant
 from dcg_torch.scene.upsilon import with_known
 from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
 
@@ -49,6 +52,7 @@ Progress = Callable[[int], None]
 class Teachable(Protocol):
     """What is taught: `GroundingModel` is it, and says what each member means."""
 
+    variant: Variant
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
@@ -138,7 +142,10 @@ def _fit(
         every = [*always, *choices]
         fired = fit_choices(model.factor, every, model.features, free=free, l2=l2, prior=model.prior, max_steps=steps)
 
-    fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
+    def ground_now() -> GroundEncoded:
+        return solver(model.features, model.factor, beam=model.variant.beam)
+
+    fit_landmarks_em(parts, model.features, ground_now, fit_once, rounds=rounds, progress=progress)
     return fired
 
 

@@ -176,6 +176,12 @@ def _relation(noun: str, name: str) -> str:
     return "sibling" if said.direct & named.direct else "apart"
 
 
+def unheard_of(noun: str) -> bool:
+    """Is it one word that neither WordNet nor this project's list knows?"""
+    name = _name(noun)
+    return len(name.words) == 1 and not _meanings(name.text).senses and name.text not in _everyday().groups
+
+
 @dataclass(frozen=True, slots=True)
 class _Meanings:
     """The first senses of a noun, what they are directly kinds of, and what they are within few and more steps."""

@@ -48,10 +48,7 @@ def hypothesize_objects(known_types: Iterable[str], attributes: frozenset[str] =
         Object(id=f"hypothetical {t}", type=t, known=True, hypothetical=True, attributes=attributes)
         for t in known_types
     ]
-    return [
-        *known,
-        Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True, attributes=attributes),
-    ]
+    return [*known, Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True, attributes=attributes)]
 
 
 def world_model(

@@ -9,7 +9,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
-from types import TracebackType
+from typing import Protocol, Self
 
 from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.errors import SimulatorError
@@ -22,7 +22,20 @@ _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
 
 
-class Client:
+class Closing(Protocol):
+    """What lets go of something: by `close`, or at the end of a `with` statement."""
+
+    def close(self) -> None:
+        """Let go; a second call does nothing."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Client(Closing):
     """A physics server of its own, so that several may live in one process without knowing each other.
 
     It is empty at first; `empty` lays a floor.
@@ -45,14 +58,6 @@ class Client:
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
         self.floor = -1
-
-    def __enter__(self) -> Client:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Disconnect; a second call does nothing."""

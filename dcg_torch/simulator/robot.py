@@ -7,7 +7,6 @@ import math
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from types import TracebackType
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from dcg_torch.simulator import navigation
 from dcg_torch.simulator.base import ROBOT_RADIUS, Base
 from dcg_torch.simulator.bodies import add_object, extent, footprint
 from dcg_torch.simulator.camera import Camera
-from dcg_torch.simulator.client import Client
+from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.driver import Driver, Planner
 from dcg_torch.simulator.errors import SimulatorError
 from dcg_torch.simulator.limits import ARRIVED, AT_PLACE, LEFT, MAX_DISTANCE, check_spin, find_percept
@@ -48,7 +47,7 @@ class _Visit:
     driver: Driver
 
 
-class SimulatedRobot:
+class SimulatedRobot(Closing):
     """An `agent.robot.SimulationRobot` in a physics client of its own. Load a world before asking it anything.
 
     Another thread may call `stop`, to end what it is doing; the robot then stands until `resume` or the next world.
@@ -92,14 +91,6 @@ class SimulatedRobot:
         self._stop = threading.Event()
         self._by_body: dict[int, _Placed] = {}
         self._noticed: dict[str, Percept] = {}
-
-    def __enter__(self) -> SimulatedRobot:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Let go of the physics client; a second call does nothing."""
@@ -229,8 +220,7 @@ class SimulatedRobot:
         goal = find_percept(target, percepts)
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            others = [circle for id_, circle in obstacles.items() if id_ != target]
-            return navigation.approach((self.pose.x, self.pose.y), obstacles[target], others, reach=_REACH)
+            return navigation.approach(self._here, obstacles.pop(target), [*obstacles.values()], reach=_REACH)
 
         return self._drive(plan, goal.position[:2], percepts, lambda distance: distance <= ARRIVED)
 
@@ -244,8 +234,7 @@ class SimulatedRobot:
         least = max(LEFT, self._distance(goal.position[:2]))
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            others = [circle for id_, circle in obstacles.items() if id_ != target]
-            return navigation.retreat((self.pose.x, self.pose.y), obstacles[target], others)
+            return navigation.retreat(self._here, obstacles.pop(target), [*obstacles.values()])
 
         return self._drive(plan, goal.position[:2], percepts, lambda distance: distance >= least)
 
@@ -254,7 +243,7 @@ class SimulatedRobot:
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
             goals = np.array([[x, y]], dtype=np.float64)
-            return navigation.shortest_path((self.pose.x, self.pose.y), goals, list(obstacles.values()))
+            return navigation.shortest_path(self._here, goals, [*obstacles.values()])
 
         return self._drive(plan, (x, y), percepts, lambda distance: distance <= AT_PLACE)
 
@@ -294,5 +283,9 @@ class SimulatedRobot:
         self._look()
         return self._noticed
 
+    @property
+    def _here(self) -> tuple[float, float]:
+        return self.pose.x, self.pose.y
+
     def _distance(self, place: tuple[float, float]) -> float:
-        return math.dist((self.pose.x, self.pose.y), place)
+        return math.dist(self._here, place)

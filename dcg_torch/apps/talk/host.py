@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import asyncio
-import base64
+import contextlib
 import hashlib
 import io
 import logging
@@ -18,6 +18,7 @@ from typing import Any
 from PIL import Image
 
 from dcg_torch.apps.talk.lines import Line, line_of_event, line_of_input, names_of, with_inputs
+from dcg_torch.apps.talk.live import Live
 from dcg_torch.dialogue import events
 from dcg_torch.dialogue.acts import is_stop
 from dcg_torch.dialogue.file import Input, read_session
@@ -30,9 +31,11 @@ LINES = 400
 """Lines of the conversation that are kept to be shown; the session's file has all."""
 _LONGEST = 500  # characters of what a person says
 _WAITING = 50  # inputs that may wait for their turn
-_PICTURE_EVERY = 4  # moves between two pictures of the camera
+_PICTURE_EVERY = 0.25  # seconds between two pictures of the camera: each holds up all else for some hundredths
 _MOVE = 1 / 30  # seconds that a move takes the robot
-_GATHER = 0.015  # seconds in which changes are gathered before the pages hear of them
+_POSE_EVERY = 2  # moves between two poses that are sent; the pages draw the motion between them
+_GATHER = 0.005  # seconds in which changes are gathered before the pages hear of them
+_BREATH = 0.02  # seconds after an answer in which the event loop has the interpreter for itself, to send it
 _REPLAY = 4.0  # times as fast as it was
 _log = logging.getLogger(__name__)
 
@@ -54,7 +57,6 @@ class State:
     seen: frozenset[str] = frozenset()
     words: dict[str, dict[str, float]] = field(default_factory=dict)
     question: tuple[str, ...] = ()
-    picture: str | None = None
     waiting: int = 0
     ready: bool = False
 
@@ -78,6 +80,7 @@ class Host:
     def __init__(self, file: Path, new: Callable[[], Session], pace: float = 1.0) -> None:
         self.file = file
         self.state = State()
+        self.live = Live()
         self._new = new
         self._session: Session | None = None
         self._thread = ThreadPoolExecutor(1, "session")
@@ -87,7 +90,7 @@ class Host:
         self._usual = pace
         self._pace = 0.0  # now
         self._hurries = False  # what is under way may be brought to its end at once
-        self._due, self._moves = 0.0, 0
+        self._due, self._moves, self._pictured_at = 0.0, 0, 0.0
         self._changed: dict[str, None] = {}  # parts of the state, in the order of their change
         self._pictured: tuple[Pose, World] | None = None
         self._digest = hashlib.sha256()  # of all events of the session
@@ -113,8 +116,9 @@ class Host:
         await self.begin()
 
     async def end(self) -> None:
-        """Stop the robot and let go of the session."""
+        """Stop the robot and let go of the session; what it still does nobody hears."""
         self.stop()
+        self._loop = None
         self._thread.shutdown(wait=False, cancel_futures=True)
 
     def listen(self, listener: Callable[[str], None]) -> Callable[[], None]:
@@ -145,6 +149,9 @@ class Host:
             self.write(Line("note", "Too many wait for the robot already; say it again later."))
             return
         self.write(line_of_input(done, self.state.names))
+        if self.state.waiting:
+            others = f", after {self.state.waiting - 1} of others" if self.state.waiting > 1 else ""
+            self.write(Line("note", f"The robot is still busy; this is next{others}. Stop ends what it does."))
         self._submit(lambda session: session.play(done, watch=self._watch))
 
     async def ask(self, do: Callable[[Session], Any]) -> Any:
@@ -188,6 +195,8 @@ class Host:
 
     def _tell(self) -> None:
         parts, self._changed = tuple(self._changed), {}
+        pose, marks = self.state.pose, {row.id: round(row.probability, 3) for row in self.state.candidates}
+        self.live.send(pose=[pose.x, pose.y, pose.yaw], marks=marks, seen=sorted(self.state.seen))
         for listener in tuple(self._listeners):
             try:
                 for part in parts:
@@ -197,13 +206,17 @@ class Host:
 
     # What follows runs in the session's thread.
 
+    def _soon(self, do: Callable[[], object]) -> None:
+        """Do something in the event loop, while there is one."""
+        with contextlib.suppress(RuntimeError):  # it is closed
+            if (loop := self._loop) is not None:
+                loop.call_soon_threadsafe(do)
+
     def _post(self, part: str, **values: Any) -> None:
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(lambda: self._set(part, **values))
+        self._soon(lambda: self._set(part, **values))
 
     def _write(self, line: Line) -> None:
-        if self._loop is not None:
-            self._loop.call_soon_threadsafe(self.write, line)
+        self._soon(lambda: self.write(line))
 
     def _clear(self) -> None:
         self._post("lines", lines=[], dropped=0)
@@ -222,8 +235,6 @@ class Host:
             self._session = self._new()
         self._pace = self._usual
         self._refresh(self._session)
-        world = self._session.model.world_model(self._session.memory, self._session.pose)
-        self._session.model.ground("go to the cube", world)  # the first grounding of a process takes long
 
     def _deal(self, do: Callable[[Session], object]) -> None:
         session = self._session
@@ -239,8 +250,7 @@ class Host:
         finally:
             if session is not None:
                 self._refresh(session)
-            if self._loop is not None:
-                self._loop.call_soon_threadsafe(lambda: self._set("status", waiting=self.state.waiting - 1))
+            self._soon(lambda: self._set("status", waiting=self.state.waiting - 1))
 
     def _replay(self) -> None:
         again, inputs = Session.replayed(self.file)
@@ -275,12 +285,14 @@ class Host:
         line = line_of_event(event)
         if line is not None:
             self._write(line)
+        if self._pace and isinstance(event, events.Understood):
+            time.sleep(_BREATH)
+            self._pictured_at = time.monotonic()
         match event:
             case events.Moved(pose):
                 self._moved(pose)
             case events.Candidates(rows, seen):
                 self._post("candidates", candidates=rows, seen=frozenset(seen))
-                self._post("world")
             case events.Asked(_, choices):
                 self._post("candidates", question=choices)
             case events.WorldChanged() if self._session is not None:
@@ -291,20 +303,21 @@ class Host:
     def _moved(self, pose: Pose) -> None:
         if not self._pace or (self._hurries and self._stopped.is_set()):
             return
-        self._post("pose", pose=pose)
         self._moves += 1
-        if self._moves % _PICTURE_EVERY == 0 and self._session is not None and self._listeners:
-            self._take_picture(self._session)
+        if self._moves % _POSE_EVERY == 0:
+            self._post("pose", pose=pose)
         now, step = time.monotonic(), _MOVE / self._pace
+        if now - self._pictured_at >= _PICTURE_EVERY and self.live and self._session is not None:
+            self._take_picture(self._session)
         self._due = max(self._due, now - step) + step  # a late move is not made up for by many quick ones
-        time.sleep(max(0.0, self._due - now))
+        time.sleep(max(0.0, self._due - time.monotonic()))
 
     def _take_picture(self, session: Session) -> None:
         stands = (session.pose, session.world)
         pixels = session.picture(width=320, height=180) if stands != self._pictured else None
         if pixels is None:
             return
-        self._pictured = stands
+        self._pictured, self._pictured_at = stands, time.monotonic()
         content = io.BytesIO()
         Image.fromarray(pixels).save(content, "JPEG", quality=80)
-        self._post("picture", picture="data:image/jpeg;base64," + base64.b64encode(content.getvalue()).decode())
+        self._soon(lambda: self.live.send(picture=content.getvalue()))

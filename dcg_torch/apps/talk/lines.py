@@ -49,7 +49,8 @@ def line_of_event(event: events.Event) -> Line | None:
         case events.Learned(word, None):
             return Line("note", f"forgotten: {word}")
         case events.Learned(word, type_, source):
-            return Line("note", f"learned{' from the outcome' if source == 'outcome' else ''}: {word} = {type_}")
+            meaning = "" if word == type_ else f" = {type_}"
+            return Line("note", f"learned{' from the outcome' if source == 'outcome' else ''}: {word}{meaning}")
     return None
 
 

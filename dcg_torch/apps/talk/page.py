@@ -41,7 +41,7 @@ class Page:
             self._see_and_mean()
             self._words_and_tools()
         ui.keyboard(self._key, ignore=[], repeating=False)
-        for part in ("status", "world", "pose", "lines", "candidates", "words", "picture"):
+        for part in ("status", "world", "lines", "candidates", "words"):
             self.show(part)
         client.on_delete(host.listen(self.show))
 
@@ -49,22 +49,15 @@ class Page:
         """Bring a part of the page up to date: as `Host` names it."""
         state = self._host.state
         match part:
-            case "pose":
-                self._view.show_pose(state.pose)
             case "lines":
                 self._show_lines()
-            case "picture":
-                self._camera.set_source(state.picture or "")
             case "words":
                 self._words.set_content(words_table(state.words))
             case "candidates":
                 self._means.set_content(candidates_table(state.candidates))
-                self._show_marks()
-            case "world" if state.world is not None:
-                self._view.show_world(state.world, state.seen)
-                if state.world is not self._shown:
-                    self._show_names(state.world)
-                self._show_marks()
+            case "world" if state.world is not None and state.world is not self._shown:
+                self._view.show_world(state.world)
+                self._show_names(state.world)
             case "status":
                 self._status.set_text(self._state_of_affairs())
 
@@ -100,7 +93,7 @@ class Page:
     def _see_and_mean(self) -> None:
         with ui.element("div").classes("pair"):
             with _card("Its camera").classes("camera"):
-                self._camera = ui.image().props('alt="What the robot\'s camera shows" no-spinner no-transition')
+                self._view.camera()
             with _card("What may be meant"):
                 self._means = ui.html(sanitize=False)
 
@@ -140,11 +133,6 @@ class Page:
         self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
         self._tools.show_world(world)
 
-    def _show_marks(self) -> None:
-        state = self._host.state
-        shares = {row.id: row.probability for row in state.candidates}
-        self._view.show_marks(shares, self._pointed)
-
     def _state_of_affairs(self) -> str:
         state = self._host.state
         if not state.ready:
@@ -168,7 +156,7 @@ class Page:
 
     def _point(self, event: events.ValueChangeEventArguments[Any]) -> None:
         self._pointed = event.value
-        self._show_marks()
+        self._view.point(event.value)
 
     def _drag(self, object_id: str, place: tuple[float, float]) -> None:
         self._tools.move(object_id, place)

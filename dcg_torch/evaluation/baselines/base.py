@@ -35,12 +35,14 @@ class Baseline(Protocol):
 
     def look_ahead(self, test: Sequence[Episode]) -> None:
         """Make ready for episodes to come, which is faster together than one by one; it changes no prediction."""
+        return
 
     def predict(self, episode: Episode) -> Guess:
         """Choose among the objects of an episode."""
 
     def learn(self, episode: Episode, guess: Guess) -> None:
         """Learn from what was chosen, as if it had been right; most baselines learn nothing."""
+        return
 
 
 def choose(episode: Episode, scores: Array, temperature: float, *, several: bool = False) -> Guess:

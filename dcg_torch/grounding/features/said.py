@@ -25,7 +25,7 @@ _ABSENT = "name: absent"
 _ABSENT_ODDS = 3.5
 """Of what is not there, once all has been seen: a noun that no class is named by mostly means nothing that is there."""
 _COLOR_ODDS = {"equal": 4.0, "same hue": 2.0, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
-_ATTRIBUTE_ODDS = {"equal": 4.0, "alike": 4.0, "contrary": -4.0, "silent": -0.5}
+_ATTRIBUTE_ODDS = {"equal": 3.0, "alike": 3.0, "contrary": -3.0, "silent": -0.5}
 _LOOKS = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Bounds of how far a colour's score stays behind the best in view."""
 _LOOK_ODDS = 3.0

@@ -43,7 +43,6 @@ class Speaker(Protocol):
 
     def commands(self, world: World, rng: np.random.Generator) -> list[Command]:
         """What it says in one world."""
-        ...
 
 
 class SpeakerError(UserError):

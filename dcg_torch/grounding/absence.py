@@ -1,0 +1,95 @@
+"""Is what a noun phrase means there at all? The log-odds that it is not, once all has been seen.
+
+A thing that is not there would have just the name and the colour that were said. So each thing that is there is
+compared with one of which both are true: how far do its log-odds of the noun, and those of the colour, stay behind? The
+thing that stays behind least decides. Where it stands among others and to landmarks says nothing here: people are less
+exact about places than about names, and of a thing that is not there nobody knows the place.
+
+    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) )
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import Group
+from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.evidence import unheard_of
+from dcg_torch.names.vocabulary import ANYTHING, PLACE_WORDS
+from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
+
+_RARE = -5.0
+"""Log-odds that a command means what is not there, where something has the name and the colour that it says."""
+_STRANGE = (6.0, 2.5)
+"""From where on a noun's gap counts, and how much each nat: below lies what people call a thing that they know well."""
+_ODD = (2.5, 1.6)
+"""The same of the colour's: a colour has neighbours that people take for it."""
+_NEW = 7.0
+"""Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+
+
+def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> float | None:
+    """The log-odds that nothing there is meant; None where that is not judged by names.
+
+    That is so before the robot has looked all round, of groups and places, and where nothing is there. What the speaker
+    has ruled out counts for nothing.
+    """
+    features, objects = encoder.features, encoder.world.objects
+    if not features.groups >= {Group.NAMES, Group.RELATION} or in_group(phrase) or phrase.noun in PLACE_WORDS:
+        return None
+    meant = encoder.world.meant
+    seen = np.array([not o.hypothetical and (meant is None or o.id in meant) for o in objects], dtype=np.bool_)
+    if not seen.any() or not any(o.hypothetical and LOOKED_ROUND in o.attributes for o in objects):
+        return None
+    strange = _excess(_noun_gap(tables, encoder, phrase), *_STRANGE)
+    odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
+    return _RARE + float((strange + odd)[seen].min())
+
+
+def _excess(gap: Floats, start: float, slope: float) -> Floats:
+    found: Floats = slope * np.maximum(0.0, gap - start)
+    return found
+
+
+def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
+    """(objects,) how far the log-odds of the noun stay behind those of the thing that it names best.
+
+    Of what is seen: that is one whose class has the noun as its name, or one of a type that the noun is known to name.
+    """
+    objects = encoder.world.objects
+    if phrase.noun is None or phrase.noun in ANYTHING:
+        return np.zeros(len(objects))
+    noun = Phrase(PhraseKind.NOUN, phrase.noun, noun=phrase.noun)
+    odds = tables.log_odds(encoder, noun)
+    unseen = [j for j, o in enumerate(objects) if o.hypothetical and o.type is not None]
+    best, *likes = tables.log_odds_of(
+        noun, [_like(phrase.noun, None), *(_like(objects[j].type, None, known=True) for j in unseen[:1])]
+    )
+    for like in likes:  # what it costs to be hypothetical is the same for all types
+        best = max(best, float(odds[unseen].max() - odds[unseen[0]] + like))
+    gap: Floats = np.maximum(0.0, best - odds)
+    if tables.features.knows_noun(phrase.noun):
+        return gap
+    if unheard_of(phrase.noun):
+        gap = np.minimum(gap, _NEW)
+    named = np.array([o.type is not None and not o.type.startswith(OPAQUE) for o in objects])
+    return np.where(named, gap, 0.0)
+
+
+def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
+    """(objects,) how far the log-odds of the colour stay behind those of a thing of just that colour."""
+    objects = encoder.world.objects
+    if phrase.color is None or phrase.look:
+        return np.zeros(len(objects))
+    color = Phrase(PhraseKind.NOUN, phrase.color, color=phrase.color)
+    known = next((o.type for o in objects if o.known), None)
+    best = tables.log_odds_of(color, [_like(None, phrase.color), _like(known, phrase.color, known=known is not None)])
+    gap = best[[int(o.known) for o in objects]] - tables.log_odds(encoder, color)
+    return np.where([o.color is not None for o in objects], np.maximum(0.0, gap), 0.0)
+
+
+def _like(type_: str | None, color: str | None, *, known: bool = False) -> Object:
+    return Object("", type_, known, color=color)

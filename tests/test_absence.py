@@ -1,0 +1,100 @@
+"""That nothing there is meant: it is judged by name and colour, once all has been seen."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+
+import dcg_torch
+from dcg_torch import GroundingModel, Percept, Pose
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.types import OPAQUE
+
+
+@pytest.fixture(scope="module")
+def model() -> GroundingModel:
+    return dcg_torch.pretrained()
+
+
+def _things(*said: str) -> list[Percept]:
+    """Things as "colour class", the class of one word, side by side."""
+    return [
+        Percept(f"{k}", text.split()[-1], text.split()[0] if " " in text else None, (2.0, 1.0 - k, 0.0))
+        for k, text in enumerate(said)
+    ]
+
+
+def _ground(model: GroundingModel, text: str, things: Sequence[Percept], *, looked: bool = True) -> Solution:
+    return model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0), looked=looked))
+
+
+def _absent(solution: Solution) -> float:
+    """The probability that nothing there is meant."""
+    return sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
+
+
+@pytest.mark.parametrize(
+    ("text", "things"),
+    [
+        ("take the white ball", ["red ball", "green ball", "blue cube"]),  # no such colour
+        ("take the biggest white ball", ["red ball", "green ball", "blue cube"]),  # a rank changes nothing
+        ("take the black cube left of the ball", ["red cube", "green cube", "blue ball"]),  # nor does a landmark
+        ("take the red ball", ["green ball", "red cube"]),  # the colour of one and the class of the other
+        ("get me the apple", ["lamp", "desk", "sofa"]),  # no such class
+        ("take the two red balls", ["green ball", "blue ball", "blue cube"]),
+        ("frbl zwt the gnrx", ["red ball", "green ball"]),  # several words that nobody knows
+    ],
+)
+def test_what_is_not_there_is_not_meant(model: GroundingModel, text: str, things: list[str]) -> None:
+    solution = _ground(model, text, _things(*things))
+    assert all(o.hypothetical for o in solution.objects)
+    assert _absent(solution) > 0.5
+
+
+@pytest.mark.parametrize(
+    ("text", "things", "meant"),
+    [
+        ("take the red ball", ["red ball", "green ball", "blue cube"], {"0"}),
+        ("take the couch", ["lamp", "sofa", "desk"], {"1"}),  # a synonym
+        ("take the lamp", ["desk", "FloorLamp"], {"1"}),  # the head
+        ("take the thing on the right", ["lamp", "sofa", "desk"], {"2"}),  # names nothing
+        ("take the red one", ["red lamp", "green sofa"], {"0"}),
+        ("take the leftmost ball", ["red ball", "green ball", "blue ball"], {"0"}),
+        ("take the balls", ["red ball", "green ball", "blue cube"], {"0", "1"}),
+    ],
+)
+def test_what_is_there_is_found(model: GroundingModel, text: str, things: list[str], meant: set[str]) -> None:
+    solution = _ground(model, text, _things(*things))
+    assert {o.id for o in solution.objects} == meant
+    assert _absent(solution) < 0.2
+
+
+def test_a_new_word_may_name_what_is_there(model: GroundingModel) -> None:
+    assert _absent(_ground(model, "go to the blicket", _things("pallet", "crate"))) < 0.5
+
+
+def test_a_class_without_a_name_may_be_anything(model: GroundingModel) -> None:
+    things = [Percept("a", f"{OPAQUE}7", None, (2.0, 0.0, 0.0))]
+    assert _absent(_ground(model, "go to the pallet", things)) < 0.5
+
+
+def test_the_shares_of_what_is_there_do_not_change(model: GroundingModel) -> None:
+    """The absent take their share of all others alike: of two equal things none gains."""
+    solution = _ground(model, "take the white ball", _things("red ball", "red ball"))
+    assert solution.probabilities["0"] == pytest.approx(solution.probabilities["1"], rel=1e-9)
+    assert sum(solution.probabilities.values()) == pytest.approx(1.0)
+
+
+def test_what_is_ruled_out_is_not_what_was_meant(model: GroundingModel) -> None:
+    world = model.world_model(_things("red ball", "green cube"), robot=Pose(0.0, 0.0), looked=True)
+    assert _absent(model.ground("take the red ball", world)) < 0.1
+    others = frozenset(o.id for o in world.objects if o.id != "0")
+    assert _absent(model.ground("take the red ball", replace(world, meant=others))) > 0.5
+
+
+def test_before_a_look_round_and_without_names_nothing_is_said_of_it(model: GroundingModel) -> None:
+    things = _things("red ball", "green ball")
+    for of, looked in ((model, False), (dcg_torch.pretrained(opaque=True), True)):
+        assert _absent(_ground(of, "take the white ball", things, looked=looked)) < 0.9
