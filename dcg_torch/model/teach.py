@@ -17,6 +17,7 @@ from dcg_torch.grounding.fit import FitResult
 from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
     GroundEncoded,
     Lesson,
@@ -113,6 +114,8 @@ def teach_corpus(
     nouns = [Symbol(word, of) for word, types in said.nouns.items() for of in types]
     model.grow(model.learner.columns(model.features).extended(nouns, said.colors, _phrases(parts)))
     parts = _as_known(parts, model)
+    parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
+    model.learner = model.learner.with_frames(frames)
     # What was known before gives way to as much evidence as any.
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
