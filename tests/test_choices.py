@@ -92,23 +92,6 @@ def test_the_gradient_is_that_of_differences(model: GroundingModel, text: str, t
         assert float(likelihood(at).gradient @ way) == pytest.approx(slope, rel=1e-5, abs=1e-6)
 
 
-@pytest.mark.parametrize(("text", "targets"), [t for t in TEXTS if len(t[1]) == 1])
-def test_the_information_is_the_expected_curvature(model: GroundingModel, text: str, targets: set[str]) -> None:
-    """By brute force: the variance over what is meant, under its own probability, of the derivative of its score."""
-    likelihood = choices_of(model, text, targets)
-    told = choices_of(model, text, targets)
-    n, start = len(likelihood._meant), likelihood.start
-    slopes, chances = [], []
-    for j in range(n):
-        told._meant = np.eye(n)[j]
-        point = told(start)
-        chances.append(math.exp(-point.value + 0.25 * float(told._l2 * (start - told._centre) @ (start - told._centre))))
-        slopes.append(-point.gradient)  # of log p(j), which is the slope of its score less a mean
-    assert sum(chances) == pytest.approx(1.0)
-    spread = np.average(np.square(slopes), axis=0, weights=chances) - np.average(slopes, axis=0, weights=chances) ** 2
-    assert likelihood.information()[likelihood.free] == pytest.approx(spread, abs=1e-9)
-
-
 def test_a_choice_is_learned_and_the_weights_of_others_stay(model: GroundingModel) -> None:
     tree = parse_command("go to the outer cube", model.symbols.keys()).tree
     assert tree is not None

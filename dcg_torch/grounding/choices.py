@@ -97,7 +97,7 @@ class Likelihood:
     Args:
         choices: at least one.
         free: (L, G) the features that may move; None: all.
-        l2: strength of the penalty on the distance from `prior`, one for all or (L, G).
+        l2: strength of the penalty on the distance from `prior`.
         prior: (P, L, G) weights that cost nothing.
     """
 
@@ -108,11 +108,12 @@ class Likelihood:
         factor: LogLinearFactor,
         *,
         free: Bools | None,
-        l2: float | Floats,
+        l2: float,
         prior: Floats,
     ) -> None:
         from scipy.sparse import csr_array  # here: only who teaches needs it
 
+        self._l2 = l2
         rows = _Rows()
         noun, term = self._gather(choices, rows)
         languages, groundings = features.shape
@@ -141,7 +142,6 @@ class Likelihood:
         self._asserted = factor.correspondences.index(Correspondence.ACTIVE)
         self._denied = factor.correspondences.index(Correspondence.INACTIVE)
         self.start: Floats = (weight[self._asserted] - weight[self._denied])[self.free]
-        self._l2: Floats = np.broadcast_to(l2, self.free.shape)[self.free]
         self._centre: Floats = (prior[self._asserted] - prior[self._denied])[self.free]
 
     def _gather(self, choices: Sequence[Choice], rows: _Rows) -> tuple[Ints, Ints]:
@@ -198,37 +198,9 @@ class Likelihood:
         slope += np.bincount(self._term, of_term, minlength=len(moved))
         gradient = (self._back @ (self._rows.T @ slope).reshape(self._shape))[self.free]
         distance = at - self._centre
-        value += 0.25 * float(self._l2 * distance @ distance)
+        value += 0.25 * self._l2 * float(distance @ distance)
         gradient += 0.5 * self._l2 * distance
         return solvers.Point(at, value, gradient, float(np.abs(gradient).max(initial=0.0)), np.zeros(0))
-
-    def information(self) -> Floats:
-        """(L, G) how sharply the choices settle each difference of weights where it is, the others being held.
-
-        The diagonal of the Gauss-Newton matrix: the variance, over what may be meant, of the score's derivative.
-        """
-        from scipy.sparse import csr_array
-
-        table = np.stack(self._fixed)
-        table -= np.logaddexp.reduce(table, axis=0)
-        mean = self._signs @ np.exp(table)
-        said, kept = self._modifiers(table)
-        score = table[self._asserted, self._noun] - table[self._denied, self._noun] + said
-        most = np.maximum.reduceat(score, self._begin)
-        odds = np.exp(score - most[self._choice])
-        chance = odds / np.add.reduceat(odds, self._begin)[self._choice]
-        sign = np.where(self._is_denied, self._signs[self._denied], self._signs[self._asserted])
-        moves = kept * (sign - mean[self._term])
-        n, terms = len(self._noun), self._candidate[self._slot] if len(self._slot) else self._slot
-        at, of = np.concatenate([np.arange(n), terms]), np.concatenate([self._noun, self._term])
-        by_row = csr_array((np.concatenate([np.ones(n), moves]), (at, of)), shape=(n, self._rows.shape[0]))
-        slope = csr_array(by_row @ self._rows)
-        to_choice = csr_array((chance * self._weight[self._choice], (self._choice, np.arange(n))))
-        mean_slope = csr_array((chance, (self._choice, np.arange(n)))) @ slope
-        square = (to_choice @ slope.multiply(slope)).sum(axis=0)
-        square -= mean_slope.multiply(mean_slope).multiply(self._weight[:, None]).sum(axis=0)
-        found: Floats = self._back @ np.asarray(square).reshape(self._shape)
-        return np.where(self.free, np.maximum(found, 0.0), 0.0)
 
     def _modifiers(self, table: Floats) -> tuple[Floats, Floats]:
         """(N,) what all modifiers say of a candidate, and (S,) the share of each term in it."""
@@ -274,7 +246,7 @@ def fit_choices(
     features: FeatureSet,
     *,
     free: Bools | None,
-    l2: float | Floats,
+    l2: float,
     prior: Floats,
     tolerance: float = 1e-3,
     max_steps: int = 60,

@@ -37,14 +37,11 @@ from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
-CORPUS_L2 = 1.0
+CORPUS_L2 = 4.0
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
 _ON_THE_WAY, _SETTLED = 30, 60
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
 landmarks move it anyway."""
-
-
-def L2(model): return CORPUS_L2
 
 
 Progress = Callable[[int], None]
@@ -120,7 +117,7 @@ def teach_corpus(
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
-    fired = _fit(model, parts, (), free=None, l2=L2(model), rounds=rounds, progress=progress)
+    fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
     model.held |= fired | firing(paths, model.features.shape)
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     _hear(model, parts)
@@ -132,7 +129,7 @@ def _fit(
     always: Sequence[Choice],
     *,
     free: NDArray[np.bool_] | None,
-    l2: float | NDArray[np.float64],
+    l2: float,
     rounds: int,
     progress: Progress | None,
 ) -> NDArray[np.bool_]:
