@@ -240,7 +240,6 @@ class Beliefs:
         table, new = self.posterior.table, self.posterior.new
         return (1.0 - slip) * table + slip / SPREAD * (1.0 - table), (1.0 - slip) * new + slip / SPREAD * (1.0 - new)
 
-
     def akin(self, word: str, type_: str) -> float:
         """How readily a word is said of a type because what it names is called alike, where that itself is not there.
 
