@@ -25,7 +25,7 @@ from dcg_torch.grounding.written import Mask, constant_of, differences, offset_o
 
 _SOME_ENTRIES = 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out."""
-_NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
+_NEWTON_COLUMNS, _NEWTON_WORK = 400, 3e8
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
 
 
