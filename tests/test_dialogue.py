@@ -220,6 +220,16 @@ def test_what_is_not_there_is_said_and_teaches_nothing(laboratory: Session) -> N
     assert laboratory.words() == {}
 
 
+@pytest.mark.parametrize("word", ["pallet", "cube"])
+def test_a_lesson_that_changes_a_meaning_says_so(laboratory: Session, word: str) -> None:
+    if word == "pallet":  # "cube" it knows from the start
+        assert "I will remember that." in spoken(laboratory.say("this is a pallet", pointing_at="cube"))
+    before = "cube"
+    changed = spoken(laboratory.say(f"this is a {word}", pointing_at="cone"))
+    assert any(f'Until now I took "{word}" for what my camera calls "{before}"' in line for line in changed), changed
+    assert "I will remember that." in spoken(laboratory.say(f"this is a {word}", pointing_at="cone"))
+
+
 def test_the_unclear_thing_of_a_lesson_is_asked_for(laboratory: Session) -> None:
     asked = next(e for e in laboratory.say("the thing behind you is called a wug") if isinstance(e, Asked))
     assert set(asked.candidates) == {"cube", "crate"}

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from dcg_torch.dialogue.events import Candidates, Event, Moved
-from dcg_torch.dialogue.file import Input, SessionError
-from dcg_torch.dialogue.session import Session, standing_at, with_stops
+from dcg_torch.dialogue.file import Input, SessionError, with_stops
+from dcg_torch.dialogue.session import Session, standing_at
 from dcg_torch.dialogue.situation import Errand
 from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand
 from dcg_torch.storage.records import Iteration, ObjectRecord, PoseRecord

@@ -6,6 +6,7 @@ import fcntl
 import hashlib
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
@@ -79,6 +80,14 @@ def model_hash(folder: Path | None) -> str:
         except OSError as error:
             raise SessionError(f"model: {explain_os_error(error)}") from None
     return found.hexdigest()
+
+
+def checked_model(header: Header, file: Path) -> Header:
+    """See that the model is the one that the session began with."""
+    if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
+        where = header.model or "the shipped model"
+        raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")
+    return header
 
 
 class SessionFile:
@@ -156,6 +165,17 @@ def read_session(path: Path) -> tuple[Header, tuple[Input, ...]]:
         raise SessionError(f"{path}: holds no session; make a new one")
     header = _parsed(path, 1, lines[0], Header)
     return header, tuple(_parsed(path, number, line, Input) for number, line in enumerate(lines[1:], start=2))
+
+
+def with_stops(inputs: Sequence[Input]) -> list[tuple[Input, int | None]]:
+    """The inputs, each with the number of the event after which it was stopped."""
+    found: list[tuple[Input, int | None]] = []
+    for line in inputs:
+        if line.stop is None:
+            found.append((line, None))
+        elif found:
+            found[-1] = (found[-1][0], line.stop)
+    return found
 
 
 _T = TypeVar("_T", bound=BaseModel)

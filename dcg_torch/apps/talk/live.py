@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
-from dataclasses import dataclass, field
 from typing import Any
 
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -14,53 +13,46 @@ PATH = "/live"
 _KIND: dict[type, str] = {str: "text", bytes: "bytes"}
 
 
-@dataclass(eq=False)
-class _Visitor:
-    """What a visitor has not been sent yet: of each kind the newest, so that a slow connection skips what is old."""
-
-    pending: dict[str, str | bytes]
-    wake: asyncio.Event = field(default_factory=asyncio.Event)
-
-
 class Live:
-    """The newest message of each kind, and who is to have it. For the event loop."""
+    """The newest message of each kind; a slow connection skips what is old. For the event loop.
+
+    Attributes:
+        visitors: how many are there.
+    """
 
     def __init__(self) -> None:
+        self.visitors = 0
         self._newest: dict[str, str | bytes] = {}
-        self._visitors: set[_Visitor] = set()
-
-    def __bool__(self) -> bool:
-        """Is anybody there?"""
-        return bool(self._visitors)
+        self._news = asyncio.Event()  # another one after each
 
     def send(self, **news: Any) -> None:
         """Values by their names, as JSON; bytes as they are."""
-        for name, value in news.items():
-            message = value if isinstance(value, bytes) else json.dumps({name: value})
-            if self._newest.get(name) == message:
-                continue
-            self._newest[name] = message
-            for visitor in self._visitors:
-                visitor.pending[name] = message
-                visitor.wake.set()
+        messages = {k: v if isinstance(v, bytes) else json.dumps({k: v}) for k, v in news.items()}
+        messages = {name: message for name, message in messages.items() if self._newest.get(name) != message}
+        if messages:
+            self._newest.update(messages)
+            self._wake()
+
+    def _wake(self) -> None:
+        self._news.set()
+        self._news = asyncio.Event()
 
     async def serve(self, socket: WebSocket) -> None:
         """Serve a visitor until they go: all that there is, and then what is new."""
         await socket.accept()
-        visitor = _Visitor(dict(self._newest))
-        visitor.wake.set()
-        self._visitors.add(visitor)
         leaving = asyncio.create_task(socket.receive())
-        leaving.add_done_callback(lambda _: visitor.wake.set())
+        leaving.add_done_callback(lambda _: self._wake())
+        sent: dict[str, str | bytes] = {}
+        self.visitors += 1
         try:
             with contextlib.suppress(WebSocketDisconnect):
                 while not leaving.done():
-                    messages, visitor.pending = visitor.pending, {}
-                    for message in messages.values():
-                        await socket.send({"type": "websocket.send", _KIND[type(message)]: message})
-                    visitor.wake.clear()
-                    if not visitor.pending and not leaving.done():
-                        await visitor.wake.wait()
+                    news = self._news
+                    for name, message in tuple(self._newest.items()):
+                        if sent.get(name) is not message:
+                            sent[name] = message
+                            await socket.send({"type": "websocket.send", _KIND[type(message)]: message})
+                    await news.wait()
         finally:
-            self._visitors.discard(visitor)
+            self.visitors -= 1
             leaving.cancel()

@@ -12,7 +12,7 @@ from xml.etree import ElementTree
 import numpy as np
 
 import dcg_torch.simulator
-from dcg_torch.simulator.bodies import Model, Part, extent, footprint, registered, rgb
+from dcg_torch.simulator.bodies import Model, Part, registered, rgb
 from dcg_torch.simulator.bodies.colors import RGB
 from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
@@ -38,16 +38,14 @@ def robot_looks() -> str:
     return json.dumps([*_parts(_robot(), (0.5, 0.5, 0.5)), _part(mesh, (0.31, 0.56, 1.0), 0.28)])
 
 
-@functools.lru_cache(maxsize=512)
 def radius_of(type_: str) -> float:
     """Metres of the floor that an object of this type takes, from its foot."""
-    return footprint(type_) if type_ in registered() else _STAND_IN / math.sqrt(2)
+    return _model(type_).radius
 
 
-@functools.lru_cache(maxsize=512)
 def height_of(type_: str) -> float:
     """Metres that an object of this type stands tall."""
-    return extent(type_)[2] if type_ in registered() else _STAND_IN
+    return float(_model(type_).bounds[1][2])
 
 
 def _color(name: str) -> RGB:
@@ -57,10 +55,9 @@ def _color(name: str) -> RGB:
         return (0.6, 0.6, 0.6)
 
 
+@functools.lru_cache(maxsize=512)
 def _model(type_: str) -> Model:
-    if type_ in registered():
-        return model(type_)
-    return Model((Part(box(_STAND_IN, _STAND_IN, _STAND_IN)),))
+    return model(type_) if type_ in registered() else Model((Part(box(_STAND_IN, _STAND_IN, _STAND_IN)),))
 
 
 def _parts(looks: Model, color: RGB) -> list[dict[str, Any]]:

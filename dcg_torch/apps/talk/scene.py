@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from pathlib import Path
-from urllib.parse import quote
+from urllib.parse import urlencode
 
 from nicegui import ui
 from nicegui.elements.scene import Object3D
@@ -29,7 +29,7 @@ class _Live(ui.element, component=Path(__file__).with_name("live.js")):
 
 def url_of(type_: str, color: str) -> str:
     """Where the page gets the looks of an object."""
-    return f"{BODIES}/{quote(type_, safe='')}/{quote(color, safe='')}.json"
+    return f"{BODIES}?{urlencode({'type': type_, 'color': color})}"
 
 
 class WorldView:
@@ -59,7 +59,7 @@ class WorldView:
         self._scene.classes("world").props('role=img aria-label="The world in 3-D; Objects lists what is in it"')
         with self._scene:
             _Body(None)
-            _Body(f"{BODIES}/robot.json").with_name(_ROBOT)
+            _Body(BODIES).with_name(_ROBOT)
 
     def camera(self) -> None:
         """Make the picture of the robot's camera here."""

@@ -12,11 +12,10 @@ import warnings
 import webbrowser
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
-from urllib.parse import unquote
 
 import uvicorn
 from fastapi import FastAPI, Response, WebSocket
-from nicegui import Client, ui
+from nicegui import ui
 
 from dcg_torch.apps.talk.gate import LOOPBACK, Gate
 from dcg_torch.apps.talk.host import Host
@@ -26,16 +25,14 @@ from dcg_torch.apps.talk.page import CSS, Page
 from dcg_torch.apps.talk.scene import BODIES
 from dcg_torch.storage.errors import UserError
 
-_KEEP = {"Cache-Control": "public, max-age=3600"}
 _TITLE = "Talk to the robot"
-_NO_CARD = """{
+_NO_CARD = """<script>{
   const own = HTMLCanvasElement.prototype.getContext, probe = own.call(document.createElement("canvas"), "webgl");
   const name = probe?.getExtension("WEBGL_debug_renderer_info")?.UNMASKED_RENDERER_WEBGL ?? probe?.RENDERER;
+  const plain = function (kind, options) { return own.call(this, kind, { ...options, antialias: false }); };
   if (probe && /swiftshader|llvmpipe|software|basic render/i.test(probe.getParameter(name)))
-    HTMLCanvasElement.prototype.getContext = function (kind, options) {
-      return own.call(this, kind, { ...options, antialias: false });
-    };
-}"""
+    HTMLCanvasElement.prototype.getContext = plain;
+}</script>"""
 """Where no graphics card draws, smooth edges would take half of the time."""
 
 
@@ -96,14 +93,9 @@ def serve(host: Host, address: Address, *, show: bool) -> None:
     )
     # what a browser asks for by itself, as its own icons, is no news
     logging.getLogger("nicegui").addFilter(lambda record: not record.getMessage().endswith(" not found"))
-    config = uvicorn.Config(
-        Gate(app, address.token),
-        log_level="warning",
-        lifespan="on",
-        ws_ping_interval=20.0,
-        ws_per_message_deflate=False,  # it takes longer than the short messages
-    )
-    server = uvicorn.Server(config)
+    gate = Gate(app, address.token)
+    # messages are short: to compress them takes longer
+    server = uvicorn.Server(uvicorn.Config(gate, log_level="warning", lifespan="on", ws_per_message_deflate=False))
     with warnings.catch_warnings():  # NiceGUI touches every object there is as it starts
         warnings.simplefilter("ignore", FutureWarning)
         server.run(sockets=[listening])
@@ -115,19 +107,16 @@ def add_routes(app: FastAPI, host: Host) -> None:
     """The page, and the looks of what is in its scene."""
 
     @ui.page("/")
-    def talk(client: Client) -> None:
+    def talk() -> None:
         ui.add_css(CSS)
-        ui.add_head_html(f"<script>{_NO_CARD}</script>")
+        ui.add_head_html(_NO_CARD)
         ui.colors(primary="#1d4ed8")
-        Page(host, client)
+        Page(host)
 
-    @app.get(BODIES + "/robot.json")
-    def robot() -> Response:
-        return Response(robot_looks(), media_type="application/json", headers=_KEEP)
-
-    @app.get(BODIES + "/{type_}/{color}.json")
-    def body(type_: str, color: str) -> Response:
-        return Response(object_looks(unquote(type_), unquote(color)), media_type="application/json", headers=_KEEP)
+    @app.get(BODIES)
+    def body(type: str = "", color: str = "") -> Response:
+        looks = object_looks(type, color) if type else robot_looks()
+        return Response(looks, media_type="application/json", headers={"Cache-Control": "public, max-age=3600"})
 
     @app.websocket(PATH)
     async def live(socket: WebSocket) -> None:
@@ -144,15 +133,11 @@ async def _begin(host: Host, failed: list[Exception], server: uvicorn.Server) ->
 
 def _listen(address: Address) -> socket.socket:
     """The socket, listening already, so that whoever reads the address may open it at once."""
+    family = socket.AF_INET6 if ":" in address.host else socket.AF_INET
     try:
-        found = socket.getaddrinfo(address.host, address.port, type=socket.SOCK_STREAM)
-        family, kind, protocol, _, place = found[0]
-        listening = socket.socket(family, kind, protocol)
-        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listening.bind(place)
-        listening.listen(128)
-    except OSError as error:
+        return socket.create_server((address.host, address.port), family=family)
+    except (OSError, OverflowError) as error:
+        why = getattr(error, "strerror", None) or error
         raise UserError(
-            f"host={address.host} port={address.port}: {error.strerror or error}; give another, port=0 takes a free one"
+            f"host={address.host} port={address.port}: {why}; give another, port=0 takes a free one"
         ) from None
-    return listening
