@@ -23,7 +23,7 @@ reproduce: $(VENV)/installed ## Run the paper's experiment (written, then canoni
 	@echo "pictures: runs/paper/figures, runs/paper_canonical/figures, runs/ablation/comparison.png; curves: make board"
 
 test: $(VENV)/installed-dev ## Run the tests, the fast ones first
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n logical --maxprocesses 4 --dist loadgroup
 
 torture: $(VENV)/installed-dev ## Kills, full disks, hostile files, a soak: up to half an hour
 	$(BIN)/python tests/torture

@@ -61,6 +61,8 @@ def test_what_is_not_there_is_not_meant(model: GroundingModel, text: str, things
         ("take the lamp", ["desk", "FloorLamp"], {"1"}),  # the head
         ("take the thing on the right", ["lamp", "sofa", "desk"], {"2"}),  # names nothing
         ("take the red one", ["red lamp", "green sofa"], {"0"}),
+        ("take the red piece", ["red lamp", "green sofa"], {"0"}),
+        ("take the sky blue ball", ["cyan ball", "green ball"], {"0"}),  # people exchange some names of colours
         ("take the leftmost ball", ["red ball", "green ball", "blue ball"], {"0"}),
         ("take the balls", ["red ball", "green ball", "blue cube"], {"0", "1"}),
     ],

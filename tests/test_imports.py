@@ -49,6 +49,8 @@ ONLY = {
     "nav_msgs": {"apps.ros"},
     "visualization_msgs": {"apps.ros"},
     "sklearn": {"evaluation.baselines", "bench"},
+    "glum": {"bench.peers"},
+    "pycrfsuite": {"bench.peers"},
     "fastapi": {"apps.collect.page", "apps.talk.server"},
     "starlette": {"apps.collect.page", "apps.talk.gate", "apps.talk.live"},
     "jinja2": {"apps.collect.page"},

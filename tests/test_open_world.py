@@ -18,8 +18,9 @@ from dcg_torch.agent.explore import LookBefore, Worth
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.learning.beliefs import Beliefs
+from dcg_torch.learning.census import Census
 from dcg_torch.learning.lexicon import lexicon_table, load_lexicon, save_lexicon
-from dcg_torch.learning.word_posterior import Assumptions, Census, WordPosterior
+from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.lessons import initial_training
 from dcg_torch.model import Experience, GroundingModel, Variant
 from dcg_torch.model.checkpoint import load, save
@@ -95,8 +96,8 @@ def fresh() -> GroundingModel:
 
 
 @pytest.fixture
-def model() -> GroundingModel:
-    return open_world()
+def model(fresh: GroundingModel) -> GroundingModel:
+    return copy.deepcopy(fresh)
 
 
 def test_the_model_says_what_the_posterior_says(model: GroundingModel) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import json
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,6 +23,7 @@ from dcg_torch.cli.application import one_line_errors, run_application
 from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
 from dcg_torch.evaluation.baselines import make_baseline, run_baseline
+from dcg_torch.evaluation.baselines.base import Baseline
 from dcg_torch.evaluation.baselines.run import Outcome
 from dcg_torch.evaluation.certify import certify
 from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds, unused_note
@@ -116,12 +117,15 @@ def _baselines(settings: EvaluateSettings, splits: Sequence[Split], console: Con
     found: dict[str, Any] = {}
     for name in settings.baseline:
         outcomes: list[Outcome] = []
+        certified: dict[str, Any] = {}
         for split in splits:
             baseline = make_baseline(name, _noun_phrase)
             taught = [e for episodes in split.train.values() for e in episodes]
             with Bar(name, sum(map(len, split.test.values())), console) as bar:
                 outcomes += run_baseline(baseline, taught, split.test, advance=bar.advance)
-        found[name] = {**of_all(outcomes), "by_file": by_file(outcomes)}
+            if settings.certify and split is splits[-1]:
+                certified = {"certify": _certified(split, _objects_of(baseline))}
+        found[name] = {**of_all(outcomes), "by_file": by_file(outcomes), **certified}
         console.print(f"{name}: {found[name]['accuracy']:.3f} right", markup=False)
     return found
 
@@ -133,15 +137,18 @@ def _noun_phrase(text: str) -> str:
 
 def _certify(model: GroundingModel, splits: Sequence[Split], console: Console) -> dict[str, Any]:
     """How often the answer follows a small change of the episode; by the model of the last split."""
-    test = [e for episodes in splits[-1].test.values() for e in episodes]
-
-    def answer(episode: Episode) -> tuple[str, ...]:
-        return next(iter(answers(model, [episode], default_parser().parse))).predicted
-
-    found = certify(answer, test)
+    found = _certified(splits[-1], lambda e: next(iter(answers(model, [e], default_parser().parse))).predicted)
     for kind, of in found.items():
         console.print(f"{kind}: {of['right']} of {of['n']} changes followed", markup=False)
     return found
+
+
+def _objects_of(baseline: Baseline) -> Callable[[Episode], tuple[str, ...]]:
+    return lambda episode: baseline.predict(episode).objects
+
+
+def _certified(split: Split, answer: Callable[[Episode], tuple[str, ...]]) -> dict[str, Any]:
+    return certify(answer, [e for episodes in split.test.values() for e in episodes])
 
 
 def _train(model: GroundingModel, split: Split, settings: EvaluateSettings, console: Console) -> float:

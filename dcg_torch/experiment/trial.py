@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 
 from dcg_torch.agent.asking import AskingPolicy, truthful
-from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, carry_out
+from dcg_torch.agent.command import Look, Outcome, Stopwatch, carry_out
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
+from dcg_torch.grounding.spoken import CommandParser
 from dcg_torch.model import GroundingModel
 from dcg_torch.report.seconds import PHASES
 from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing

@@ -17,8 +17,8 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.evidence import unheard_of
-from dcg_torch.names.vocabulary import ANYTHING, PLACE_WORDS
+from dcg_torch.names.evidence import is_generic, unheard_of
+from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
@@ -34,11 +34,14 @@ _NEW = 7.0
 def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> float | None:
     """The log-odds that nothing there is meant; None where that is not judged by names.
 
-    That is so before the robot has looked all round, of groups and places, and where nothing is there. What the speaker
-    has ruled out counts for nothing.
+    That is so before the robot has looked all round, of groups and places, where nothing is there, and where colours
+    are judged by looking, for then any noun may be a colour ("coffee"). What the speaker has ruled out counts for
+    nothing.
     """
     features, objects = encoder.features, encoder.world.objects
-    if not features.groups >= {Group.NAMES, Group.RELATION} or in_group(phrase) or phrase.noun in PLACE_WORDS:
+    if not features.groups >= {Group.NAMES, Group.RELATION} or phrase.look:
+        return None
+    if in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None
     meant = encoder.world.meant
     seen = np.array([not o.hypothetical and (meant is None or o.id in meant) for o in objects], dtype=np.bool_)
@@ -60,7 +63,7 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     Of what is seen: that is one whose class has the noun as its name, or one of a type that the noun is known to name.
     """
     objects = encoder.world.objects
-    if phrase.noun is None or phrase.noun in ANYTHING:
+    if phrase.noun is None or is_generic(phrase.noun):
         return np.zeros(len(objects))
     noun = Phrase(PhraseKind.NOUN, phrase.noun, noun=phrase.noun)
     odds = tables.log_odds(encoder, noun)
@@ -82,7 +85,7 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
 def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     """(objects,) how far the log-odds of the colour stay behind those of a thing of just that colour."""
     objects = encoder.world.objects
-    if phrase.color is None or phrase.look:
+    if phrase.color is None:
         return np.zeros(len(objects))
     color = Phrase(PhraseKind.NOUN, phrase.color, color=phrase.color)
     known = next((o.type for o in objects if o.known), None)

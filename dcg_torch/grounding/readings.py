@@ -1,4 +1,4 @@
-"""Several readings of one command: the world decides between them, and the factor graph sums over them."""
+"""Several readings of one command, in the frames of reference that it may have: the factor graph sums over them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,11 @@ from collections import defaultdict
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
+
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
@@ -45,6 +49,15 @@ class SharedSearch:
         """Upsilon, without groups."""
         return self._search.encoder.world
 
+    def ground(self, tree: ParseTree) -> Solution:
+        """Of one reading."""
+        if not self._search.encoder.related:
+            return self.solve(path_to_object(tree))
+        first, *others = (
+            self.solve(to_factor_tree(part, self.world), groups=speaks_of_groups(part)) for part in coordinated(tree)
+        )
+        return replace(first, further=tuple(others)) if others else first
+
     def solve(self, tree: ParseTree, *, groups: bool = False) -> Solution:
         """Of a tree of factors.
 
@@ -62,6 +75,34 @@ class SharedSearch:
             world = with_groups(encoder.world)
             self._grouped = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
         return self._grouped
+
+
+def sum_over_frames(
+    searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[tuple[ParseTree, float]]
+) -> Solution:
+    """The sum over the frames of reference, and over the readings in each.
+
+    Args:
+        searches: in the world as it is seen in each frame, with the log-probability of the frame; the robot's first.
+        readings: trees with their log-weights, the likeliest first.
+    """
+    found = [
+        [search.ground(from_the_other_side(tree) if search.world.viewer else tree) for tree, _ in readings]
+        for search, _ in searches
+    ]
+    weights = [[frame + of_reading for _, of_reading in readings] for _, frame in searches]
+    solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
+    if len(searches) == 1:
+        return solution
+    told = [
+        np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
+    ]
+    return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
+
+
+def _fit(solution: Solution) -> float:
+    """Logarithm of how well a reading describes what it describes best of all that is there."""
+    return math.log(max([1e-9, *(solution.fits[o.id] for o in solution.world.objects if not o.hypothetical)]))
 
 
 def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Solution:
@@ -82,10 +123,11 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     scores = [w + _sense(s) for w, s in zip(log_weights, solutions, strict=True)]
     most = max(scores)
     shares = [math.exp(s - most) for s in scores]
+    whole = sum(shares)
     total: defaultdict[str, float] = defaultdict(float)
     for share, solution in zip(shares, solutions, strict=True):
         for id_, p in solution.probabilities.items():
-            total[id_] += share * p / sum(shares)
+            total[id_] += share * p / whole
     meant = [s.object.id if s.object is not None else None for s in solutions]
     grounded = [k for k, id_ in enumerate(meant) if id_ is not None]
     if not grounded:

@@ -5,7 +5,7 @@ Conventions: K variables of each of Q differences, N rows, arrays (Q, K) and (Q,
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol, Self
@@ -139,17 +139,20 @@ class GridRows:
         return solve
 
 
+_FEW_ENTRIES = 200_000
+"""Variables in all rows up to which these are written out."""
+
+
 @dataclass(frozen=True)
 class SparseRows:
     """Rows that are sums of cells, and cells that are sums of variables: a cell is a phrase with a grounding column.
 
     Attributes:
-        rows: (N, cells) binary, CSR.
-        cells: (cells, K) binary, CSR.
+        factors: binary matrices, CSR, whose product says which variables each row has: (N, cells) and (cells, K), or
+            where that is small, the product itself.
     """
 
-    rows: csr_array
-    cells: csr_array
+    factors: tuple[csr_array, ...]
 
     @classmethod
     def of(cls, row_cells: tuple[Ints, Ints], cell_variables: tuple[Ints, Ints], shape: tuple[int, int, int]) -> Self:
@@ -161,17 +164,29 @@ class SparseRows:
             shape: N, cells, K.
         """
         (starts, cells), (cell_starts, variables) = row_cells, cell_variables
-        return cls(_ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:]))
+        factors = _ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:])
+        few = int(np.diff(cell_starts)[cells].sum()) <= _FEW_ENTRIES
+        return cls((factors[0] @ factors[1],) if few else factors)
+
+    @cached_property
+    def _back(self) -> tuple[csr_array, ...]:
+        return tuple(factor.T for factor in self.factors)
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        found: Floats = np.ascontiguousarray((self.rows @ (self.cells @ d.T)).T)
-        return found
+        return _applied(self.factors[::-1], d)
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        found: Floats = np.ascontiguousarray((self.cells.T @ (self.rows.T @ residual.T)).T)
-        return found
+        return _applied(self._back, residual)
+
+
+def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
+    """Each matrix in turn, to every row of values (Q, n)."""
+    found = values[0] if len(values) == 1 else values.T
+    for matrix in matrices:
+        found = matrix @ found
+    return found[None] if len(values) == 1 else np.ascontiguousarray(found.T)
 
 
 def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:

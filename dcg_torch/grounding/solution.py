@@ -117,6 +117,7 @@ class Solution:
         named: how well the noun phrase, without its modifiers, names what it names best of what is there: from 0 to 1.
         further: of the other noun phrases that the command joins to the first ("the cube and the cone").
         problem: why nothing was grounded, one sentence; None where something was.
+        speakers_frame: the probability that sides are the speaker's; None where they are the robot's as well.
     """
 
     tree: ParseTree | None
@@ -131,6 +132,7 @@ class Solution:
     named: float = 0.0
     further: tuple[Solution, ...] = ()
     problem: str | None = None
+    speakers_frame: float | None = None
 
     @property
     def object(self) -> Object | None:

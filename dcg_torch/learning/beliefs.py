@@ -35,6 +35,8 @@ UNMET = "(unmet)"
 """Stands for all types that no object met so far was of."""
 SPREAD = 10.0
 """Number of words among which a slip falls."""
+_AKIN = 0.1
+"""How readily a word is said of a type whose name means what the word's type is called."""
 _SOURCES = 8  # commands kept for each word, the ones that told most
 
 
@@ -237,6 +239,16 @@ class Beliefs:
         slip = self.prior.slip
         table, new = self.posterior.table, self.posterior.new
         return (1.0 - slip) * table + slip / SPREAD * (1.0 - table), (1.0 - slip) * new + slip / SPREAD * (1.0 - new)
+
+    def akin(self, word: str, type_: str) -> float:
+        """How readily a word is said of a type because what it names is called alike, where that itself is not there.
+
+        What one recogniser calls a laptop is a computer to another.
+        """
+        meaning, probability = self.posterior.best(word)
+        if UNMET in (meaning, type_) or meaning == type_ or meaning.startswith(OPAQUE) or type_.startswith(OPAQUE):
+            return 0.0
+        return _AKIN * probability / (1.0 + math.exp(-log_odds(meaning, type_)))
 
 
 def likelihoods(evidence: Evidence, slip: float) -> tuple[float, dict[str, float]]:

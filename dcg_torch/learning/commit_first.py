@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
+from dcg_torch.learning.census import FrameCounts
 from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
@@ -52,6 +53,11 @@ class CommitFirst:
         """None: a symbol is for ever."""
         return frozenset()
 
+    @property
+    def frames(self) -> None:
+        """The paper knows one frame of reference."""
+        return None
+
     def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[CommitFirst, Learned]:
         """T with the outcome of a command that was acted on, and its symbol if there is one to learn."""
         if experience.taught:
@@ -72,6 +78,10 @@ class CommitFirst:
         kept = [e for e in self.examples if e.phrase.noun != word]
         forgotten = replace(self, symbols=symbols)
         return replace(forgotten, examples=tuple(replace_unknown(kept, forgotten.known_types)))
+
+    def with_frames(self, frames: FrameCounts | None) -> CommitFirst:
+        """There is one frame of reference alone."""
+        return self
 
     def taught(self, taught: Taught) -> CommitFirst:
         """With a symbol for every noun of the lessons: for the type that it was said of most."""

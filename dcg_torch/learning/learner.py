@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
+from dcg_torch.learning.census import FrameCounts
 from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.types import Example, Symbol
@@ -81,6 +82,11 @@ class Learner(Protocol):
     def open_words(self) -> frozenset[str]:
         """The nouns and words for colours that were heard, and of which something is left to be learned."""
 
+    @property
+    def frames(self) -> FrameCounts | None:
+        """Whose left and right are meant; None where there is one frame of reference alone."""
+        ...
+
     def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[Learner, Learned]:
         """The learner after a command."""
 
@@ -89,6 +95,10 @@ class Learner(Protocol):
 
     def forget(self, word: str) -> Learner:
         """The learner without all that it heard of a noun."""
+
+    def with_frames(self, frames: FrameCounts | None) -> Learner:
+        """The learner with other counts of frames of reference."""
+        ...
 
     def taught(self, taught: Taught) -> Learner:
         """The learner after lessons whose objects were known."""

@@ -114,10 +114,12 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
     odds = np.vstack([known, np.broadcast_to(new[kept], (len(unheard), len(kept)))])
     shown = np.zeros(odds.shape, dtype=np.bool_)
     shown[:, :_MANY] = shown[:, -1] = True
-    if len(types) > _MANY:
-        place = {k: at for at, k in enumerate(kept)}
-        for k, of in enumerate(heard):
-            shown[k, [place[t] for t in of]] = True
+    place = {k: at for at, k in enumerate(kept)}
+    for k, ((_, word), of) in enumerate(zip(words, heard, strict=True)):
+        among = [place[t] for t in of]
+        shown[k, among] = True
+        if nouns.prior.names:
+            odds[k, among] = np.maximum(odds[k, among], [nouns.akin(word, types[t]) for t in of])
     phrases = [_phrase(word) for word in (*(word for _, word in words), *unheard)]
     yield _Odds(phrases, [_object(types[k]) for k in kept], odds, shown)
 

@@ -19,6 +19,8 @@ _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})
 _TAUGHT_GROUNDING = frozenset({"relation", "state", "part", "rank", "stack color", "group color"})
 _GIVEN = frozenset({"said name", "said kind", "said color", "said attribute", "said look"})
 """What names of classes say is known from the start."""
+_HANDLED = frozenset({"state: covered", "state: held"})
+"""Not that a thing is clear, which tells it from what is not there and says nothing about a hand."""
 _PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *GROUP_WORDS)}
 _OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group"}
 
@@ -33,15 +35,22 @@ def believed_mask(features: FeatureSet) -> Mask:
 def taught_mask(features: FeatureSet) -> Mask:
     """(L, G) what there is to be learned from generated lessons.
 
-    Not what a noun or an object of a verb is like by itself, nor how things stand in a context whatever the word: the
-    lessons' worlds are random, it would be chance.
+    Not what a noun is like by itself, nor how things stand in a context whatever the word: the lessons' worlds are
+    random, it would be chance. Of the object of a verb only whether a hand can take it, or holds it.
     """
     names = list(features.grounding)
     of_context = np.array([name in {"kind: placed", "kind: place", "kind: group"} for name in names])
     of_any = np.array([name in {"kind: place", "kind: group"} for name in names])
+    of_hand = of_context | np.array([name in _HANDLED for name in names])
     of_word = np.array([name.partition(":")[0] not in _GIVEN for name in names])
     rows = [
-        of_context if name.startswith(("context:", "landmark:")) else of_word if _is_taught_language(name) else of_any
+        of_hand
+        if name.startswith("context: object")
+        else of_context
+        if name.startswith(("context:", "landmark:"))
+        else of_word
+        if _is_taught_language(name)
+        else of_any
         for name in features.language
     ]
     return np.array(rows, dtype=np.bool_).reshape(features.shape)

@@ -23,6 +23,7 @@ from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence, Prior
+from dcg_torch.learning.census import Census, FrameCounts
 from dcg_torch.learning.evidence import Attribute, Ground, WordEvidence, evidence
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry, lexicon
@@ -40,42 +41,6 @@ _AGREEING, _AGREED = 3, 0.8
 """A word of the lessons is settled by as many that agree, if they are this share of all that had it ..."""
 _MANY = 8
 """... or by as many, whatever they say: its weights then follow from them, be they about several types."""
-
-
-@dataclass(frozen=True, slots=True)
-class Census:
-    """How many objects there are in a world that was looked at all round.
-
-    Attributes:
-        objects, cells: objects found, and pairs of type and colour that were looked for.
-        again, found: objects found of a type and colour of which one was there already, and all that were found.
-
-    The defaults are what is assumed before the first world, and give way to what is counted.
-    """
-
-    objects: float = 1.5
-    cells: float = 10.0
-    again: float = 0.25
-    found: float = 10.0
-
-    def __post_init__(self) -> None:
-        if not all(0.0 <= n < math.inf for n in (self.objects, self.again)) or not self.cells * self.found > 0.0:
-            raise ValueError("census: what is counted is not negative, and cells and found are positive")
-
-    @property
-    def rate(self) -> float:
-        """Expected objects of one type and colour."""
-        return self.objects / self.cells
-
-    @property
-    def repeats(self) -> float:
-        """Expected further objects of a type and colour of which one is there."""
-        return self.again / self.found
-
-    def count(self, seen: Collection[Object], cells: int) -> Census:
-        """With one more world."""
-        n, repeated = len(seen), len(seen) - len({(o.type, o.color) for o in seen})
-        return Census(self.objects + n, self.cells + cells, self.again + repeated, self.found + n)
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,14 +76,16 @@ class WordPosterior:
         census: how many objects there are.
         examples: of verbs and prepositions, which are taught once.
         fixed: nouns and words for colours whose weights lessons have taught, so that they follow from no posterior.
+        frames: whose left and right speakers mean.
     """
 
     nouns: Beliefs
     colors: Beliefs
     assumed: Assumptions = Assumptions()
-    census: Census = Census()
+    census: Census = field(default_factory=Census)
     examples: tuple[Example, ...] = ()
     fixed: frozenset[str] = frozenset()
+    frames: FrameCounts = field(default_factory=FrameCounts)
 
     @classmethod
     def start(cls, training: TrainingSet, assumed: Assumptions | None = None) -> WordPosterior:
@@ -168,6 +135,7 @@ class WordPosterior:
                 heard = replace(heard, nouns=heard.nouns.weigh(told))
             else:
                 heard = replace(heard, colors=heard.colors.weigh(told))
+        heard = replace(heard, frames=self.frames.count(solution.speakers_frame))
         if experience.taught:
             return heard, Learned(reason="a lesson says what it teaches")
         noun = solution.noun
@@ -229,6 +197,10 @@ class WordPosterior:
     def forget(self, word: str) -> WordPosterior:
         """As if a noun had never been heard."""
         return replace(self, nouns=self.nouns.forget(word))
+
+    def with_frames(self, frames: FrameCounts | None) -> WordPosterior:
+        """With other counts of frames of reference."""
+        return self if frames is None else replace(self, frames=frames)
 
     def taught(self, taught: Taught) -> WordPosterior:
         """With the words of lessons. One that few lessons had is not settled: it is heard, as in a command."""

@@ -22,9 +22,9 @@ KINDS = ("cube", "sphere", "cylinder")
 COLORS = ("red", "green", "blue")
 _NUMBERS = {3: "three", 4: "four", 5: "five", 6: "six"}
 _ORDINALS = ("first", "second", "third", "fourth")
-_TABLE = Workspace((0.0, 7.0, 0.0, 7.0))
+TABLE = Workspace((0.0, 7.0, 0.0, 7.0))
 """Eight by eight fields of a metre; the robot stands two metres before the middle of the near edge."""
-_SEAT = Pose(-2.0, 3.5)
+SEAT = Pose(-2.0, 3.5)
 
 Told = tuple[str, frozenset[str]]
 """A command, and the ids of what it means."""
@@ -135,7 +135,7 @@ def table_scene(rng: np.random.Generator) -> Scene:
             kind = str(rng.choice(KINDS[:2])) if z else "cube"
             objects.append(Percept(f"o{len(objects)}", kind, str(rng.choice(COLORS)), (float(x), float(y), float(z))))
     said = [told for o in objects for told in _about(o, objects)]
-    return Scene(tuple(objects), _SEAT, _TABLE, tuple(said))
+    return Scene(tuple(objects), SEAT, TABLE, tuple(said))
 
 
 def _about(one: Percept, objects: Sequence[Percept]) -> Iterator[Told]:

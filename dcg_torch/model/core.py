@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.encode import WorldEncoder, encode
-from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
+from dcg_torch.grounding.frames import views
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over
+from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over_frames
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
@@ -145,7 +145,7 @@ class GroundingModel:
             speaker=speaker,
             unseen=frozenset({LOOKED_ROUND} if looked and Group.OPEN in self.variant.groups else ()),
         )
-        return with_places(world, workspace) if Group.RELATION in self.variant.groups else world
+        return with_places(world, workspace) if self._related else world
 
     def ground(self, command: str | ParseTree | ReadCommand, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11).
@@ -155,31 +155,30 @@ class GroundingModel:
             world: of `world_model`.
         """
         world = with_known(world, self.known_types)
-        search = SharedSearch(WorldEncoder(self.features, world), self.factor, self.variant.beam)
         if isinstance(command, ParseTree):
-            return self._ground(command, search)
+            return self._search(world).ground(command)
         if isinstance(command, str):
             from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
             command = parse_command(command, self.symbols.keys())
         if not hasattr(command, "readings"):
             raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
-        readings = command.readings if Group.RELATION in self.variant.groups else command.readings[:1]
+        readings = command.readings if self._related else command.readings[:1]
         if not readings:
             return Solution(None, world, problem=command.problem)
         kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
         trees = [looking(r.tree, command.text, world) for r in kept]
-        return sum_over([self._ground(tree, search) for tree in trees], [r.log_weight for r in kept])
+        frames = self.learner.frames if self._related else None
+        seen = views(command.text, world, None if frames is None else frames.speakers)
+        weighted = [(tree, r.log_weight) for tree, r in zip(trees, kept, strict=True)]
+        return sum_over_frames([(self._search(view), frame) for view, frame in seen], weighted)
 
-    def _ground(self, tree: ParseTree, search: SharedSearch) -> Solution:
-        """Of one reading."""
-        if Group.RELATION not in self.variant.groups:
-            return search.solve(path_to_object(tree))
-        first, *others = (
-            search.solve(to_factor_tree(part, search.world), groups=speaks_of_groups(part))
-            for part in coordinated(tree)
-        )
-        return replace(first, further=tuple(others)) if others else first
+    @property
+    def _related(self) -> bool:
+        return Group.RELATION in self.variant.groups
+
+    def _search(self, world: WorldModel) -> SharedSearch:
+        return SharedSearch(WorldEncoder(self.features, world), self.factor, self.variant.beam)
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""

@@ -114,7 +114,7 @@ def color_evidence(word: str, name: str) -> tuple[str, ...]:
     if normalise(word) == normalise(name):
         return ("color: equal",)
     said, named = _color_name(word), _color_name(name)
-    if said == named:
+    if said == named or frozenset((said, named)) in color_words().exchanged:
         return ("color: alike",)
     shades = [_shade(one) for one in (said, named)]
     if said.split(" ")[-1] == named.split(" ")[-1]:

@@ -176,6 +176,11 @@ def _relation(noun: str, name: str) -> str:
     return "sibling" if said.direct & named.direct else "apart"
 
 
+def is_generic(noun: str) -> bool:
+    """May it be said of whatever there is: "thing", "piece"?"""
+    return _name(noun).text in _everyday().generic
+
+
 def unheard_of(noun: str) -> bool:
     """Is it one word that neither WordNet nor this project's list knows?"""
     name = _name(noun)

@@ -77,6 +77,7 @@ class ColorWords:
 
     basic: frozenset[str]
     alike: dict[str, str]
+    exchanged: frozenset[frozenset[str]]
     axes: dict[str, dict[str, float]]
     signs: dict[str, tuple[str, ...]]
 
@@ -86,7 +87,8 @@ def color_words() -> ColorWords:
     """What the data file says, read at the first call."""
     data = read_data("colors.yaml")
     signs = {key: tuple(map(str, data[key])) for key in ("not", "more", "less", "until")}
-    return ColorWords(frozenset(data["basic"]), data["alike"], data["axes"], signs)
+    exchanged = frozenset(frozenset(map(str, pair)) for pair in data["exchanged"])
+    return ColorWords(frozenset(data["basic"]), data["alike"], exchanged, data["axes"], signs)
 
 
 @functools.lru_cache(maxsize=4096)

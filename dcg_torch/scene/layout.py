@@ -1,7 +1,8 @@
 """A world's things as arrays, seen from the robot: what all features of space are computed from.
 
-The robot's frame: x away from it, y to its left, z up, lengths in units of the world (`WorldModel.unit`). A world
-without a robot pose is seen along its own axes. What has no position (a hypothetical object) is NaN.
+The robot's frame: x away from it, y to its left, z up, lengths in units of the world (`WorldModel.unit`). Where the
+world has another viewer it is that one's. A world without a robot pose is seen along its own axes. What has no position
+(a hypothetical object) is NaN.
 """
 
 from __future__ import annotations
@@ -35,6 +36,8 @@ GROUND = "ground"
 """Type of the place that everything stands on."""
 HEADINGS = {"far side": (1.0, 0.0), "near side": (-1.0, 0.0), "left side": (0.0, 1.0), "right side": (0.0, -1.0)}
 """Attribute of a place -> where that side is, in the frame of who looks."""
+OF_ROBOT, OF_SPEAKER = "of robot", "of speaker"
+"""Attributes of the sides of somebody."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,7 @@ class Layout:
         direction, ground, edge: (n,) which places have relations of their own.
         members: number of a group -> the numbers of its members.
         middle: (2,) the middle of the objects.
+        robot: (2,) where the robot is.
         speaker: (2,) where the speaker is, or None.
     """
 
@@ -65,6 +69,7 @@ class Layout:
     edge: Bools
     members: dict[int, Ints]
     middle: Floats
+    robot: Floats
     speaker: Floats | None
 
     @functools.cached_property
@@ -131,10 +136,11 @@ def layout(world: WorldModel) -> Layout:
     """The arrays of a world's things."""
     things = world.things
     n, robot = len(things), world.robot or Pose(0.0, 0.0)
+    viewer = world.viewer or robot
     objects, placed = len(world.objects), n - len(world.places)
     position = np.array([_NOWHERE if o.position is None else o.position for o in things], dtype=np.float64)
     position = position.reshape(n, 3)
-    position[:, :2] = to_robot_frame(robot, position[:, :2])
+    position[:, :2] = to_robot_frame(viewer, position[:, :2])
     position /= world.unit
     half = np.zeros((n, 2))
     for j in range(placed, n):
@@ -153,9 +159,10 @@ def layout(world: WorldModel) -> Layout:
         direction[j], ground[j], edge[j] = type_ == DIRECTION, type_ == GROUND, type_ in ("edge", "corner")
     speaker = None
     if world.speaker is not None:
-        speaker = to_robot_frame(robot, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
-    heading = _headings(things, position, middle)
-    return Layout(things, position, half, heading, group, place, direction, ground, edge, members, middle, speaker)
+        speaker = to_robot_frame(viewer, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
+    own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
+    heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
+    return Layout(things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker)
 
 
 _NOWHERE = (math.nan,) * 3
@@ -176,15 +183,19 @@ def _middle(seen: Floats) -> Floats:
     return np.nanmean(seen, axis=0) if there.any() else np.zeros(2)
 
 
-def _headings(things: tuple[Object, ...], position: Floats, middle: Floats) -> Floats:
-    """Where the side of each place is; the speaker is taken to look at the middle of the objects."""
+def _headings(things: tuple[Object, ...], position: Floats, middle: Floats, turned: float | None) -> Floats:
+    """Where the side of each place is; the speaker is taken to look at the middle of the objects.
+
+    Args:
+        turned: the angle from where another viewer looks to where the robot does; None: the robot is the viewer.
+    """
     out = np.full((len(things), 2), math.nan)
     for j, thing in enumerate(things):
         if not thing.attributes or (side := _side(thing.attributes)) is None:
             continue
         x, y = side
-        if "of speaker" in thing.attributes:
-            view = middle - position[j, :2]
+        if OF_SPEAKER in thing.attributes:
+            view = middle - position[j, :2] if turned is None else np.array([math.cos(turned), math.sin(turned)])
             ahead = view / max(float(np.hypot(*view)), TIE)
             out[j] = x * ahead + y * np.array([-ahead[1], ahead[0]])
         else:

@@ -10,9 +10,6 @@ from typing import Any
 
 from dcg_torch.types import Percept
 
-_TAKEN = "hypothetical "
-"""How the ids of hypothetical objects begin."""
-
 
 def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
     """The percepts; lists of numbers become tuples, attributes a frozen set.
@@ -23,8 +20,8 @@ def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
     ids: set[str] = set()
     for percept in percepts:
         id_ = percept.id
-        if not isinstance(id_, str) or id_.startswith(_TAKEN):
-            raise ValueError(f"percept {id_!r:.80}: an id is text that does not begin with {_TAKEN!r}")
+        if not isinstance(id_, str):
+            raise ValueError(f"percept {id_!r:.80}: an id is a text")
         if id_ in ids:
             raise ValueError(f"percept {id_!r:.80}: two objects have this id; give each its own")
         ids.add(id_)

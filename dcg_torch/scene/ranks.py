@@ -113,7 +113,7 @@ def _values(where: Layout) -> Floats:
     volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
     nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
-        to_robot = np.hypot(x, y)
+        to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
     return np.stack([*along, nothing, to_robot, -to_robot, to_speaker])

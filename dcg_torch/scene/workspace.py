@@ -43,4 +43,4 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
 
 def with_groups(world: WorldModel) -> WorldModel:
     """A world with the groups that its objects form."""
-    return replace(world, groups=groups(world.objects, world.unit, world.robot))
+    return replace(world, groups=groups(world.objects, world.unit, world.viewer or world.robot))

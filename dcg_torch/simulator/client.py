@@ -18,6 +18,7 @@ from dcg_torch.types import Pose
 STEP = 1.0 / 120.0
 """Seconds of simulated time in one physics step."""
 
+_PACE = 3.0  # times faster than real time that it may run with a window
 _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
 
@@ -42,18 +43,16 @@ class Client(Closing):
 
     Args:
         gui: open PyBullet's window (needs a screen); otherwise nothing is shown.
-        pace: with a window, how many times faster than real time it may run.
         options: of the window, as PyBullet takes them.
 
     Raises:
         SimulatorError: `gui` was asked for and there is no display.
     """
 
-    def __init__(self, *, gui: bool = False, pace: float = 3.0, options: str = "") -> None:
+    def __init__(self, *, gui: bool = False, options: str = "") -> None:
         if gui:
             require_display()
         self.gui = gui
-        self._pace = pace
         self.id: int = pybullet.connect(pybullet.GUI, options=options) if gui else pybullet.connect(pybullet.DIRECT)
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
@@ -116,7 +115,7 @@ class Client(Closing):
         for _ in range(count):
             pybullet.stepSimulation(physicsClientId=self.id)
         if self.gui:
-            time.sleep(count * STEP / self._pace)
+            time.sleep(count * STEP / _PACE)
 
     def pose(self, body: int) -> Pose:
         """Where `body` stands on the floor, and its heading in (-pi, pi]."""

@@ -26,8 +26,6 @@ from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import World, WorldObject
 
-_REACH = 0.47  # metres from the target's middle at which a drive is planned to end
-
 
 @dataclass(frozen=True, slots=True)
 class _Placed:
@@ -57,11 +55,10 @@ class SimulatedRobot(Closing):
         recogniser: how well it names what it sees; perfect by default.
         rng: draws the recogniser's mistakes at each `load`; needed only if it makes any.
         gui: open PyBullet's window.
-        on_tick: called with the pose while the robot moves.
-        observed: ticks between two of these calls, at 30 ticks to a simulated second.
+        observed: ticks between two calls of `on_tick`, at 30 ticks to a simulated second.
 
     Attributes:
-        on_tick: see above; it may be changed at any time.
+        on_tick: called with the pose while the robot moves; it may be changed at any time.
 
     Raises:
         SimulatorError: there is no screen for the window.
@@ -75,7 +72,6 @@ class SimulatedRobot(Closing):
         recogniser: Recogniser | None = None,
         rng: np.random.Generator | None = None,
         gui: bool = False,
-        on_tick: Callable[[Pose], None] | None = None,
         observed: int = 3,
     ) -> None:
         self.camera = camera or Camera()
@@ -83,7 +79,7 @@ class SimulatedRobot(Closing):
         if rng is None and (self.recogniser.wrong_class or self.recogniser.missed):
             raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
         self._rng = rng or np.random.default_rng(0)
-        self.on_tick = on_tick
+        self.on_tick: Callable[[Pose], None] | None = None
         self._observed = observed
         self.client = Client(gui=gui, options=OPTIONS)
         self._window = Window(self.client.id) if gui else None
@@ -220,7 +216,7 @@ class SimulatedRobot(Closing):
         goal = find_percept(target, percepts)
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            return navigation.approach(self._here, obstacles.pop(target), [*obstacles.values()], reach=_REACH)
+            return navigation.approach(self._here, obstacles.pop(target), [*obstacles.values()])
 
         return self._drive(plan, goal.position[:2], percepts, lambda distance: distance <= ARRIVED)
 

@@ -154,7 +154,8 @@ class WorldModel:
     `groups` are rows, stacks and clusters of objects: a command about one means its members. `places` can be spoken
     of but not be meant: corners, edges, the middle, the robot, the speaker. `unit` is the length in metres that
     neighbours are apart in scenes like this: what "next to" is measured by. Where `meant` is given, only the objects
-    of these ids can be meant; the others are there and can be landmarks.
+    of these ids can be meant; the others are there and can be landmarks. `viewer` is whose left and right are meant
+    where nobody's are named: None is the robot.
     """
 
     objects: tuple[Object, ...]
@@ -164,6 +165,7 @@ class WorldModel:
     groups: tuple[Object, ...] = ()
     unit: float = 1.0
     meant: frozenset[str] | None = None
+    viewer: Pose | None = None
 
     @property
     def things(self) -> tuple[Object, ...]:

