@@ -23,7 +23,7 @@ reproduce: $(VENV)/installed ## Run the paper's experiment (written, then canoni
 	@echo "pictures: runs/paper/figures, runs/paper_canonical/figures, runs/ablation/comparison.png; curves: make board"
 
 test: $(VENV)/installed-dev ## Run the tests, the fast ones first
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest -n logical --maxprocesses 4 --dist loadgroup
 
 torture: $(VENV)/installed-dev ## Kills, full disks, hostile files, a soak: up to half an hour
 	$(BIN)/python tests/torture
@@ -45,7 +45,7 @@ docs: $(VENV)/installed-docs ## Build the documentation as a site, in build/site
 	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --strict
 
 pretrain: $(VENV)/installed ## Make the shipped model anew from what is in the repository
-	$(BIN)/python -m dcg_torch.model.pretrain
+	$(BIN)/python -m dcg_torch.cli.pretrain
 
 clean: ## Remove .venv, caches and build products; runs/ stays
 	rm -rf $(VENV) build dist .coverage .hypothesis .mypy_cache .pytest_cache .ruff_cache

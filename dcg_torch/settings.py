@@ -234,9 +234,9 @@ class TalkSettings:
     open: bool = _setting(True, "open the page in the browser")
 
 
-def described(schema: type, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:
+def described(schema: type) -> Iterator[tuple[str, Any, str, Bounds | None]]:
     """(dotted name, default, what it means, bounds) of every setting of a schema."""
-    yield from ((prefix + name, value, text, bounds) for name, value, text, bounds in _walk(schema()))
+    return _walk(schema())
 
 
 def _walk(settings: Any, prefix: str = "") -> Iterator[tuple[str, Any, str, Bounds | None]]:

@@ -12,10 +12,10 @@ from pathlib import Path
 from PIL import Image, ImageDraw
 
 from dcg_torch.experiment.recording.paint import INK, PAPER, font
-from dcg_torch.simulator.bodies import TYPES
 from dcg_torch.simulator.screenshot import close_up, world_screenshot
 from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import load_worlds
+from dcg_torch.world.generator import TYPES
 
 PICTURES = Path(__file__).parent / "pictures"
 COLORS = ("red", "green", "blue")

@@ -54,9 +54,14 @@ def parser() -> Parser:
     return default_parser()
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """The fast ones first, so that most failures show at once."""
+    """The fast ones first, so that most failures show at once; in parallel, those of a file in one process."""
     items.sort(key=lambda item: item.get_closest_marker("slow") is not None)
+    for item in items:
+        if item.config.pluginmanager.hasplugin("xdist"):
+            slow = "" if item.get_closest_marker("slow") is None else ", slow"
+            item.add_marker(pytest.mark.xdist_group(item.nodeid.partition("::")[0] + slow))
 
 
 @pytest.fixture(scope="module")

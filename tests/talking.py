@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import yaml
 
-from dcg_torch.dialogue.events import Asked, Done, Event, Learned, Moved, Understood
+from dcg_torch.dialogue.events import Asked, Done, Event, Learned, Moved, Understood, to_json
 from dcg_torch.dialogue.session import Session
 from dcg_torch.dialogue.text import spoken
 from dcg_torch.types import Pose
@@ -23,6 +23,11 @@ def script() -> list[dict[str, Any]]:
     """The turns, and the changes of the world between them."""
     turns: list[dict[str, Any]] = yaml.safe_load(SCRIPT.read_text("utf-8"))["turns"]
     return turns
+
+
+def transcript(events: Iterable[Event]) -> bytes:
+    """The events as JSON lines."""
+    return "".join(to_json(event) + "\n" for event in events).encode()
 
 
 @dataclass

@@ -27,7 +27,7 @@ def test_the_step_solves_the_whole_system(correspondences: tuple[Correspondence,
     weight, strength = np.zeros((q + 1, *pairs.shape)), rng.uniform(0.5, 2.0, size=pairs.shape)
     objective = reduce([design], weight, weight, pairs, strength).objective
     assert isinstance(objective.rows, ArrowheadRows)
-    assert len(objective.rows.own) == words * types
+    assert len(objective.rows.entry) == words * types
     point = objective(rng.normal(size=q * len(objective.strength)) * 0.3)
     step = objective.newton_step(point).reshape(q, -1)
     assert objective.product(point, step).reshape(-1) == pytest.approx(-point.gradient, abs=1e-8)

@@ -81,11 +81,11 @@ def test_every_metric_is_one_of_the_measures(metric: Metric) -> None:
 
 
 def test_the_metric_is_the_share_that_was_right(tmp_path: Path) -> None:
-    from dcg_torch.experiment.journal import read_run
     from dcg_torch.report.measures import measure
+    from dcg_torch.report.runs import read_rows
 
     run(settings(Backend.fork, trials=2, workers=1), tmp_path, lambda _: None)
-    rows, _ = read_run(tmp_path)
+    rows = read_rows(tmp_path / ITERATIONS)
     assert value_of(measure(rows), Metric.accuracy) == pytest.approx(sum(r.correct for r in rows) / len(rows))
 
 

@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from dcg_torch.evaluation.baselines import BASELINES, Guess, make_baseline, run_baseline
-from dcg_torch.evaluation.baselines.base import fit_temperature, probabilities
+from dcg_torch.evaluation.baselines.base import BaselineError, fit_temperature, probabilities
 from dcg_torch.evaluation.baselines.learned import sides
 from dcg_torch.evaluation.baselines.words import Outcomes, overlap
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.names import embedding
-from dcg_torch.settings import SettingsError
 
 
 def episode(text: str, things: str, target: str = "0", **keys: Any) -> Episode:
@@ -115,7 +114,7 @@ def test_bow_learns_what_words_name() -> None:
 
 @needs_sklearn
 def test_bow_without_training_is_one_line() -> None:
-    with pytest.raises(SettingsError, match="give train=FILE"):
+    with pytest.raises(BaselineError, match="give train=FILE"):
         make_baseline("bow", lambda text: "").fit([])
 
 
@@ -139,13 +138,13 @@ def test_sides_are_seen_from_the_robot() -> None:
 
 
 def test_a_strange_name_and_a_missing_extra_are_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
-    with pytest.raises(SettingsError, match="choose from overlap, nearest, outcomes, bow, minilm"):
+    with pytest.raises(BaselineError, match="choose from overlap, nearest, outcomes, bow, minilm"):
         make_baseline("magic", lambda text: "")
     monkeypatch.setattr(embedding, "is_installed", lambda: False)
-    with pytest.raises(SettingsError, match=r"install dcg-torch\[embeddings\]"):
+    with pytest.raises(BaselineError, match=r"install dcg-torch\[embeddings\]"):
         make_baseline("minilm", lambda text: "")
     monkeypatch.setitem(__import__("sys").modules, "sklearn.linear_model", None)
-    with pytest.raises(SettingsError, match=r"install dcg-torch\[bench\]"):
+    with pytest.raises(BaselineError, match=r"install dcg-torch\[bench\]"):
         make_baseline("bow", lambda text: "")
 
 

@@ -97,6 +97,7 @@ DESCRIPTIONS: list[tuple[str, str, Damage, str]] = [
     ("a label out of range", "paper", lambda d: noun_example(d)["correspondences"].__setitem__(0, 7), "correspond"),
     ("too few weights", "paper", lambda d: noun_example(d).update(weights=[1.0]), "fewer weights"),
     ("a weight no number", "paper", lambda d: noun_example(d).update(weight=float("nan")), "not finite"),
+    ("a weight beyond all", "paper", lambda d: noun_example(d).update(weight=-1e300), "beyond 1e+06"),
     (
         "a child of nothing",
         "paper",
@@ -178,6 +179,7 @@ WRONG_WEIGHTS: list[tuple[str, Damage, str]] = [
     ("half precision", half, "float64"),
     ("no number", put("weight", float("nan")), "finite"),
     ("infinite", put("weight", float("-inf")), "finite"),
+    ("beyond all weights", put("weight", 1e300), "beyond 1e+06"),
     ("fewer values than places", shorter, "not of one model"),
     ("two dimensions", square, "weight"),
     ("places outside", put("weight at", 10**9), "not of one model"),

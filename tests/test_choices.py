@@ -56,7 +56,7 @@ def choices_of(model: GroundingModel, text: str, targets: set[str]) -> Likelihoo
         )
 
     parts = parts_of(Lesson(tree, scene(model), frozenset(targets)))
-    fit_landmarks_em(parts, model.features, model.solve, keep, rounds=1)
+    fit_landmarks_em(parts, model.features, lambda: model.solve, keep, rounds=1)
     return found[0]
 
 

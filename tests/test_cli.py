@@ -26,7 +26,12 @@ WRONG = [
     pytest.param(["trils=3"], ["trils", "did you mean trials?"], id="misspelt key"),
     pytest.param(["simulator.giu=true"], ["simulator.giu", "did you mean simulator.gui?"], id="misspelt nested key"),
     pytest.param(["+trils=3"], ["trils", "did you mean trials?"], id="added key"),
-    pytest.param(["trials=many"], ["trials=many", "Integer"], id="wrong type"),
+    pytest.param(["trials=many"], ["trials=many: give a whole number"], id="wrong type"),
+    pytest.param(["figures=maybe"], ["figures=maybe: give true or false"], id="no truth value"),
+    pytest.param(["model.l2=x"], ["model.l2=x: give a number"], id="no number"),
+    pytest.param(["animate=0"], ["give a list in brackets, as in animate=[0]"], id="no list"),
+    pytest.param(["name=[a]"], ["name=[a]: give a text"], id="no text"),
+    pytest.param(["simulator=fake", "model.open_world=3"], ["as in model.open_world.NAME=VALUE"], id="no group"),
     pytest.param(["model.groups=[colour]"], ["model.groups", "colour", "dcg, unknown"], id="unknown feature group"),
     pytest.param(["experiment=papre"], ["experiment=papre", "paper"], id="unknown experiment"),
     pytest.param(["model=bert"], ["model=bert", "dcg_upup_away"], id="unknown model"),
@@ -37,6 +42,12 @@ WRONG = [
     pytest.param(["worlds=no/such/place"], ["no/such/place", "no such directory"], id="no world files"),
     pytest.param(["name=${nothing}"], ["name", "nothing"], id="broken interpolation"),
     pytest.param(["trials"], ["trials", "KEY=VALUE"], id="no value"),
+    pytest.param(["+=0"], ["+=0", "KEY=VALUE"], id="no key"),
+    pytest.param(["model=true"], ["model=True", "choose from dcg, "], id="model a truth value"),
+    pytest.param(["model=[dcg,1]"], ["model=list of 2", "choose from dcg, "], id="several models"),
+    pytest.param(["~model"], ["model=null", "choose from dcg, "], id="no model"),
+    pytest.param(["experiment=null"], ["experiment=null", "paper"], id="experiment null"),
+    pytest.param(["hydra/launcher=3"], ["hydra/launcher=3", "give the name"], id="launcher a number"),
     pytest.param(["--trials=3"], ["--trials=3", "KEY=VALUE"], id="dashes"),
 ]
 
@@ -50,8 +61,23 @@ def contents(directory: Path) -> dict[str, bytes]:
     return {str(p.relative_to(directory)): p.read_bytes() for p in sorted(directory.rglob("*")) if p.is_file()}
 
 
-@pytest.mark.parametrize("mode", [[], ["-m"]], ids=["run", "sweep"])
-@pytest.mark.parametrize(("wrong", "said"), WRONG)
+# A sweep goes other ways where Hydra parses, where it composes, and where the settings and the worlds are checked.
+OF_SWEEPS = (
+    "misspelt key",
+    "wrong type",
+    "unknown model",
+    "value out of range",
+    "no world files",
+    "no value",
+    "no key",
+)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said", "mode"),
+    [pytest.param(*p.values, [], id=f"run, {p.id}") for p in WRONG]
+    + [pytest.param(*p.values, ["-m"], id=f"sweep, {p.id}") for p in WRONG if p.id in OF_SWEEPS],
+)
 def test_wrong_input_is_one_line(
     wrong: list[str], said: list[str], mode: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -120,6 +120,23 @@ def test_an_object_gets_no_more_than_its_number_and_a_person_no_other_than_their
     assert all(written.count(pair) == 2 for pair in written)
 
 
+def test_what_cannot_be_told_is_left_out_and_comes_no_more(tmp_path: Path) -> None:
+    of = study(tmp_path, per_person=99, per_object=1)
+    writer = Writer(of)
+    said, shown = writer.start(), []
+    while 'name="skip"' in said:
+        shown.append(writer.item())
+        said = writer.client.post("/task", data={"item": shown[-1], "command": "", "skip": "yes"}).text
+        assert "You left that picture out" in said
+        assert "Picture 1 of" in said
+    assert len(set(shown)) == len(shown) == len(items_of(WORLDS)) - 1  # the last one has no other in its place
+    assert 'id="code"' in writer.write("go to the thing that is left")
+    assert len(stored(tmp_path)) == 1
+    other = Writer(of)
+    other.start()
+    assert other.item() in shown  # others are shown what one person left out
+
+
 def test_objects_are_spread_among_those_who_look_at_once(tmp_path: Path) -> None:
     of = study(tmp_path)
     writers = [Writer(of) for _ in range(5)]
@@ -232,9 +249,11 @@ def test_pictures_and_worlds_are_made_once_and_never_mixed(tmp_path: Path) -> No
         (["serve", "per_person=0"], "from 1 to"),
         (["serve", "worlds=nowhere"], "no such directory of world files"),
         (["hit"], "pictures_at="),
+        (["hit", "pictures_at=http://example.org/p"], "write the https address"),
         (["import"], "say what"),
         (["import", "no.csv", "worlds=committed"], "no such file of results"),
         (["import", "no.csv"], "no folder of worlds beside it"),
+        (["import", "sqlite:////nope", "worlds=committed"], "there is no file /nope"),
         (["import", "odd://x", "worlds=committed"], "database=odd://x"),
     ],
 )

@@ -151,7 +151,7 @@ def test_files_that_will_not_do_are_one_line(
 
 
 def test_a_database_that_is_not_there_is_not_made(tmp_path: Path) -> None:
-    with pytest.raises(UserError, match="no such database"):
+    with pytest.raises(UserError, match="there is no file"):
         read_results(f"sqlite:///{tmp_path}/typo.sqlite")
     assert list(tmp_path.iterdir()) == []
 

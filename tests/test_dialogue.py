@@ -10,13 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from talking import Played, play, script
+from talking import Played, play, script, transcript
 
-from dcg_torch.dialogue.events import Asked, Done, Learned, Moved, Said, Understood, transcript
+from dcg_torch.dialogue.events import Asked, Done, Learned, Moved, Said, Understood
 from dcg_torch.dialogue.export import export_episodes, replay
 from dcg_torch.dialogue.file import SessionError
 from dcg_torch.dialogue.session import Session
-from dcg_torch.dialogue.text import converse, spoken
+from dcg_torch.dialogue.text import spoken
 from dcg_torch.evaluation.episodes import read_episodes
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import Percept
@@ -220,6 +220,16 @@ def test_what_is_not_there_is_said_and_teaches_nothing(laboratory: Session) -> N
     assert laboratory.words() == {}
 
 
+@pytest.mark.parametrize("word", ["pallet", "cube"])
+def test_a_lesson_that_changes_a_meaning_says_so(laboratory: Session, word: str) -> None:
+    if word == "pallet":  # "cube" it knows from the start
+        assert "I will remember that." in spoken(laboratory.say("this is a pallet", pointing_at="cube"))
+    before = "cube"
+    changed = spoken(laboratory.say(f"this is a {word}", pointing_at="cone"))
+    assert any(f'Until now I took "{word}" for what my camera calls "{before}"' in line for line in changed), changed
+    assert "I will remember that." in spoken(laboratory.say(f"this is a {word}", pointing_at="cone"))
+
+
 def test_the_unclear_thing_of_a_lesson_is_asked_for(laboratory: Session) -> None:
     asked = next(e for e in laboratory.say("the thing behind you is called a wug") if isinstance(e, Asked))
     assert set(asked.candidates) == {"cube", "crate"}
@@ -258,6 +268,5 @@ def test_a_world_and_a_model_are_saved_and_loaded(laboratory: Session, tmp_path:
 
 
 def test_a_conversation_in_plain_text(laboratory: Session) -> None:
-    lines = list(converse(laboratory, ["this is a box [crate]", "", "[crate]"]))
-    assert [line for line in lines if line.startswith(">")] == ["> this is a box [crate]", "> [crate]"]
-    assert lines[-1] == "It is a brown box."
+    laboratory.say("this is a box", pointing_at="crate")
+    assert spoken(laboratory.click("crate"))[-1] == "It is a brown box."

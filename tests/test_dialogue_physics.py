@@ -13,10 +13,10 @@ from pathlib import Path
 
 import pytest
 from PIL import Image
-from talking import play, script
+from talking import play, script, transcript
 from test_dialogue import LABORATORY, world_of
 
-from dcg_torch.dialogue.events import Done, Event, Moved, transcript
+from dcg_torch.dialogue.events import Done, Event, Moved
 from dcg_torch.dialogue.export import export_gif, replay
 from dcg_torch.dialogue.session import Session
 from dcg_torch.world.files import WorldObject, load_world

@@ -51,7 +51,9 @@ WRONG = [
     pytest.param(["test=[]"], ["test", "no file given"], id="no files"),
     pytest.param(["test=[3]"], ["test=FILE"], id="no name"),
     pytest.param(["model=bert"], ["model=bert", "open_world"], id="unknown model"),
-    pytest.param(["rounds=many"], ["rounds=many"], id="wrong type"),
+    pytest.param(["rounds=many"], ["rounds=many: give a whole number"], id="wrong type"),
+    pytest.param(["baseline=minilm"], ["give a list in brackets, as in baseline=[minilm]"], id="no list"),
+    pytest.param(["train=null", "known_types=[cube]"], ["known_types", "give train=FILE"], id="types of no training"),
 ]
 
 

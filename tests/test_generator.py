@@ -5,17 +5,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from sample_worlds import generate_worlds, share_out_of_view, write_worlds
 
 from dcg_torch.world.files import RobotStart, World, WorldObject, load_worlds
-from dcg_torch.world.generator import (
-    COLORS,
-    HALF_WIDTH,
-    TYPES,
-    generate_world,
-    generate_worlds,
-    share_out_of_view,
-    write_worlds,
-)
+from dcg_torch.world.generator import COLORS, HALF_WIDTH, TYPES, generate_world
 
 MANY_TYPES = [f"thing {k}" for k in range(40)]
 MANY_COLORS = [f"tint {k}" for k in range(10)]

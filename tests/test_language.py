@@ -238,6 +238,6 @@ def test_any_string_has_an_outcome(parser: Parser, text: str) -> None:
 
 
 def test_long_input_is_refused_at_once(parser: Parser) -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     assert parser.parse("the cube on " * 10_000).problem is not None
-    assert time.perf_counter() - start < 0.05
+    assert time.process_time() - start < 0.05

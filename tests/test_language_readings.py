@@ -104,6 +104,12 @@ def test_vocabulary(parser: Parser, text: str, vocabulary: list[str], noun: str)
     assert parser.parse(text, vocabulary).noun == noun
 
 
+@pytest.mark.parametrize("word", ["form", "fort", "width", "then", "besides"])
+def test_a_preposition_is_no_misspelt_noun(parser: Parser, word: str) -> None:
+    for text in ("take the can from the shelf", "go to the box with handles", "look for the cube beside the lamp"):
+        assert parser.parse(text, [word]).readings == parser.parse(text).readings
+
+
 def test_a_mended_word_may_have_been_right(parser: Parser) -> None:
     parse = parser.parse("go to the zorq", ["zorg"])
     assert [meant(reading).noun for reading in parse.readings] == ["zorg", "zorq"]

@@ -11,6 +11,7 @@ import pytest
 
 from dcg_torch.language import Parser
 from dcg_torch.lessons.relations import KNOWN, relational_lessons
+from dcg_torch.lessons.selections import half_scene
 from dcg_torch.types import ParseTree
 from dcg_torch.world.files import World, WorldObject
 from dcg_torch.world.generator import TYPES, generate_world
@@ -193,6 +194,17 @@ def test_lessons_are_reproducible_and_cover_every_relation() -> None:
         assert words in said
     for lesson in lessons:
         assert lesson.targets <= {o.id for o in lesson.world.objects}
+
+
+def test_ordinals_are_told_where_only_others_are_hard_to_tell_apart() -> None:
+    scenes = [half_scene(np.random.default_rng(seed)) for seed in range(20)]
+    said = [(scene, text, ids) for scene in scenes for text, ids in scene.commands if "second closest" in text]
+    assert len({id(scene) for scene, _, _ in said}) >= 7
+    for scene, text, ids in said:
+        if text.endswith(("to you", "to the robot")):
+            kind = next(o.type for o in scene.objects if o.id in ids)
+            ways = {o.id: math.hypot(*o.position[:2]) for o in scene.objects if o.type == kind}
+            assert sorted(ways, key=lambda i: ways[i])[1] in ids
 
 
 def test_what_can_t_be_told_is_refused() -> None:

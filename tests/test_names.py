@@ -4,16 +4,19 @@ import subprocess
 import sys
 from pathlib import Path
 
+import noun_table
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from name_pairs import MEANT, NOT_MEANT
+from noun_table import fit_weights, make_table
 
-from dcg_torch.names import build, embedding
+from dcg_torch.names import embedding
 from dcg_torch.names.evidence import FORMS, KINDS, evidence
+from dcg_torch.names.normal import DATA as DATA_FOLDER
 from dcg_torch.names.normal import normalise, read_data, singular
-from dcg_torch.names.weights import fact_weights, fit_weights, log_odds
+from dcg_torch.names.weights import fact_weights, log_odds
 from dcg_torch.names.wordnet import nouns
 
 NAMES = [name for pair in MEANT + NOT_MEANT for name in pair]
@@ -153,16 +156,16 @@ def test_the_weights_of_a_made_up_world() -> None:
 
 
 def test_what_is_a_kind_of_what() -> None:
-    assert "chair" in nouns().what_is("armchair")
-    assert nouns().what_is("zorp") == ()
+    table = nouns()
+    assert table.senses("chair", 1)[0] in table.kinds(table.senses("armchair", 1)[0])
+    assert table.senses("zorp") == ()
     assert "sofa" in nouns()
     assert "zorp" not in nouns()
 
 
 def test_senses_share_words() -> None:
     table = nouns()
-    (sofa,) = table.senses("sofa", 1)
-    assert {"sofa", "couch"} <= set(table.words(sofa))
+    assert table.senses("sofa", 1) == table.senses("couch", 1)
 
 
 DATA = """  1 a licence line
@@ -186,10 +189,10 @@ comfort n 1 0 1 0 00000050
 def test_a_table_is_made(tmp_path: Path) -> None:
     """Persons come last or not at all, single persons and feelings never, and both spellings are one noun."""
     path = tmp_path / "nouns.npz"
-    np.savez_compressed(path, allow_pickle=False, **build.make_table(DATA, INDEX))
+    np.savez_compressed(path, allow_pickle=False, **make_table(DATA, INDEX))
     table = type(nouns())(path)
     assert len(table) == 3
-    assert table.what_is("arm chair") == ("seat",)
+    assert table.kinds(table.senses("arm chair", 1)[0]) == table.senses("seat")
     assert table.ancestors(table.senses("arm chair")[0], 2).keys() >= set(table.senses("thing"))
     assert len(table.senses("arm chair")) == 1
     assert "comfort" not in table
@@ -198,7 +201,7 @@ def test_a_table_is_made(tmp_path: Path) -> None:
 
 def test_no_dictionary_is_one_line(tmp_path: Path) -> None:
     done = subprocess.run(
-        [sys.executable, "-m", "dcg_torch.names.build", str(tmp_path)], capture_output=True, text=True, check=False
+        [sys.executable, noun_table.__file__, str(tmp_path)], capture_output=True, text=True, check=False
     )
     assert done.returncode == 2
     assert str(tmp_path) in done.stderr
@@ -206,7 +209,7 @@ def test_no_dictionary_is_one_line(tmp_path: Path) -> None:
 
 
 def test_the_notice_of_wordnet_comes_along() -> None:
-    notice = (Path(build.__file__).parent / "data" / "WORDNET_LICENSE").read_text(encoding="utf-8")
+    notice = (DATA_FOLDER / "WORDNET_LICENSE").read_text(encoding="utf-8")
     assert "Copyright 2006 by Princeton University" in notice
 
 

@@ -76,7 +76,7 @@ def expected(model: GroundingModel, text: str, percepts: tuple[Percept, ...] = W
     reading, words = read(text), words_of(model)
 
     def said(beliefs: Beliefs, word: str, type_: str | None) -> float:
-        table, new = beliefs.said_of()
+        table, new = beliefs.said_of
         posterior = beliefs.posterior
         row = table[posterior.words.index(word)] if word in posterior.words else new
         return float(row[-1 if type_ not in posterior.types else posterior.types.index(type_)])
@@ -96,8 +96,8 @@ def fresh() -> GroundingModel:
 
 
 @pytest.fixture
-def model() -> GroundingModel:
-    return open_world()
+def model(fresh: GroundingModel) -> GroundingModel:
+    return copy.deepcopy(fresh)
 
 
 def test_the_model_says_what_the_posterior_says(model: GroundingModel) -> None:

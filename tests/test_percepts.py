@@ -31,8 +31,13 @@ MUG = Percept("m1", "mug", "blue", (1.0, 0.5, 0.0))
         ({"size": (1.0, 1.0, -1.0)}, "size"),
         ({"rgb": (1.0, 0.0)}, "rgb"),
         ({"rgb": (0.0, 0.0, 256.0)}, "rgb"),
-        ({"id": "hypothetical mug"}, "id"),
         ({"id": 3}, "id"),
+        ({"type": 3}, "type"),
+        ({"type": None}, "type"),
+        ({"color": ["red"]}, "color"),
+        ({"attributes": "held"}, "attributes"),
+        ({"attributes": [["held"]]}, "attributes"),
+        ({"attributes": 3}, "attributes"),
     ],
 )
 def test_what_makes_no_sense_is_refused_in_one_line_that_names_it(changed: dict[str, Any], says: str) -> None:
@@ -45,6 +50,13 @@ def test_what_makes_no_sense_is_refused_in_one_line_that_names_it(changed: dict[
 def test_two_objects_of_one_id_are_refused() -> None:
     with pytest.raises(ValueError, match="'m1': two objects have this id"):
         world_model([MUG, replace(MUG, color="red")], ())
+
+
+def test_a_thing_may_be_called_what_the_robot_calls_its_guesses() -> None:
+    real = [replace(MUG, id=id_) for id_ in ("hypothetical mug", "hypothetical unknown", "hypothetical mug*")]
+    found = world_model(real, ("mug",)).objects
+    assert len({o.id for o in found}) == len(found) == 5
+    assert [o.hypothetical for o in found] == [False, False, False, True, True]
 
 
 def test_lists_arrays_and_sets_come_into_one_form() -> None:

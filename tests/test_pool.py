@@ -52,6 +52,27 @@ def test_a_worker_that_is_killed_is_noticed() -> None:
     assert "\n" not in str(error.value)
 
 
+@pytest.mark.parametrize("error", [EOFError("unexpected EOF"), ConnectionResetError(), ConnectionRefusedError()])
+def test_so_is_the_death_of_the_process_that_workers_are_forked_from(
+    error: Exception, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def start(_: object) -> None:
+        raise error
+
+    monkeypatch.setattr("multiprocessing.process.BaseProcess.start", start)
+    with pytest.raises(WorkerKilledError, match="was killed"):
+        list(work_off(refuse, [1], 1))
+
+
+def test_a_worker_that_dies_before_it_has_a_task_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    def send(_: object, task: object) -> None:
+        raise BrokenPipeError
+
+    monkeypatch.setattr("multiprocessing.connection.Connection.send", send)
+    with pytest.raises(WorkerKilledError, match="was killed"):
+        list(work_off(refuse, [1], 1))
+
+
 def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
     results = work_off(functools.partial(note, tmp_path), range(100), 2)
     next(results)

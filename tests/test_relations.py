@@ -26,7 +26,7 @@ RELATIONS = PAPER | {Group.RELATION}
 @pytest.fixture(scope="module")
 def taught(training: TrainingSet) -> GroundingModel:
     model = GroundingModel.trained(training, Variant(groups=RELATIONS, hypothetical=False, l2=0.2))
-    model.teach(relational_lessons(800), relations_only=True, rounds=2)
+    model.teach(relational_lessons(300), relations_only=True, rounds=2)
     return model
 
 

@@ -83,7 +83,7 @@ def report(folder: Path) -> str:
     console = Console(file=io.StringIO(), width=100)
     try:
         one = load_run(folder)
-        print_run(one, console)
+        print_run(one.measures, one.seconds, one.config, console)
         print_several([one, one], console)
         return to_csv([one])
     except ReportError as error:

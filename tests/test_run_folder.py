@@ -205,19 +205,23 @@ def test_the_second_process_in_a_folder_is_told(tmp_path: Path, capsys: pytest.C
         assert [p.name for p in (tmp_path / "run").iterdir()] == [".lock"]
 
 
-def left_behind() -> set[str]:
-    """What is in the machine's shared memory and temporary files that such programs leave."""
-    places = [p for d in ("/dev/shm", "/tmp") if Path(d).is_dir() for p in Path(d).iterdir()]
-    return {str(p) for p in places if p.name.startswith(("sem.", "joblib", "loky", "pymp", "psm_", "dcg_torch-"))}
+def left_behind(temporary: Path, process: int) -> list[str]:
+    """What a process has left in its folder for temporary files, and in shared memory under its number."""
+    shared = Path("/dev/shm").iterdir() if Path("/dev/shm").is_dir() else ()
+    return [p.name for p in temporary.iterdir()] + [p.name for p in shared if str(process) in p.name]
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("who", ["group"])
 def test_a_kill_leaves_nothing_behind_and_a_rerun_makes_it_whole(who: str, finished: Path, tmp_path: Path) -> None:
-    before = left_behind()
+    temporary = tmp_path / "temporary"
+    temporary.mkdir()
+    environment = {**os.environ, "TMPDIR": str(temporary)}
     command = [sys.executable, "-m", "dcg_torch", *PLAIN[2:], "simulator=fake", "workers=2", "tensorboard=false"]
     command.append(f"hydra.run.dir={tmp_path / 'run'}")
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True)
+    process = subprocess.Popen(
+        command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, start_new_session=True, env=environment
+    )
     until = time.monotonic() + 60.0
     while not (tmp_path / "run" / ITERATIONS).exists() and process.poll() is None and time.monotonic() < until:
         time.sleep(0.02)
@@ -231,10 +235,10 @@ def test_a_kill_leaves_nothing_behind_and_a_rerun_makes_it_whole(who: str, finis
     _, err = process.communicate(timeout=60)
     assert b"Traceback" not in err
     assert process.returncode == {"parent": 143, "worker": 2, "group": -9}[who]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    done = subprocess.run(command, capture_output=True, text=True, check=False, env=environment)
     assert done.returncode == 0, done.stderr
     assert whole(tmp_path / "run") == whole(finished)
-    assert left_behind() <= before
+    assert left_behind(temporary, process.pid) == []
 
 
 @pytest.mark.slow

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import errno
+import itertools
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +18,7 @@ from hypothesis import strategies as st
 from dcg_torch.storage.claim import LOCK, ClaimError, check_place, claim
 from dcg_torch.storage.errors import explain_os_error
 from dcg_torch.storage.foreign import misspelt, plain, shown
-from dcg_torch.storage.whole import sweep_parts, write_whole, write_whole_folder
+from dcg_torch.storage.whole import _to_disk, sweep_parts, write_whole, write_whole_files, write_whole_folder
 
 
 class TestWhole:
@@ -67,6 +69,33 @@ class TestWhole:
             write_whole_folder(tmp_path / "model", fail)
         assert [str(p.relative_to(tmp_path)) for p in sorted(tmp_path.rglob("*"))] == ["model", "model/old"]
 
+    @pytest.mark.parametrize("point", range(1, 8))
+    def test_files_that_belong_together_never_stand_beside_those_of_another_writing(
+        self, point: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """The process dies before the `point`-th step on the disk."""
+        write_whole_files(tmp_path, {"weights": b"old", "description": b"old"})
+        steps = itertools.count(1)
+
+        def dying(real: Callable[..., object]) -> Callable[..., object]:
+            def step(*arguments: object) -> object:
+                if next(steps) >= point:
+                    raise _Killed
+                return real(*arguments)
+
+            return step
+
+        with monkeypatch.context() as patch:
+            patch.setattr("dcg_torch.storage.whole._to_disk", dying(_to_disk))
+            patch.setattr("dcg_torch.storage.whole.os.replace", dying(os.replace))
+            with pytest.raises(_Killed):
+                write_whole_files(tmp_path, {"weights": b"new", "description": b"new"})
+        description = tmp_path / "description"
+        if description.exists():
+            assert (tmp_path / "weights").read_bytes() == description.read_bytes()
+        write_whole_files(tmp_path, {"weights": b"new", "description": b"new"})
+        assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == {"weights": b"new", "description": b"new"}
+
     def test_what_killed_writers_left_is_swept_up(self, tmp_path: Path) -> None:
         (tmp_path / "trials").mkdir()
         for left in (".a.1f.part.gif", "trials/.b.22.part"):
@@ -77,9 +106,14 @@ class TestWhole:
         assert [str(p.relative_to(tmp_path)) for p in sorted(tmp_path.rglob("*"))] == ["kept.part.txt", "trials"]
 
 
+class _Killed(BaseException):
+    """As a kill, at a moment of one's choice."""
+
+
 # Claims a folder, says so, and waits to be told to end.
 HOLDER = """
 import sys
+from collections.abc import Callable
 from pathlib import Path
 from dcg_torch.storage.claim import ClaimError, claim
 try:

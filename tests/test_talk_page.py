@@ -6,7 +6,8 @@ import asyncio
 import functools
 import io
 import json
-import struct
+import subprocess
+import sys
 import zipfile
 from collections.abc import Awaitable, Callable
 from pathlib import Path
@@ -24,18 +25,17 @@ from nicegui.testing import User, user_simulation
 from dcg_torch.apps.talk import files, program
 from dcg_torch.apps.talk.gate import Gate
 from dcg_torch.apps.talk.host import Host
-from dcg_torch.apps.talk.lines import Line, names_of, with_inputs
-from dcg_torch.apps.talk.looks import object_file, robot_file
+from dcg_torch.apps.talk.lines import Line, names_of
+from dcg_torch.apps.talk.looks import object_looks, robot_looks
 from dcg_torch.apps.talk.panels import candidates_table, words_table
 from dcg_torch.apps.talk.server import Address, add_routes
-from dcg_torch.dialogue.events import Candidate, Done, Said
+from dcg_torch.dialogue.events import Candidate
 from dcg_torch.dialogue.file import Input, read_session
 from dcg_torch.dialogue.session import Session
 from dcg_torch.settings import TalkSettings
 from dcg_torch.simulator.bodies import extent
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.resources import resource
-from dcg_torch.types import Pose
 from dcg_torch.world.files import World, load_world
 
 Talk = Callable[[User, Host], Awaitable[None]]
@@ -150,11 +150,52 @@ def test_a_session_comes_back_and_replays_to_the_same_bytes(host: Host, laborato
     visit(host, talk)
 
 
+def test_a_stop_brings_a_replay_to_its_end_and_changes_nothing_in_it(tmp_path: Path, laboratory: World) -> None:
+    file = tmp_path / "session.jsonl"
+    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=4.0)
+
+    async def talk(user: User, host: Host) -> None:
+        host.say("move towards the cone")
+        await dealt_with(host)
+        before = list(host.state.lines)
+        host.replay()
+        while host.state.lines[-1:] == before[-1:]:  # until it begins
+            await asyncio.sleep(0.005)
+        host.stop()
+        await dealt_with(host)
+        assert host.state.lines[:-1] == before
+        assert "the same to the last byte" in host.state.lines[-1].text
+
+    visit(shown, talk)
+
+
+def test_who_waits_is_answered_or_told_so_at_once(tmp_path: Path, laboratory: World) -> None:
+    """A question that takes no look is answered while the robot turns; what has to wait is dealt with in turn."""
+    file = tmp_path / "session.jsonl"
+    shown = Host(file, lambda: Session(laboratory, file=file, simulator="fake"), pace=2.0)
+
+    async def talk(user: User, host: Host) -> None:
+        host.say("turn around")
+        for text in ("turn left", "what is a cube?", "what do you see?"):
+            host.say(text)
+        await dealt_with(host)
+        said = [line.text for line in host.state.lines if line.who == "robot"]
+        assert said[0] == "I turn left by 180 degrees."
+        assert said[1] == "I am still busy; this comes next."
+        assert said[2].startswith("A cube is")
+        assert said[3] == "I am still busy; this comes next after 1 more."
+        assert said[4] == "I turn left by 90 degrees."
+        assert said[5].startswith("I see")
+        assert [line.say for line in read_session(file)[1]] == ["turn around", "turn left", "what do you see?"]
+
+    visit(shown, talk)
+
+
 def test_worlds_models_and_sessions_are_taken_home_and_brought_back(host: Host, laboratory: World) -> None:
     async def talk(user: User, host: Host) -> None:
         host.say("move towards the cone")
-        functions = (files.world_file, files.model_file, files.session_file)
-        world, model, session = [await host.ask(functools.partial(f, file=host.file)) for f in functions]
+        kinds = ("World", "Model", "Session")
+        world, model, session = [await host.ask(functools.partial(files.saved, k, file=host.file)) for k in kinds]
         lines = list(host.state.lines)
         await host.exchange(files.with_world(host.file, world))
         assert host.state.lines == []
@@ -190,20 +231,6 @@ def test_what_is_no_file_of_ours_changes_nothing(host: Host) -> None:
     visit(host, talk)
 
 
-def test_lines_of_a_played_session_stand_before_their_events(laboratory: World) -> None:
-    found: list[Any] = []
-    watch = with_inputs(laboratory, [Input(say="one"), Input(click="cube")], found.append, found.append)
-    events = (Said("a"), Said("b"), Done(Pose(0, 0), "done"), Said("c"), Done(Pose(0, 0), "done"))
-    for event in events:
-        watch(event)
-    assert found == [
-        Line("you", "one"),
-        *events[:3],
-        Line("you", "(points at the blue cube)"),
-        *events[3:],
-    ]
-
-
 def test_alike_objects_are_told_apart_by_their_ids(laboratory: World) -> None:
     twin = laboratory.objects[1].model_copy(update={"id": "twin"})
     names = names_of([*laboratory.objects, twin])
@@ -229,33 +256,16 @@ def test_a_short_table_says_how_many_it_leaves_out() -> None:
 
 @pytest.mark.parametrize("type_", ["cube", "traffic cone", "drill", "fire hydrant"])
 def test_a_body_fills_the_box_that_the_physics_gives_it(type_: str) -> None:
-    corners = np.array([[a["min"], a["max"]] for a in positions(object_file(type_, "red"))])
-    size = corners[:, 1].max(axis=0) - corners[:, 0].min(axis=0)
-    assert size == pytest.approx(extent(type_), abs=1e-6)
+    corners = np.concatenate([np.reshape(part["vertices"], (-1, 3)) for part in json.loads(object_looks(type_, "red"))])
+    assert corners.max(axis=0) - corners.min(axis=0) == pytest.approx(extent(type_), abs=2e-4)
 
 
-def test_a_file_is_whole_glb_with_indices_within_its_vertices() -> None:
-    for content in (robot_file(), object_file("mailbox", "teal"), object_file("no such type", "no such colour")):
-        document, blob = chunks(content)
-        assert len(blob) >= document["buffers"][0]["byteLength"]
-        for primitive in document["meshes"][0]["primitives"]:
-            accessor = document["accessors"][primitive["indices"]]
-            view = document["bufferViews"][accessor["bufferView"]]
-            indices = np.frombuffer(blob, "<u4", accessor["count"], view["byteOffset"])
-            assert indices.max() < document["accessors"][primitive["attributes"]["POSITION"]]["count"]
-
-
-def positions(content: bytes) -> list[dict[str, Any]]:
-    document, _ = chunks(content)
-    return [document["accessors"][p["attributes"]["POSITION"]] for p in document["meshes"][0]["primitives"]]
-
-
-def chunks(content: bytes) -> tuple[dict[str, Any], bytes]:
-    magic, version, length = struct.unpack_from("<4sII", content)
-    assert (magic, version, length) == (b"glTF", 2, len(content))
-    size, kind = struct.unpack_from("<I4s", content, 12)
-    assert kind == b"JSON"
-    return json.loads(content[20 : 20 + size]), content[28 + size :]
+def test_the_triangles_of_all_looks_join_their_vertices() -> None:
+    for looks in (robot_looks(), object_looks("mailbox", "teal"), object_looks("no such type", "no such colour")):
+        for part in json.loads(looks):
+            assert len(part["vertices"]) == len(part["normals"])
+            assert set(part["triangles"]) == set(range(len(part["vertices"]) // 3))
+            assert all(0.0 <= value <= 1.0 for value in (*part["color"], part["opacity"]))
 
 
 def test_other_machines_need_a_token() -> None:
@@ -325,6 +335,37 @@ def test_what_is_wrong_is_said_in_one_line(
     status, out, err = typed(capsys, program.main, "dcg_torch.talk", *settings, wrong)
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert says in err
+
+
+@pytest.mark.parametrize("says", [(), ("turn left",)])
+def test_a_talk_leaves_a_session_only_if_something_was_said(
+    says: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    async def serve(host: Host) -> None:
+        await host.begin()
+        for text in says:
+            host.say(text)
+        await dealt_with(host)
+        await host.end()
+
+    monkeypatch.setattr(program, "serve", lambda host, address, show: asyncio.run(serve(host)))
+    monkeypatch.chdir(tmp_path)
+    assert typed(capsys, program.main, "dcg_torch.talk", "simulator=fake", "pace=0")[0] == 0
+    assert len(list(tmp_path.glob("runs/*/session.jsonl"))) == len(list(tmp_path.glob("runs/*"))) == len(says)
+
+
+def test_the_page_needs_no_pybullet_for_the_fake_robot() -> None:
+    code = """
+import sys
+sys.modules["pybullet"] = None  # as if it were not installed
+from dcg_torch.apps.talk import looks, program
+from dcg_torch.dialogue.session import Session
+from dcg_torch.settings import TalkSettings
+session = Session(program.world_of(TalkSettings()), simulator="fake")
+print([looks.object_looks(thing.type, thing.color)[:1] for thing in session.world.objects], looks.robot_looks()[:1])
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert (done.stdout, done.stderr) == ("['[', '[', '['] [\n", "")
 
 
 def test_worlds_are_committed_generated_or_ones_own(tmp_path: Path, laboratory: World) -> None:

@@ -4,9 +4,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from sample_worlds import OBJECT_RADIUS, generate_worlds, representative_seed, share_out_of_view
 
 from dcg_torch.world.files import World, WorldFileError, load_world, load_worlds
-from dcg_torch.world.generator import OBJECT_RADIUS, TYPES, generate_worlds, representative_seed, share_out_of_view
+from dcg_torch.world.generator import TYPES
 
 COMMITTED = Path(__file__).parent.parent / "worlds"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections import defaultdict
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import Any, Protocol
@@ -14,32 +14,9 @@ from dcg_torch.agent.asking import AskingPolicy, Listener, Question, Reply, cand
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.spoken import ReadCommand
+from dcg_torch.grounding.spoken import CommandParser, ParsedCommand, ReadCommand
 from dcg_torch.learning.learner import Experience
-from dcg_torch.types import DriveResult, ParseTree, Percept, Pose, WorldModel
-
-
-class ParsedCommand(ReadCommand, Protocol):
-    """What reading a command gives: readings, or the problem in words."""
-
-    @property
-    def tree(self) -> ParseTree | None:
-        """The phrases of the likeliest reading, or None if there is a problem."""
-        ...
-
-    @property
-    def noun(self) -> str | None:
-        """The noun of the object meant."""
-        ...
-
-    @property
-    def color(self) -> str | None:
-        """The colour stated of the object meant."""
-        ...
-
-
-CommandParser = Callable[[str, Collection[str]], ParsedCommand]
-"""Reads a command, given the words that are known."""
+from dcg_torch.types import DriveResult, Percept, Pose, WorldModel
 
 
 class Grounder(Protocol):
@@ -48,21 +25,17 @@ class Grounder(Protocol):
     @property
     def symbols(self) -> Mapping[str, Any]:
         """The known words."""
-        ...
 
     def sure_names(self) -> Mapping[str, str]:
         """type -> a word for it that the robot holds for certain."""
-        ...
 
     def world_model(
         self, percepts: Iterable[Percept], robot: Pose | None = None, *, looked: bool = False
     ) -> WorldModel:
         """Upsilon of what was perceived from this start pose."""
-        ...
 
     def ground(self, command: ReadCommand, world: WorldModel) -> Solution:
         """What a command means in a world."""
-        ...
 
 
 @dataclass

@@ -28,11 +28,9 @@ class Explorer(Protocol):
     @property
     def looked(self) -> bool:
         """Has the robot seen all the ground that it can see from where it stood?"""
-        ...
 
     def move(self, solution: Solution, percepts: Sequence[Percept], robot: Robot) -> bool:
         """Move the robot for another look, if one is wanted."""
-        ...
 
 
 class TurnInPlace:

@@ -21,27 +21,21 @@ class Robot(Protocol):
     @property
     def pose(self) -> Pose:
         """Where it is now."""
-        ...
 
     def perceive(self) -> Sequence[Percept]:
         """What is in view, the best in view first (Alg. 1, line 8)."""
-        ...
 
     def spin(self, angle: float) -> None:
         """Turn in place by `angle` radians, left positive (line 13)."""
-        ...
 
     def drive_to(self, target: str, percepts: Sequence[Percept]) -> DriveResult:
         """Drive to the object of this id round all others, and say how it ended (line 15)."""
-        ...
 
     def drive_away(self, target: str, percepts: Sequence[Percept]) -> DriveResult:
         """Leave the surroundings of the object of this id."""
-        ...
 
     def go_to(self, x: float, y: float, percepts: Sequence[Percept]) -> DriveResult:
         """Drive to a place round all objects, to look from there."""
-        ...
 
 
 class SimulationRobot(Robot, Protocol):
@@ -49,27 +43,22 @@ class SimulationRobot(Robot, Protocol):
 
     def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
         """Stand at the start pose of a world, all counters at zero; `rng` draws the recogniser's mistakes."""
-        ...
 
     @property
     def path_length(self) -> float:
         """Metres driven since `load`."""
-        ...
 
     @property
     def turned(self) -> float:
         """Radians turned since `load`, both directions counted positive."""
-        ...
 
     @property
     def collisions(self) -> int:
         """How often it came to touch an object since `load`."""
-        ...
 
     @property
     def seconds(self) -> float:
         """Simulated seconds that it has moved since `load`."""
-        ...
 
 
 class InteractiveRobot(SimulationRobot, Protocol):
@@ -79,12 +68,9 @@ class InteractiveRobot(SimulationRobot, Protocol):
 
     def stop(self) -> None:
         """End the motion under way, and do nothing more until `resume` or `load`; any thread may call it."""
-        ...
 
     def resume(self) -> None:
         """Move again when asked to."""
-        ...
 
     def close(self) -> None:
         """Let go of what it holds."""
-        ...

@@ -1,9 +1,6 @@
 """The fit beside its peers, on the same rows and the same objective: `python -m dcg_torch.bench.fits [--rows N ...]`.
 
-Peers are the solvers of scikit-learn and torch's L-BFGS. Each has the time that it needs from labelled rows to weights:
-for ours, merging them included. scikit-learn gets its design matrix ready made, its C is 1 / l2 and its columns are the
-pairs of ours. Its tolerance is divided by the rows, as its objective is; it often stops earlier, when the value stands
-still, so every peer's gradient is given beside its time.
+Milliseconds of the processor on one thread, from labelled rows to weights: for ours, merging them included.
 """
 
 from __future__ import annotations
@@ -13,24 +10,18 @@ import sys
 import tracemalloc
 import warnings
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.bench.result import Result, milliseconds, repeated, result
+from dcg_torch.bench.peers import L2, TOLERANCE, Peer, peers
+from dcg_torch.bench.result import Result, cpu_milliseconds, repeated, result
 from dcg_torch.grounding.design import Ints, merge
 from dcg_torch.grounding.fit import fit, objective_at
 from dcg_torch.grounding.psi import BINARY, TERNARY, Bag, Floats, LogLinearFactor
 from dcg_torch.storage.arguments import Arguments
 from dcg_torch.types import Correspondence
-
-L2 = 1.0
-TOLERANCE = 1e-6
-"""Of the gradient's max-norm, absolute."""
-_SLOW = {"newton-cholesky": 10_000, "newton-cg": 200_000, "torch": 200_000}
-"""Rows up to which a peer is asked: beyond, it takes minutes or gigabytes."""
 
 
 @dataclass(frozen=True)
@@ -115,68 +106,32 @@ def ours(rows: Rows, solver: str = "auto") -> LogLinearFactor:
     return factor
 
 
-def peers(rows: Rows) -> Iterator[tuple[str, Callable[[], Floats]]]:
-    """Name, and what finds the weights (P, L, G), of every peer that can be asked for so many rows."""
-    count = len(rows.phrase)
-    if count <= _SLOW["torch"]:
-        yield "torch L-BFGS", lambda: ours(rows, "lbfgs-torch").weight.numpy()
-    try:
-        from sklearn.linear_model import LogisticRegression
-    except ImportError:
-        return
-    design = _written_out(rows)
-    used = np.unique(design.indices)
-    narrow, shape = design[:, used], (len(rows.correspondences), *rows.pairs.shape)
-    two = len(rows.correspondences) == 2
-    for solver in ("lbfgs", "newton-cg", "newton-cholesky"):
-        if count > _SLOW.get(solver, count):
-            continue
-
-        def run(solver: str = solver) -> Floats:
-            model: Any = LogisticRegression(
-                C=(2.0 if two else 1.0) / L2, fit_intercept=False, solver=solver, tol=TOLERANCE / count, max_iter=5_000
-            )
-            model.fit(narrow, rows.label)
-            weight = np.zeros((shape[0], shape[1] * shape[2]))
-            weight[:, used] = np.concatenate([-model.coef_, model.coef_]) / 2 if two else model.coef_
-            centred: Floats = (weight - weight.mean(axis=0)).reshape(shape)
-            return centred
-
-        yield f"scikit-learn {solver}", run
-
-
-def _written_out(rows: Rows) -> Any:
-    """(n, L * G) scikit-learn's design matrix."""
-    from scipy.sparse import csr_array
-
-    count, groundings = len(rows.phrase), rows.pairs.shape[1]
-    columns = (rows.language[rows.phrase][:, :, None] * groundings + rows.grounding[:, None, :]).reshape(count, -1)
-    kept = rows.pairs.reshape(-1)[columns]
-    starts = np.concatenate([[0], np.cumsum(kept.sum(axis=1))])
-    return csr_array((np.ones(int(starts[-1])), columns[kept], starts), (count, rows.pairs.size))
-
-
 def bench_fit(kind: str, count: int, repeats: int, goal: float | None = None) -> Iterator[Result]:
     """The fit of `count` rows of a kind ("dense" or "sparse"), and each peer's time and gradient."""
     rows = (dense_rows if kind == "dense" else sparse_rows)(count, np.random.default_rng(count))
-    what = f"{count:,} {kind} rows"
-    mine = repeated(f"fit, {what}", lambda: ours(rows), repeats)
+    what, curve = f"{count:,} {kind} rows", f"Fit of {kind} rows, ms by rows: "
+    mine = replace(repeated(f"fit, {what}", lambda: ours(rows), repeats), curve=f"{curve}ours", at=count)
     yield mine
     yield result(f"fit, {what}: memory beyond the input", [_peak(lambda: ours(rows))], "MB", goal=60)
     yield result(f"fit, {what}: gradient", [_gradient(rows, ours(rows).weight.numpy())], "max-norm")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # scikit-learn tells of steps that no longer lower its objective
-        for name, run in peers(rows):
-            first = [np.zeros(0)]
+        for peer in peers(rows, lambda: ours(rows, "lbfgs-torch").weight.numpy()):
+            yield from _beside(peer, rows, mine, what, max(1, repeats // 2), curve, goal)
 
-            def keep(run: Callable[[], Floats] = run, first: list[Floats] = first) -> None:
-                first[0] = run()
 
-            theirs = result(f"{name}, {what}", [milliseconds(keep) for _ in range(max(1, repeats // 2))])
-            yield theirs
-            yield result(f"{name}, {what}: gradient", [_gradient(rows, first[0])], "max-norm")
-            own_goal = goal if name == "scikit-learn lbfgs" else None
-            yield result(f"fit over {name}, {what}", [mine.median / theirs.median], "ratio", goal=own_goal)
+def _beside(
+    peer: Peer, rows: Rows, mine: Result, what: str, repeats: int, curve: str, goal: float | None
+) -> Iterator[Result]:
+    """A peer's time, its gradient, and ours over its time."""
+    found: list[Floats | None] = []
+    times = [cpu_milliseconds(lambda: found.append(peer.run())) for _ in range(repeats)]
+    theirs = result(f"{peer.name}, {what}", times, "ms CPU", curve=f"{curve}{peer.name}", at=len(rows.phrase))
+    yield theirs
+    if (weight := found[0]) is not None:
+        yield result(f"{peer.name}, {what}: gradient", [_gradient(rows, weight)], "max-norm")
+    own_goal = goal if peer.name == "scikit-learn lbfgs" else None
+    yield result(f"fit over {peer.name}, {what}", [mine.median / theirs.median], "ratio", goal=own_goal)
 
 
 def _gradient(rows: Rows, weight: Floats) -> float:

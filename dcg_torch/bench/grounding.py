@@ -56,7 +56,7 @@ def scene_of(count: int, rng: np.random.Generator) -> list[Percept]:
 
 
 def _measured(
-    name: str, model: GroundingModel, texts: Sequence[str], count: int, goal: float | None
+    kind: str, model: GroundingModel, texts: Sequence[str], count: int, goal: float | None
 ) -> Iterator[Result]:
     """Grounding each text in worlds of its own; beyond `_LARGE` objects also what memory it takes."""
     rng, parse = np.random.default_rng(count), default_parser().parse
@@ -69,7 +69,8 @@ def _measured(
         model.ground(command, world())
     large = count > _LARGE
     work = [(command, world()) for command in commands for _ in range(3 if large else max(8, 40 // len(commands)))]
-    yield result(name, [cpu_milliseconds(model.ground, *one) for one in work], "ms CPU", goal)
+    times, name = [cpu_milliseconds(model.ground, *one) for one in work], f"grounding among {count:,}, {kind}"
+    yield result(name, times, "ms CPU", goal, curve=f"Grounding, ms by objects: {kind}", at=count)
     if large:
         tracemalloc.start()
         try:
@@ -88,14 +89,13 @@ def bench_grounding(counts: Sequence[int] = (24, 25, 60, 10_000, 100_000)) -> It
     related = GroundingModel.trained(initial_training(), Variant(groups=groups, hypothetical=False, ternary=False))
     related.teach(generated_lessons(parse, 200), relations_only=True, rounds=1)
     for count in counts:
-        what = f"grounding among {count:,}"
-        yield from _measured(f"{what}, plain", paper, [_PLAIN], count, _GOALS.get((count, "plain")))
+        yield from _measured("plain", paper, [_PLAIN], count, _GOALS.get((count, "plain")))
         relational = _RELATIONAL if count <= _LARGE else (_RELATED,)
         goal = _GOALS.get((count, "relation"))
-        yield from _measured(f"{what}, relational", related, relational, count, goal)
+        yield from _measured("relational", related, relational, count, goal)
         if count <= _LARGE:
             goal = _GOALS.get((count, "shipped"))
-            yield from _measured(f"{what}, shipped model with readings", shipped, _READ, count, goal)
+            yield from _measured("shipped model with readings", shipped, _READ, count, goal)
     read = [cpu_milliseconds(parse, text, shipped.symbols) for text in _READ * 8]
     yield result("parsing a command with its readings", read[len(_READ) :], "ms CPU", goal=4)
 

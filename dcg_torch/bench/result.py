@@ -10,7 +10,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Result:
-    """One measurement: what, its unit, the median of `repeats`, the extremes, and the goal if there is one."""
+    """One measurement.
+
+    Attributes:
+        name: what is measured.
+        unit: of the median of `repeats` and of the extremes.
+        goal: at most so much; None: there is none.
+        curve: the title of the curve that this is a point of, ": ", and the name of its line; empty: of none.
+        at: where on the curve.
+        part: heading in the page.
+    """
 
     name: str
     unit: str
@@ -19,11 +28,22 @@ class Result:
     high: float
     repeats: int
     goal: float | None = None
+    curve: str = ""
+    at: float = 0.0
+    part: str = ""
 
 
-def result(name: str, values: Sequence[float], unit: str = "ms", goal: float | None = None) -> Result:
-    """The result of several values."""
-    return Result(name, unit, statistics.median(values), min(values), max(values), len(values), goal)
+def result(
+    name: str,
+    values: Sequence[float],
+    unit: str = "ms",
+    goal: float | None = None,
+    *,
+    curve: str = "",
+    at: float = 0.0,
+) -> Result:
+    """The result of several values; for `curve` and `at` see `Result`."""
+    return Result(name, unit, statistics.median(values), min(values), max(values), len(values), goal, curve, at)
 
 
 def milliseconds(work: Callable[..., object], *arguments: object) -> float:
@@ -41,6 +61,6 @@ def cpu_milliseconds(work: Callable[..., object], *arguments: object) -> float:
 
 
 def repeated(name: str, work: Callable[[], object], repeats: int, goal: float | None = None) -> Result:
-    """Of several calls, after one to warm up."""
+    """Milliseconds of the processor in several calls, after one to warm up."""
     work()
-    return result(name, [milliseconds(work) for _ in range(repeats)], goal=goal)
+    return result(name, [cpu_milliseconds(work) for _ in range(repeats)], "ms CPU", goal)

@@ -15,6 +15,7 @@ from hydra._internal.utils import get_args_parser
 
 from dcg_torch import __version__
 from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
+from dcg_torch.report.terminal import CLOSED, close_output
 from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
@@ -57,8 +58,8 @@ def one_line_errors(directory: Path | None = None, goes_on: str = "", program: s
     except UserError as error:
         sys.exit(refuse(str(error), directory))
     except BrokenPipeError:
-        _close_output()
-        sys.exit(refuse("standard output was closed before all was said; the rest is not shown", directory))
+        close_output()
+        sys.exit(refuse(CLOSED, directory))
     except OSError as error:
         sys.exit(refuse(explain_os_error(error), directory))
     except MemoryError:
@@ -90,12 +91,6 @@ def raised_errors(directory: Path, program: str = "run") -> Iterator[None]:
             raise UserError(str(error)) from None
         said = explain_os_error(error) if isinstance(error, OSError) else explain(error, program)
         raise UserError(said) from None
-
-
-def _close_output() -> None:
-    """Keep Python from complaining once more about a closed pipe, when it flushes at its end."""
-    with contextlib.suppress(OSError, ValueError):
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def run_application(application: Callable[[], None], program: str = "run") -> int:

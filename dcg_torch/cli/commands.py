@@ -45,6 +45,7 @@ COMMANDS: Mapping[str, Command] = {
         "ros",
         ("rclpy",),
     ),
+    "pretrain": Command("cli.pretrain", "make the shipped model anew"),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }

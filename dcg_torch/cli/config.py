@@ -5,12 +5,14 @@ from __future__ import annotations
 import difflib
 import functools
 import secrets
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, TypeVar, cast
 
 from hydra.core.config_store import ConfigStore
 from hydra.core.hydra_config import HydraConfig
+from hydra.core.override_parser.overrides_parser import OverridesParser
+from hydra.core.override_parser.types import ChoiceSweep
 from hydra.errors import HydraException, MissingConfigException, OverrideParseException
 from omegaconf import DictConfig, OmegaConf
 from omegaconf.errors import OmegaConfBaseException
@@ -29,9 +31,11 @@ from dcg_torch.settings import (
     check_values,
     described,
 )
+from dcg_torch.storage.foreign import plain, shown
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole
 
+T = TypeVar("T")
 CONFIG_ERRORS = (HydraException, OmegaConfBaseException)
 """What Hydra raises when overrides or YAML files are wrong; `explain` says it in one line."""
 
@@ -66,40 +70,49 @@ def settings_of(config: DictConfig) -> Settings:
         SettingsError: a value makes no sense, or is of no use to any setting.
         OmegaConfBaseException: a value is missing, or refers to one that does not exist.
     """
-    _refuse_choices()
-    _refuse_added(config, Settings)
-    settings = cast(Settings, OmegaConf.to_object(config))
-    check(settings)
-    return settings
+    return _checked(config, Settings, check)
 
 
 def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
     """The same for `evaluate`; what depends on the episodes is checked with them."""
-    _refuse_choices()
-    _refuse_added(config, EvaluateSettings)
-    settings = cast(EvaluateSettings, OmegaConf.to_object(config))
-    check_bounds(settings)
-    return settings
+    return _checked(config, EvaluateSettings, check_bounds)
 
 
 def talk_settings_of(config: DictConfig) -> TalkSettings:
     """The same for `talk`."""
-    _refuse_added(config, TalkSettings)
-    settings = cast(TalkSettings, OmegaConf.to_object(config))
-    check_values(settings)
+    return _checked(config, TalkSettings, check_values)
+
+
+def _checked(config: DictConfig, schema: type[T], check_them: Callable[[T], None]) -> T:
+    _refuse_choices()
+    _refuse_added(config, schema)
+    settings = cast(T, OmegaConf.to_object(config))
+    check_them(settings)
     return settings
 
 
 def refuse_nothing(overrides: Sequence[str]) -> None:
-    """See that no override chooses null where one of a group must be chosen; Hydra would answer with a traceback.
+    """See that an override that chooses one of a group names one.
+
+    To null, truth values and numbers Hydra would answer with a traceback; of a list of models it would mix one.
 
     Raises:
-        SettingsError: one does.
+        SettingsError: one does not.
+        OverrideParseException: one is no override.
     """
     for override in overrides:
-        group, _, values = override.partition("=")
-        if group in _GROUPS and "null" in values.split(","):
+        group, equals, _ = override.lstrip("+~").partition("=")
+        if not group:
+            raise SettingsError(f"{plain(override, 80)}: not an override; write KEY=VALUE")
+        if override.startswith("~") and group in _GROUPS:
             _refuse_choice(group, "null")
+        if not equals or not ("/" in group or group in (*_GROUPS, "experiment")):
+            continue
+        chosen = OverridesParser.create().parse_override(override).value()
+        for one in chosen.list if isinstance(chosen, ChoiceSweep) else (chosen,):
+            names = one if isinstance(one, list) and group not in _GROUPS else [one]
+            if any(name is None or isinstance(name, (bool, int, float, dict, list)) for name in names):
+                _refuse_choice(group, "null" if one is None else one)
 
 
 _GROUPS = ("model", "simulator")
@@ -113,9 +126,13 @@ def _refuse_choices() -> None:
             _refuse_choice(group, chosen or "null")
 
 
-def _refuse_choice(group: str, chosen: str) -> None:
+def _refuse_choice(group: str, chosen: object) -> None:
     there = sorted(path.stem for path in (resource("conf") / group).glob("*.yaml"))
-    raise SettingsError(f"{group}={chosen}: there is no such {group}; choose from {', '.join(there)}")
+    mend = f"choose from {', '.join(there)}" if there else "give the name of one"
+    raise SettingsError(f"{group}={shown(chosen).strip(_QUOTE)}: there is no such {group}; {mend}")
+
+
+_QUOTE = "'"
 
 
 def _refuse_added(config: DictConfig, schema: type) -> None:
@@ -155,13 +172,32 @@ def explain(error: Exception, program: str = "run") -> str:
         get = f", or install {extra[0]} (the extra {extra[1]}: pip install -e '.[{extra[1]}]')" if extra else ""
         return f"{group}={option}: there is no such {group}; choose from {', '.join(choices)}{get}"
     if isinstance(error, OverrideParseException):
-        return f"{error.override}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
+        given = plain(str(error.override), 80)
+        return f"{given}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
     if first.startswith(("Could not override", "Could not append")):
         return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])
     if first.startswith("Error merging override") and cause is not None:
-        return f"{first.removeprefix('Error merging override ')}: {_lines(cause)[0]}"
+        given = first.removeprefix("Error merging override ")
+        return f"{plain(given, 120)}: {_wanted(_lines(cause)[0], given)}"
     return f"{key}: {first}" if key and str(key) not in first else " ".join(_lines(error))
+
+
+def _wanted(said: str, given: str) -> str:
+    """What to give instead, from what OmegaConf says of a value of another kind."""
+    key, _, value = given.lstrip("+").partition("=")
+    for part, wanted in (
+        ("converted to Integer", "give a whole number"),
+        ("converted to Float", "give a number"),
+        ("is not a valid bool", "give true or false"),
+        ("is not a ListConfig", f"give a list in brackets, as in {plain(key)}=[{plain(value, 40) or 'a'}]"),
+        ("to string", "give a text"),
+        ("is not a subclass", f"it holds several settings; set one at a time, as in {plain(key)}.NAME=VALUE"),
+        ("expected one of [", f"give one of {said.rpartition('[')[2].rstrip(']')}"),
+    ):
+        if part in said:
+            return wanted
+    return plain(said, 200)
 
 
 _PLUGINS = {

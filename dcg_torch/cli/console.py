@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from types import TracebackType
 from typing import Self
 
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from dcg_torch.report.terminal import Output
 from dcg_torch.storage.records import Iteration
 
 _LOG_WIDTH = 140  # columns; into a pipe or a file there is no width to keep to
@@ -16,15 +16,8 @@ _LOG_WIDTH = 140  # columns; into a pipe or a file there is no width to keep to
 
 def make_console() -> Console:
     """Standard output; wide enough for the tables where it is no terminal."""
-    console = _Console(highlight=False)
-    return console if console.is_terminal else _Console(width=max(_LOG_WIDTH, console.width), highlight=False)
-
-
-class _Console(Console):
-    """Leaves it to the program what to do when nobody reads on; Rich would end it without a word."""
-
-    def on_broken_pipe(self) -> None:
-        raise BrokenPipeError
+    console = Output(highlight=False)
+    return console if console.is_terminal else Output(width=max(_LOG_WIDTH, console.width), highlight=False)
 
 
 class _Shown:
@@ -36,9 +29,7 @@ class _Shown:
         self._bar.start()
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self._bar.stop()
 
 

@@ -7,7 +7,6 @@ import importlib
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Any, NamedTuple, Self
 
 from rich.console import Console
@@ -82,11 +81,9 @@ class _Progress:
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         if self._bar is not None:
-            self._bar.__exit__(kind, value, traceback)
+            self._bar.__exit__()
 
     def __call__(self, total: int) -> None:
         """One more of `total` is done."""
@@ -105,5 +102,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     parser.add_argument("kind", metavar="KIND", choices=KINDS, help="of the files, one of those above")
     parser.add_argument("path", metavar="PATH", type=Path, help="a file or a folder")
-    parser.add_argument("--out", metavar="FILE", type=Path, required=True, help="the file to write")
+    parser.add_argument(
+        "--out", metavar="FILE", type=Path, required=True, help="the file to write; its folder is made if need be"
+    )
     return parser

@@ -69,11 +69,33 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     # With folds, too, the first split has all episodes.
     if note := unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part):
         console.print(f"note: {note}", markup=False)
+    for name in (PREDICTIONS, SUMMARY):
+        (directory / name).unlink(missing_ok=True)
+    model, found, learned, train_seconds = _ground(settings, splits, directory, console)
+    if settings.save and not settings.folds:
+        write_whole_folder(directory / MODEL, lambda folder: save(model, folder))
+    further: dict[str, Any] = {}
+    if settings.baseline:
+        further["baselines"] = _baselines(settings, splits, console)
+    if settings.certify:
+        further["certify"] = _certify(model, splits, console)
+    figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
+    _print_files(figures["by_file"], console)
+    _print_errors(found, console)
+    if settings.learn:
+        further["learned"] = learned
+        told = ", ".join(f"{word} = {meaning}" for word, meaning in learned.items()) or "none"
+        console.print(f"nouns learned: {told}", markup=False)
+    return figures | further
+
+
+def _ground(
+    settings: EvaluateSettings, splits: Sequence[Split], directory: Path, console: Console
+) -> tuple[GroundingModel, list[Answer], dict[str, str], float]:
+    """Train and ground each split, and write its predictions; the last model, all answers, words learned, seconds."""
     found: list[Answer] = []
     learned: dict[str, str] = {}
     train_seconds = 0.0
-    for name in (PREDICTIONS, SUMMARY):
-        (directory / name).unlink(missing_ok=True)
     part = directory / f"{PREDICTIONS}.part"
     with part.open("w", encoding="utf-8") as file:
         for split in splits:
@@ -87,24 +109,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
                     bar.advance()
             learned |= {w: s.type for w, s in model.symbols.items() if w not in first}
     part.replace(directory / PREDICTIONS)
-    if settings.save and not settings.folds:
-        write_whole_folder(directory / MODEL, lambda folder: save(model, folder))
-    if settings.baseline:
-        baselines = _baselines(settings, splits, console)
-    if settings.certify:
-        certified = _certify(model, splits, console)
-    figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
-    _print_files(figures["by_file"], console)
-    _print_errors(found, console)
-    if settings.baseline:
-        figures["baselines"] = baselines
-    if settings.certify:
-        figures["certify"] = certified
-    if settings.learn:
-        figures["learned"] = learned
-        told = ", ".join(f"{word} = {meaning}" for word, meaning in learned.items()) or "none"
-        console.print(f"nouns learned: {told}", markup=False)
-    return figures
+    return model, found, learned, train_seconds
 
 
 def _baselines(settings: EvaluateSettings, splits: Sequence[Split], console: Console) -> dict[str, Any]:
@@ -226,6 +231,8 @@ def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:
     ):
         if wanted is None:
             continue
+        if not taught:
+            raise SettingsError(f"{name}: it says what of the training episodes is kept; give train=FILE, too")
         strange = [one for one in wanted if one not in there]
         if strange or not wanted:
             what = f"{strange[0]!r} is meant in no training episode" if strange else "there is nothing to learn from"

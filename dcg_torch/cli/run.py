@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -61,13 +60,10 @@ def _run(settings: Settings, directory: Path, began: float) -> float:
     with CommandBar(settings.trials * settings.iterations, console) as bar:
         ran = run(settings, directory, bar, lambda note: console.print(f"note: {escape(note)}"))
     from dcg_torch.experiment.outcome import save_outcome, value_of
-    from dcg_torch.report import tables
-    from dcg_torch.report.paper import follows_paper
+    from dcg_torch.report.show import print_run
 
     outcome = save_outcome(settings, directory, time.perf_counter() - began if ran else None)
-    tables.print_measures(outcome.measures, console, outcome.seconds, beside_paper=follows_paper(asdict(settings)))
-    tables.print_iterations(outcome.measures, console)
-    tables.print_errors(outcome.measures, console)
+    print_run(outcome.measures, outcome.seconds, asdict(settings), console)
     _print_lexicon(lexicon_of(directory, settings.trials - 1), console)
     shown = escape(str(directory))
     for pictures in ("figures", "animations", "screenshots"):
@@ -88,7 +84,3 @@ def main() -> int:
     """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
     application = hydra.main(version_base="1.3", config_path=str(resource("conf")), config_name="config")(_application)
     return run_application(application)
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.agent.asking import Question, Reply
+from dcg_torch.agent.command import Look
 from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import ENDINGS, kind_of, said_of
 from dcg_torch.dialogue.situation import ASKING, Errand, Situation
@@ -107,7 +108,9 @@ def _learn(s: Situation, errand: Errand) -> None:
     learned = s.model.learn(errand.solution, Experience(errand.looked, certain, source=errand.text))
     if learned.symbol is not None:
         s.emit(Learned(learned.symbol.word, learned.symbol.type, "outcome"))
-        s.say(f'I think that "{learned.symbol.word}" is what my camera calls "{learned.symbol.type}".')
+        word, type_ = learned.symbol.word, learned.symbol.type
+        what = "a good word for it; my camera calls it so, too" if word == type_ else f'what my camera calls "{type_}"'
+        s.say(f'I think that "{word}" is {what}.')
 
 
 def go_on(s: Situation, errand: Errand, asking: Question, reply: Reply) -> Done:
@@ -118,6 +121,7 @@ def go_on(s: Situation, errand: Errand, asking: Question, reply: Reply) -> Done:
         s.emit(Understood("answer", f"You mean {s.the(reply.meant)}; {_doing(errand.solution)}.", reply.meant))
     else:
         s.emit(Understood("answer", "None of these, then."))
+    s.show(errand.looks, Look(s.robot.pose, errand.looks[-1].percepts, errand.solution))
     return _decide(s, errand, saying=None if reply.meant is None else "")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 
 from dcg_torch.types import Pose
@@ -118,8 +118,3 @@ Watcher = Callable[[Event], None]
 def to_json(event: Event) -> str:
     """One line: {"event": "Said", "text": "..."}; numbers in full, so that equal events give equal bytes."""
     return json.dumps({"event": type(event).__name__, **asdict(event)}, ensure_ascii=False)
-
-
-def transcript(events: Iterable[Event]) -> bytes:
-    """The events as JSON lines, in UTF-8."""
-    return "".join(to_json(event) + "\n" for event in events).encode()

@@ -9,10 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from dcg_torch.dialogue.events import Candidates, Event, Moved
-from dcg_torch.dialogue.file import Input, SessionError
-from dcg_torch.dialogue.session import Session, standing_at, with_stops
+from dcg_torch.dialogue.file import Input, SessionError, with_stops
+from dcg_torch.dialogue.session import Session, standing_at
 from dcg_torch.dialogue.situation import Errand
-from dcg_torch.experiment.recording.animation import animate
 from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand
 from dcg_torch.storage.records import Iteration, ObjectRecord, PoseRecord
 from dcg_torch.storage.whole import write_whole
@@ -139,6 +138,10 @@ def export_gif(file: Path, to: Path) -> Path:
     Raises:
         UserError: the session is not valid, or it has no command.
     """
+    from dcg_torch.experiment.recording.animation import (
+        animate,  # here: it draws in the physics, which need not be there
+    )
+
     commands = [_recorded(number, command) for number, command in enumerate(_commands(file))]
     if not commands:
         raise SessionError(f"{file}: this session has no command to animate; talk on, then export")

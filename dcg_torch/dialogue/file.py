@@ -6,15 +6,16 @@ import fcntl
 import hashlib
 import json
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, Field, ValidationError, model_validator
 
 from dcg_torch.model.checkpoint import DESCRIPTION, WEIGHTS
 from dcg_torch.model.pretrain import SHIPPED
 from dcg_torch.storage.errors import UserError, explain_os_error
-from dcg_torch.storage.foreign import problem_of, read_json, read_text
+from dcg_torch.storage.foreign import Strict, problem_of, read_json, read_text
 from dcg_torch.world.files import FileName, Metres, Radians, World, WorldObject
 
 MOST_CHARACTERS = 2_000
@@ -25,11 +26,7 @@ class SessionError(UserError):
     """A session that cannot be made or played; the message is one line."""
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class Header(_Strict):
+class Header(Strict):
     """What a session begins with; `sha256` is of the model's files, whose folder is `model`, None for the shipped."""
 
     dcg_torch_session: Literal[1] = 1
@@ -40,7 +37,7 @@ class Header(_Strict):
     seed: Annotated[int, Field(ge=0)] = 0
 
 
-class Move(_Strict):
+class Move(Strict):
     """An object that is put elsewhere; metres, radians."""
 
     id: FileName
@@ -48,7 +45,7 @@ class Move(_Strict):
     yaw: Radians | None = None
 
 
-class Input(_Strict):
+class Input(Strict):
     """One input: a text (with what was pointed at), a click, or a change of the world by hand.
 
     Or `stop`, a line of its own behind the input that it stopped: after how many events of it.
@@ -83,6 +80,14 @@ def model_hash(folder: Path | None) -> str:
         except OSError as error:
             raise SessionError(f"model: {explain_os_error(error)}") from None
     return found.hexdigest()
+
+
+def checked_model(header: Header, file: Path) -> Header:
+    """See that the model is the one that the session began with."""
+    if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
+        where = header.model or "the shipped model"
+        raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")
+    return header
 
 
 class SessionFile:
@@ -160,6 +165,17 @@ def read_session(path: Path) -> tuple[Header, tuple[Input, ...]]:
         raise SessionError(f"{path}: holds no session; make a new one")
     header = _parsed(path, 1, lines[0], Header)
     return header, tuple(_parsed(path, number, line, Input) for number, line in enumerate(lines[1:], start=2))
+
+
+def with_stops(inputs: Sequence[Input]) -> list[tuple[Input, int | None]]:
+    """The inputs, each with the number of the event after which it was stopped."""
+    found: list[tuple[Input, int | None]] = []
+    for line in inputs:
+        if line.stop is None:
+            found.append((line, None))
+        elif found:
+            found[-1] = (found[-1][0], line.stop)
+    return found
 
 
 _T = TypeVar("_T", bound=BaseModel)

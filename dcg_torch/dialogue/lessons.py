@@ -6,8 +6,12 @@ from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import with_article
 from dcg_torch.dialogue.situation import Situation, UnclearLesson
 from dcg_torch.language.teaching import Teaching
+from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import WorldObject
+
+_BELIEVED = 0.5
+"""Probability from which on a meaning that a lesson changes is said to have been another."""
 
 
 def face(s: Situation, thing: WorldObject, act: str) -> bool:
@@ -65,13 +69,18 @@ def _named(s: Situation, text: str, name: str, id_: str | None) -> Done:
 
 def _learn(s: Situation, text: str, id_: str | None) -> Done:
     """Learn a name, after the first answer: the training takes longer than that may."""
+    before = {entry.word: entry.types[0] for entry in s.model.lexicon() if entry.types}
     told = s.model.tell(text, s.model.world_model(s.seen, s.robot.pose, looked=bool(s.places)), pointing_at=id_)
     if not told or told.word is None:
         s.say(f"I have not learned that: {told.problem}.")
         return Done(s.robot.pose, "done")
     s.taught[told.word] = "told"
     s.emit(Learned(told.word, told.type, "told"))
-    s.say("I will remember that.")
+    old, sure = before.get(told.word, (told.type, 0.0))
+    if old in (told.type, UNMET) or sure < _BELIEVED:
+        s.say("I will remember that.")
+    else:
+        s.say(f'Until now I took "{told.word}" for what my camera calls "{old}"; I take it for "{told.type}" now.')
     return Done(s.robot.pose, "done", told.object)
 
 

@@ -28,16 +28,20 @@ def answer_question(s: Situation, question: Question, pointing_at: str | None) -
         return _about_things(s, question.kind, about)
     if question.kind == "identify":
         return _identify(s, about, pointing_at)
+    s.emit(Understood("question", answer_at_once(s, question) or what_is_seen(s)))
+    return Done(s.robot.pose, "done")
+
+
+def answer_at_once(s: Situation, question: Question) -> str | None:
+    """The answer to a question that takes neither a look nor a move; None for any other."""
     simple: dict[str, Callable[[], str]] = {
-        "see": lambda: what_is_seen(s),
-        "meaning": lambda: _meaning(s, about),
+        "meaning": lambda: _meaning(s, question.about or ""),
         "why": lambda: why(s),
         "words": lambda: _words(s),
         "place": lambda: _place(s),
         "help": lambda: str(replies()["help"]),
     }
-    s.emit(Understood("question", simple[question.kind]()))
-    return Done(s.robot.pose, "done")
+    return simple[question.kind]() if question.kind in simple else None
 
 
 def _about_things(s: Situation, kind: str, about: str) -> Done:

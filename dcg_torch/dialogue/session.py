@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
@@ -21,12 +21,14 @@ from dcg_torch.dialogue.file import (
     Header,
     Input,
     Move,
-    SessionError,
     SessionFile,
+    checked_model,
     model_hash,
     read_session,
+    with_stops,
 )
 from dcg_torch.dialogue.situation import Situation
+from dcg_torch.language.requests import Question
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
@@ -110,23 +112,30 @@ class Session:
         """
         header, inputs = read_session(file)
         session = cls.__new__(cls)
-        session._begin(_checked(header, file))
+        session._begin(checked_model(header, file))
         return session, inputs
 
     @classmethod
-    def open(cls, file: Path, watch: Watcher | None = None) -> Session:
-        """Go on with a session: all its inputs are played again, with their events to `watch`.
+    def open(
+        cls,
+        file: Path,
+        watch: Watcher | None = None,
+        before: Callable[[Session, Input], object] | None = None,
+    ) -> Session:
+        """Go on with a session: all its inputs are played again, each after a call of `before`, its events to `watch`.
 
         This is how a killed server comes back: an input that was under way is carried out to its end.
         """
         kept = SessionFile(file)
         try:
             session = cls.__new__(cls)
-            session._begin(_checked(kept.header, file))
+            session._begin(checked_model(kept.header, file))
         except BaseException:
             kept.close()
             raise
         for line, stop_at in with_stops(kept.inputs):
+            if before is not None:
+                before(session, line)
             session.play(line, stop_at, watch)
         session._file = kept
         return session
@@ -257,6 +266,14 @@ class Session:
         new = [e for e in self.model.lexicon() if not e.settled or e.word in self.state.taught]
         return {e.word: {"not met yet" if t == UNMET else t: p for t, p in e.types} for e in new}
 
+    def answer(self, text: str) -> str | None:
+        """The answer to a question that takes neither a look nor a move; None for any other text.
+
+        It changes nothing and is not kept. From the session's own thread, also from `watch`, while the robot drives.
+        """
+        act = read_act(text, self.model.symbols.keys(), asked=self.state.open is not None)
+        return questions.answer_at_once(self.state, act) if isinstance(act, Question) else None
+
     def reasons(self, most: int = 12) -> list[str]:
         """Why the last command was grounded as it was: factors and features with their log-odds, a line each."""
         return questions.reasons(self.state, most)
@@ -282,17 +299,6 @@ class Session:
             self._file.close()
 
 
-def with_stops(inputs: Sequence[Input]) -> list[tuple[Input, int | None]]:
-    """The inputs, each with the number of the event after which it was stopped."""
-    found: list[tuple[Input, int | None]] = []
-    for line in inputs:
-        if line.stop is None:
-            found.append((line, None))
-        elif found:
-            found[-1] = (found[-1][0], line.stop)
-    return found
-
-
 def _robot(simulator: str) -> InteractiveRobot:
     if simulator == "fake":
         from dcg_torch.simulator.fake import FakeRobot
@@ -306,11 +312,3 @@ def _robot(simulator: str) -> InteractiveRobot:
 def standing_at(world: World, pose: Pose) -> World:
     """The world with the robot at this pose."""
     return world.model_copy(update={"robot": RobotStart(x=pose.x, y=pose.y, yaw=pose.yaw)})
-
-
-def _checked(header: Header, file: Path) -> Header:
-    """See that the model is the one that the session began with."""
-    if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
-        where = header.model or "the shipped model"
-        raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")
-    return header

@@ -187,8 +187,7 @@ class Situation:
 
         def watch(look: Look) -> None:
             self.check()
-            looks.append(look)
-            self.emit(self._candidates(look))
+            self.show(looks, look)
 
         def before() -> None:
             while pending:
@@ -203,11 +202,13 @@ class Situation:
             first(solution, False)
         return Errand(text, command, solution, explorer.looked, start, in_view, looks)
 
-    def _candidates(self, look: Look) -> Candidates:
+    def show(self, looks: list[Look], look: Look) -> None:
+        """Another grounding: for those who draw them all, and for those who watch."""
+        looks.append(look)
         names, solution = self.names(), look.solution
         rows = [sentences.candidate(o, solution.probabilities.get(o.id, 0.0), names) for o in solution.world.objects]
         rows.sort(key=lambda row: (-row.probability, row.id))
-        return Candidates(tuple(rows), tuple(p.id for p in look.percepts))
+        self.emit(Candidates(tuple(rows), tuple(p.id for p in look.percepts)))
 
 
 class _Announced:

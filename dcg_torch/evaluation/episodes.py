@@ -266,7 +266,7 @@ def own_scale(episode: Episode, where: Workspace) -> Workspace:
 
 def _nearest(episode: Episode) -> list[float]:
     """The distance from each object to its nearest neighbour."""
-    points = np.array([p.position for p in episode.percepts()])
+    points = np.array([o.position if len(o.position) == 3 else (*o.position, 0.0) for o in episode.objects])
     apart = np.linalg.norm(points[None] - points[:, None], axis=2)
     np.fill_diagonal(apart, np.inf)
     return [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]

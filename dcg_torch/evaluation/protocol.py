@@ -8,10 +8,10 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dcg_torch.agent.command import CommandParser, ParsedCommand
 from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
 from dcg_torch.grounding.readings import looking
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.spoken import CommandParser, ParsedCommand
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace

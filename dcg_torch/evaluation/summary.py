@@ -19,17 +19,14 @@ class Counted(Protocol):
     @property
     def file(self) -> str:
         """The stem of the file that it is from."""
-        ...
 
     @property
     def probability(self) -> float | None:
         """Of the answer."""
-        ...
 
     @property
     def correct(self) -> bool:
         """Is it right?"""
-        ...
 
 
 def by_file(answers: Sequence[Counted]) -> dict[str, dict[str, Any]]:

@@ -182,10 +182,7 @@ def _dask(workers: int) -> Iterator[None]:
         with Client():
             yield
         return
-    with (
-        LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
-        Client(cluster),
-    ):
+    with LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster):
         yield
 
 

@@ -12,14 +12,7 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.lessons import training_set
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.model.pretrain import LESSONS, VARIANT, pretrained, train_open_world, without_names
-from dcg_torch.settings import (
-    Asking,
-    LearnerKind,
-    ModelSettings,
-    Names,
-    Settings,
-    SettingsError,
-)
+from dcg_torch.settings import Asking, LearnerKind, ModelSettings, Names, Settings, SettingsError
 
 
 def variant(settings: ModelSettings) -> Variant:

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.storage.whole import write_whole
 
@@ -93,8 +94,8 @@ def _difference(held: str, wanted: str) -> str:
         old, new = flatten(json.loads(held)), flatten(json.loads(wanted))
     except (ValueError, AttributeError, RecursionError):
         return f"its {SETTINGS} is not readable"
-    both = ", ".join(f"{key}={old.get(key)}" for key in {**old, **new} if old.get(key) != new.get(key))
-    return both if len(both) <= 300 else f"{both[:300]}..."
+    differing = [key for key in {**old, **new} if old.get(key) != new.get(key)]
+    return plain(", ".join(f"{plain(key)}={plain(str(old.get(key)))}" for key in differing), 300)
 
 
 def whole_lines(path: Path) -> list[tuple[str, str]]:

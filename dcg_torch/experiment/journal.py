@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS, TIMINGS, part_of, split_lines
-from dcg_torch.storage.records import Iteration, Timing
+from dcg_torch.storage.records import Iteration
 from dcg_torch.storage.whole import write_whole
 
 
@@ -59,9 +59,3 @@ class Journal:
         end = content.rfind(b"\n") + 1
         self._read += end
         return split_lines(content[:end].decode("utf-8"))[0]
-
-
-def read_run(directory: Path) -> tuple[list[Iteration], list[Timing]]:
-    """The rows and times of a run folder."""
-    rows, timings = ((directory / n).read_text(encoding="utf-8").split("\n")[:-1] for n in (ITERATIONS, TIMINGS))
-    return [Iteration.model_validate_json(x) for x in rows], [Timing.model_validate_json(x) for x in timings]

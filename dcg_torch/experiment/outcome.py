@@ -11,21 +11,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from dcg_torch.experiment.journal import read_run
+from dcg_torch.experiment.folder import ITERATIONS
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
 from dcg_torch.experiment.pool import work_off
 from dcg_torch.report.intervals import Estimate
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
-from dcg_torch.report.runs import varied_settings
+from dcg_torch.report.runs import read_rows, read_timings, varied_settings
 from dcg_torch.report.seconds import summarise_seconds
-from dcg_torch.report.summary import ReportError, read_summary, write_summary
+from dcg_torch.report.summary import SUMMARY, ReportError, read_summary, write_summary
 from dcg_torch.settings import Metric, Settings
 from dcg_torch.storage.records import Iteration, Timing
 from dcg_torch.storage.whole import sweep_parts
 from dcg_torch.world.files import World
 
-SUMMARY = "summary.json"
 _EVENTS = "events.out.tfevents.*"
 
 
@@ -43,7 +42,7 @@ def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Out
     Args:
         wall: seconds that the run took; None for one that was finished before, whose time stays.
     """
-    rows, timings = read_run(directory)
+    rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
     measures, seconds = measure(rows), summarise_seconds(timings)
     figures: list[Path] = []
     if settings.figures:

@@ -98,14 +98,14 @@ def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> 
             for _ in range(min(workers, len(tasks))):
                 link, process = _start(work)
                 links[link] = process
-                link.send(waiting.popleft())
+                _send(link, waiting.popleft())
         busy = set(links)
         while busy:
             ended: list[T] = []
             for link in busy.intersection(wait(list(busy), TICK)):
                 ended.append(_receive(link))
                 if waiting:
-                    link.send(waiting.popleft())
+                    _send(link, waiting.popleft())
                 else:
                     busy.discard(link)
             yield ended
@@ -151,19 +151,33 @@ def _start(work: Callable[[T], object]) -> tuple[Connection, BaseProcess]:
     context = _context()
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, work), daemon=True)
-    process.start()
+    try:
+        process.start()
+    except (EOFError, ConnectionError):  # of the process that workers are forked from
+        raise _killed() from None
     theirs.close()
     return ours, process
+
+
+def _killed() -> WorkerKilledError:
+    return WorkerKilledError(
+        "a worker process was killed, perhaps for want of memory (then try workers=1); "
+        "the same command in the same folder goes on from here"
+    )
+
+
+def _send(link: Connection, task: object) -> None:
+    try:
+        link.send(task)
+    except OSError:
+        raise _killed() from None
 
 
 def _receive(link: Connection) -> Any:
     try:
         task, error, told = link.recv()
     except (EOFError, OSError):
-        raise WorkerKilledError(
-            "a worker process was killed, perhaps for want of memory (then try workers=1); "
-            "the same command in the same folder goes on from here"
-        ) from None
+        raise _killed() from None
     if error is not None:
         raise error from RuntimeError(f"in a worker process:\n{told}")
     return task

@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 
 from dcg_torch.agent.asking import AskingPolicy, truthful
-from dcg_torch.agent.command import CommandParser, Look, Outcome, Stopwatch, carry_out
+from dcg_torch.agent.command import Look, Outcome, Stopwatch, carry_out
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
+from dcg_torch.grounding.spoken import CommandParser
 from dcg_torch.model import GroundingModel
+from dcg_torch.report.seconds import PHASES
 from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
 from dcg_torch.world.speaker import Command
 
@@ -32,6 +34,9 @@ def run_trial(
     watch: Callable[[Command, Look], None] | None = None,
 ) -> Iterator[tuple[Iteration, Timing]]:
     """Ground, act and learn, command by command; each command's record is yielded as it ends.
+
+    As in Algorithm 1 the robot learns whether or not the drive arrived (line 16 follows line 15 in any case). It learns
+    from the grounding and from what was in view; that a way is blocked says nothing of what a word means.
 
     Args:
         model: freshly trained on the initial training set (lines 1 to 6); it learns in place.
@@ -149,7 +154,7 @@ def _of_model(model: GroundingModel, first_words: frozenset[str], met: int) -> d
 def _timing(clock: Stopwatch, model: GroundingModel, robot: SimulationRobot) -> dict[str, Any]:
     fitted = model.fitted
     return {
-        **{name: clock.seconds[name] for name in _TIMED},
+        **{name: clock.seconds[name] for name in PHASES},
         "groundings": clock.counts["ground"],
         "train_steps": 0 if fitted is None else fitted.steps,
         "train_loss": 0.0 if fitted is None else fitted.value,
@@ -158,9 +163,6 @@ def _timing(clock: Stopwatch, model: GroundingModel, robot: SimulationRobot) -> 
         "grounding_columns": model.features.shape[1],
         "moving": robot.seconds,
     }
-
-
-_TIMED = ("load_world", "parse", "perceive", "ground", "explore", "drive", "train")
 
 
 def _chosen(outcome: Outcome) -> str | None:

@@ -90,9 +90,7 @@ def _save_outcome(
 ) -> None:
     """What a trial leaves beside its lines: an animation, what words mean to its robot, and the last one its model."""
     if recorder:
-        from dcg_torch.experiment.recording.animation import (
-            animate,  # here, because it costs a third of a second to import
-        )
+        from dcg_torch.experiment.recording.animation import animate  # here: it takes a third of a second to import
 
         write_whole(animation_of(directory, trial), lambda path: animate(recorder.commands, path))
     if settings.model.learner is LearnerKind.word_posterior:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -37,20 +38,27 @@ class Split:
         """(columns,) the column of each variable: the shared ones, then the rows' own."""
         return np.concatenate([self.shared, self.incidence.column[self.private]])
 
+    @cached_property
+    def row_order(self) -> Ints:
+        """(rows,) the rows as a fit has them: those with a variable of their own come first."""
+        own = self.incidence.row[self.private]
+        others = np.ones(self.incidence.rows, dtype=np.bool_)
+        others[own] = False
+        return np.concatenate([own, np.flatnonzero(others)])
+
     def rows(self) -> ArrowheadRows:
-        """The rows of the fit."""
-        incidence = self.incidence
+        """The rows of the fit, in `row_order`."""
+        incidence, order = self.incidence, self.row_order
         number = np.full(incidence.columns, -1, dtype=np.int64)
         number[self.shared] = np.arange(len(self.shared))
-        at = np.full(incidence.rows, -1, dtype=np.int64)
-        at[self.first] = np.arange(len(self.first))
-        kept = (at[incidence.row] >= 0) & (number[incidence.column] >= 0)
-        patterns = np.zeros((len(self.first), len(self.shared)))
-        patterns[at[incidence.row[kept]], number[incidence.column[kept]]] = self.value[kept]
         alone = len(self.first) == incidence.rows
-        own = incidence.row[self.private]
-        pattern = None if alone and (self.pattern == np.arange(incidence.rows)).all() else self.pattern
-        return ArrowheadRows(patterns, pattern, own, self.value[self.private])
+        first = order if alone else self.first
+        at = np.full(incidence.rows, -1, dtype=np.int64)
+        at[first] = np.arange(len(first))
+        kept = (at[incidence.row] >= 0) & (number[incidence.column] >= 0)
+        patterns = np.zeros((len(first), len(self.shared)))
+        patterns[at[incidence.row[kept]], number[incidence.column[kept]]] = self.value[kept]
+        return ArrowheadRows(patterns, None if alone else self.pattern[order], self.value[self.private])
 
 
 def split(incidence: Incidence, value: Floats) -> Split:
@@ -70,7 +78,4 @@ def split(incidence: Incidence, value: Floats) -> Split:
     bits = scrambled(scrambled(incidence.column.astype(np.uint64)) ^ value.view(np.uint64))
     keys = np.add.reduceat(np.where(alone, np.uint64(0), bits), incidence.starts)
     _, first, pattern = np.unique(keys, return_index=True, return_inverse=True)
-    order = np.argsort(first)  # patterns come in the order of their rows
-    rank = np.empty_like(order)
-    rank[order] = np.arange(len(order))
-    return Split(incidence, value, private, np.flatnonzero(is_shared), rank[pattern], first[order])
+    return Split(incidence, value, private, np.flatnonzero(is_shared), pattern, first)

@@ -25,7 +25,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import csr_array
 
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import row_hashes, stack_bags
@@ -112,6 +111,8 @@ class Likelihood:
         l2: float,
         prior: Floats,
     ) -> None:
+        from scipy.sparse import csr_array  # here: only who teaches needs it
+
         self._l2 = l2
         rows = _Rows()
         noun, term = self._gather(choices, rows)

@@ -22,12 +22,10 @@ class Weighted(Protocol):
     @property
     def features(self) -> FeatureSet:
         """The columns."""
-        ...
 
     @property
     def factor(self) -> LogLinearFactor:
         """The weights."""
-        ...
 
 
 @dataclass(frozen=True)

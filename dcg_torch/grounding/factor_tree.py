@@ -21,8 +21,8 @@ def path_to_object(tree: ParseTree) -> ParseTree:
     What modifies a noun phrase, and where a thing is to be put, is beyond the paper's features.
     """
     if tree.phrase.kind is PhraseKind.NOUN:
-        return replace(tree, children=())
-    return replace(tree, children=tuple(map(path_to_object, tree.children[:1])))
+        return ParseTree(tree.phrase)
+    return ParseTree(tree.phrase, tuple(map(path_to_object, tree.children[:1])))
 
 
 def coordinated(tree: ParseTree) -> list[ParseTree]:

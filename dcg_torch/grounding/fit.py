@@ -89,9 +89,10 @@ def fit(
     pairs = factor.pairs.cpu().numpy()
     active = pairs if free is None else pairs & free
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
-    if not (strength[active] > 0.0).all():
+    if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
-    fixed = np.where(active, 0.0 if prior is None else prior, weight)
+    fixed = weight.copy()
+    np.copyto(fixed, 0.0 if prior is None else prior, where=active)
     where = factor.weight.device if device is None else device_of(device)
     problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
@@ -102,10 +103,9 @@ def fit(
         else:
             raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
     factor.set_weight(new)
-    rest = np.flatnonzero(pairs & ~active)  # of the active ones that don't move the prior is the optimum
-    distance = (fixed if prior is None else fixed - prior).reshape(len(weight), -1)[:, rest] if len(rest) else 0.0
-    return FitResult(
-        value=found.point.value + constant + 0.5 * float(np.sum(strength.reshape(-1)[rest] * distance * distance)),
+    distance = np.square(fixed if prior is None else fixed - prior).sum(axis=0)
+    return FitResult(  # of the active weights that don't move the prior is the optimum
+        value=found.point.value + constant + 0.5 * float(np.sum(strength * distance, where=pairs & ~active)),
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,

@@ -14,6 +14,7 @@ all objects, the runner-up, and the factors of the modifiers.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -27,6 +28,21 @@ from dcg_torch.types import ParseTree, WorldModel
 
 if TYPE_CHECKING:
     import networkx as nx
+
+
+def solver(
+    features: FeatureSet, factor: LogLinearFactor, *, beam: int
+) -> Callable[[ParseTree, WorldModel, WorldEncoder], Solution]:
+    """Grounds trees in many worlds under the weights as they are now, which it looks up once for each phrase.
+
+    Its solutions have no runner-up.
+    """
+    tables = Tables(features, factor)
+
+    def solve(tree: ParseTree, world: WorldModel, encoder: WorldEncoder) -> Solution:
+        return Search(encoder, tables, beam).solve(tree, brief=True)
+
+    return solve
 
 
 class FactorGraph:

@@ -75,32 +75,28 @@ class Objective:
         The rows' own variables are eliminated first: what is left is as if their rows were less curved.
         """
         assert isinstance(self.rows, ArrowheadRows)
-        rows, chances = self.rows, point.chances
+        rows, chances, r = self.rows, point.chances, len(self.rows.entry)
         q, shared = len(chances), rows.patterns.shape[1]
         gradient = point.gradient.reshape(q, -1)
         curvature = self.total * chances[:, None] * (np.eye(q)[:, :, None] - chances)  # (Q, Q, N)
-        downhill = -gradient[:, :shared]
-        if len(rows.own):
-            coupled = rows.entry * curvature[:, :, rows.own]
-            inverse = _inverse(rows.entry * coupled + self._basis[:, :, None] * self.strength[shared:])
-            across = np.einsum("abr,bcr->acr", coupled, inverse)
-            curvature[:, :, rows.own] -= np.einsum("abr,bcr->acr", across, coupled)
-            pull = np.zeros((q, curvature.shape[2]))
-            pull[:, rows.own] = np.einsum("abr,br->ar", across, gradient[:, shared:])
-            downhill = downhill + rows.by_pattern(pull) @ rows.patterns
-        by_pattern = rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
-        step = self._shared_step(by_pattern, downhill)
-        if not len(rows.own):
-            return step.reshape(-1)
-        moved = step @ rows.patterns.T
-        moved = moved[:, rows.own if rows.pattern is None else rows.pattern[rows.own]]
-        left = gradient[:, shared:] + np.einsum("abr,br->ar", coupled, moved)
-        return np.concatenate([step, -np.einsum("abr,br->ar", inverse, left)], axis=1).reshape(-1)
+        if not r:
+            return self._shared_step(curvature, -gradient).reshape(-1)
+        coupled = rows.entry * curvature[:, :, :r]
+        inverse = _inverse(rows.entry * coupled + self._basis[:, :, None] * self.strength[shared:])
+        across = _times(coupled, inverse)
+        curvature[:, :, :r] -= _times(across, coupled)
+        pull = np.zeros((q, curvature.shape[2]))
+        pull[:, :r] = _times(across, gradient[:, None, shared:])[:, 0]
+        step = self._shared_step(curvature, rows.by_pattern(pull) @ rows.patterns - gradient[:, :shared])
+        moved = rows.by_row(step @ rows.patterns.T)[:, None, :r]
+        left = gradient[:, None, shared:] + _times(coupled, moved)
+        return np.concatenate([step, -_times(inverse, left)[:, 0]], axis=1).reshape(-1)
 
     def _shared_step(self, curvature: Floats, downhill: Floats) -> Floats:
-        """(Q, S) the step of the shared variables, from the curvature (Q, Q, M) of each pattern."""
+        """(Q, S) the step of the shared variables, from the curvature (Q, Q, N) of each row."""
         assert isinstance(self.rows, ArrowheadRows)
         q, step = len(downhill), np.empty_like(downhill)
+        curvature = self.rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
         for (rows, columns, matrix), penalty in zip(self.rows.blocks, self._penalties, strict=True):
             own, k = curvature[:, :, rows], len(columns)
             hessian = np.empty((q, k, q, k))
@@ -191,6 +187,14 @@ def likelihood(u: Floats, count: Floats, total: Floats) -> tuple[float, Floats, 
     chances /= partition
     value = float(total @ log_partition) - float(np.vdot(count[1:], u))
     return value, chances * total - count[1:], chances
+
+
+def _times(left: Floats, right: Floats) -> Floats:
+    """(a, c, n) products of n matrices (a, b, n) and (b, c, n) each."""
+    total: Floats = left[:, 0, None] * right[None, 0]
+    for k in range(1, len(right)):
+        total += left[:, k, None] * right[None, k]
+    return total
 
 
 def _inverse(matrices: Floats) -> Floats:

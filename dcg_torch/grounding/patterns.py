@@ -25,7 +25,7 @@ class Patterns:
 
     def of(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
         """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
-        kinds = tuple([(c.grounding.kind.value, c.correspondence.value) for c in children])
+        kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])  # hashed quickly
         about = [self._number[c.grounding.object.id] for c in children]
         special = {j: self._of(children, kinds, tuple([j == a for a in about])) for j in about}
         for j in special:

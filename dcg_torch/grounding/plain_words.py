@@ -39,7 +39,7 @@ def _head(type_: str) -> str:
 
 def heads(types: Iterable[str]) -> frozenset[str]:
     """The last words of the names of classes."""
-    return frozenset(map(_head, types))
+    return frozenset(map(_head, set(types)))
 
 
 def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:

@@ -123,10 +123,11 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     scores = [w + _sense(s) for w, s in zip(log_weights, solutions, strict=True)]
     most = max(scores)
     shares = [math.exp(s - most) for s in scores]
+    whole = sum(shares)
     total: defaultdict[str, float] = defaultdict(float)
     for share, solution in zip(shares, solutions, strict=True):
         for id_, p in solution.probabilities.items():
-            total[id_] += share * p / sum(shares)
+            total[id_] += share * p / whole
     meant = [s.object.id if s.object is not None else None for s in solutions]
     grounded = [k for k, id_ in enumerate(meant) if id_ is not None]
     if not grounded:

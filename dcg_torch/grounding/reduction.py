@@ -23,8 +23,8 @@ from dcg_torch.grounding.rows import ArrowheadRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
 from dcg_torch.grounding.written import Mask, constant_of, differences, offset_of, summed, weight_at, write_out
 
-_FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
-"""Pairs that may fire, over all rows, up to which symmetry is looked for at once, and rows are written out."""
+_SOME_ENTRIES = 2_000_000
+"""Pairs that may fire, over all rows, up to which rows are written out."""
 _NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
 
@@ -81,9 +81,7 @@ def reduce(
         designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
     if prefer == "newton" or (prefer == "auto" and entries <= _SOME_ENTRIES):
-        found = _written(
-            designs, weight, fixed, active, strength, always=prefer == "newton", many=entries > _FEW_ENTRIES
-        )
+        found = _written(designs, weight, fixed, active, strength, always=prefer == "newton")
         if found is not None:
             return found
     return _factored(designs, weight, fixed, active, strength)
@@ -97,39 +95,33 @@ def _written(
     strength: Floats,
     *,
     always: bool,
-    many: bool,
 ) -> Reduced | None:
     """Rows written out and made few by symmetry; None if too much stays for Newton's method.
 
     Args:
         always: Newton's method it is to be.
-        many: look for symmetry only where it takes that.
     """
     written = write_out(designs, weight, fixed, active, strength)
     incidence, columns, constant = written.incidence, written.columns, written.constant
     count, offset, start, own = written.count, written.offset, written.start, written.strength
     if not incidence.rows:
-        none = ArrowheadRows(np.zeros((0, 0)), None, np.zeros(0, dtype=np.int64), np.zeros(0))
+        none = ArrowheadRows(np.zeros((0, 0)), None, np.zeros(0))
         return Reduced(Objective(none, count, None, np.zeros(0)), np.zeros(0), constant, fixed, columns, None)
-    found = split(incidence, np.ones(len(incidence.row))) if many else None
-    tied: tuple[Ints, Floats] | None = None
-    if found is None or not _pays(found, len(start)):
-        alike = _alike(incidence, count, offset, own)
-        root = np.sqrt(alike.column_size)
-        incidence, fires = alike.incidence(incidence)
-        count = count[:, alike.row_first] * alike.row_size
-        offset = None if offset is None else offset[:, alike.row_first]
-        own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
-        tied = alike.column, (1.0 / root)[alike.column]
-        found = split(incidence, fires / root[incidence.column])
-        if not (always or _pays(found, len(start))):
-            return None
+    alike = _alike(incidence, count, offset, own)
+    root = np.sqrt(alike.column_size)
+    incidence, fires = alike.incidence(incidence)
+    count = count[:, alike.row_first] * alike.row_size
+    offset = None if offset is None else offset[:, alike.row_first]
+    own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
+    found = split(incidence, fires / root[incidence.column])
+    if not (always or _pays(found, len(start))):
+        return None
     order = found.order
     number = np.empty_like(order)
     number[order] = np.arange(len(order))
-    scale = 1.0 if tied is None else 1.0 / root[order]
-    tied = (number, np.ones(len(number))) if tied is None else (number[tied[0]], tied[1])
-    objective = Objective(found.rows(), count, offset, own[order], scale)
+    tied = number[alike.column], (1.0 / root)[alike.column]
+    count, offset = count[:, found.row_order], None if offset is None else offset[:, found.row_order]
+    objective = Objective(found.rows(), count, offset, own[order], 1.0 / root[order])
     return Reduced(objective, start[:, order].reshape(-1), constant, fixed, columns, tied)
 
 

@@ -5,16 +5,18 @@ Conventions: K variables of each of Q differences, N rows, arrays (Q, K) and (Q,
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
+
+if TYPE_CHECKING:
+    from scipy.sparse import csr_array
 
 
 class Rows(Protocol):
@@ -34,34 +36,33 @@ class ArrowheadRows:
     """Rows of which many have a variable of their own beside those that they share: the Hessian is an arrowhead.
 
     A noun with a type is such a variable, where every pair of them is shown once. Rows that share the same variables
-    are of one pattern. The variables are the S shared ones, then the R own ones.
+    are of one pattern. The variables are the S shared ones, then the R own ones, which the first R rows have.
 
     Attributes:
         patterns: (M, S) what fires of the shared variables.
         pattern: (N,) the pattern of each row; None: each row is its own.
-        own: (R,) the row of each own variable, no two of one row.
-        entry: (R,) how much it counts there.
+        entry: (R,) how much each own variable counts in its row.
     """
 
     patterns: Floats
     pattern: Ints | None
-    own: Ints
     entry: Floats
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
         shared = self.patterns.shape[1]
-        total: Floats = d[:, :shared] @ self.patterns.T
-        if self.pattern is not None:
-            total = total[:, self.pattern]
-        if len(self.own):
-            total[:, self.own] += self.entry * d[:, shared:]
+        total = self.by_row(d[:, :shared] @ self.patterns.T)
+        total[:, : len(self.entry)] += self.entry * d[:, shared:]
         return total
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
         shared = self.by_pattern(residual) @ self.patterns
-        return np.concatenate([shared, self.entry * residual[:, self.own]], axis=1) if len(self.own) else shared
+        return np.concatenate([shared, self.entry * residual[:, : len(self.entry)]], axis=1)
+
+    def by_row(self, values: Floats) -> Floats:
+        """(n, N) for each row the value (n, M) of its pattern."""
+        return values if self.pattern is None else values.take(self.pattern, axis=1)
 
     def by_pattern(self, values: Floats) -> Floats:
         """(n, M) sums over the rows of each pattern, of values (n, N)."""
@@ -138,17 +139,20 @@ class GridRows:
         return solve
 
 
+_FEW_ENTRIES = 200_000
+"""Variables in all rows up to which these are written out."""
+
+
 @dataclass(frozen=True)
 class SparseRows:
     """Rows that are sums of cells, and cells that are sums of variables: a cell is a phrase with a grounding column.
 
     Attributes:
-        rows: (N, cells) binary, CSR.
-        cells: (cells, K) binary, CSR.
+        factors: binary matrices, CSR, whose product says which variables each row has: (N, cells) and (cells, K), or
+            where that is small, the product itself.
     """
 
-    rows: csr_array
-    cells: csr_array
+    factors: tuple[csr_array, ...]
 
     @classmethod
     def of(cls, row_cells: tuple[Ints, Ints], cell_variables: tuple[Ints, Ints], shape: tuple[int, int, int]) -> Self:
@@ -160,20 +164,34 @@ class SparseRows:
             shape: N, cells, K.
         """
         (starts, cells), (cell_starts, variables) = row_cells, cell_variables
-        return cls(_ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:]))
+        factors = _ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:])
+        few = int(np.diff(cell_starts)[cells].sum()) <= _FEW_ENTRIES
+        return cls((factors[0] @ factors[1],) if few else factors)
+
+    @cached_property
+    def _back(self) -> tuple[csr_array, ...]:
+        return tuple(factor.T for factor in self.factors)
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        found: Floats = np.ascontiguousarray((self.rows @ (self.cells @ d.T)).T)
-        return found
+        return _applied(self.factors[::-1], d)
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        found: Floats = np.ascontiguousarray((self.cells.T @ (self.rows.T @ residual.T)).T)
-        return found
+        return _applied(self._back, residual)
+
+
+def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
+    """Each matrix in turn, to every row of values (Q, n)."""
+    found = values[0] if len(values) == 1 else values.T
+    for matrix in matrices:
+        found = matrix @ found
+    return found[None] if len(values) == 1 else np.ascontiguousarray(found.T)
 
 
 def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+    from scipy.sparse import csr_array  # here: only large fits need it
+
     small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
     return csr_array((np.ones(len(numbers)), numbers.astype(small), starts.astype(small)), shape=shape)
 

@@ -86,8 +86,12 @@ class Search:
         self._modifiers: dict[ParseTree, ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
 
-    def solve(self, tree: ParseTree) -> Solution:
-        """The best configuration, and the probabilities of all that it may be about."""
+    def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
+        """The best configuration, and the probabilities of all that it may be about.
+
+        Args:
+            brief: leave out the runner-up.
+        """
         world = self.encoder.world
         if not world.objects:
             return Solution(tree, world, problem="there is nothing here to mean")
@@ -110,7 +114,7 @@ class Search:
             by_id(np.exp(totals - np.logaddexp.reduce(totals))),
             by_id(fits),
             by_id(odds),
-            self._runner_up(root, best),
+            None if brief else self._runner_up(root, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,
             1.0 if noun is None else self._named(noun),
@@ -248,6 +252,8 @@ class Search:
     def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
+        if world.meant is None and not world.groups and not world.places:
+            return found
         meanable = len(world.meanable)
         scores = found.scores[:, :meanable]
         odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))

@@ -1,8 +1,8 @@
-"""What a model asks of a parser's answer; `language.Parse` is one."""
+"""What is asked of a parser and of its answer; `language.Parse` is one."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Collection, Sequence
 from typing import Protocol
 
 from dcg_torch.types import ParseTree
@@ -14,12 +14,10 @@ class WeightedReading(Protocol):
     @property
     def tree(self) -> ParseTree:
         """What it says."""
-        ...
 
     @property
     def log_weight(self) -> float:
         """log p(reading | command) before the world has spoken."""
-        ...
 
 
 class ReadCommand(Protocol):
@@ -28,14 +26,31 @@ class ReadCommand(Protocol):
     @property
     def text(self) -> str:
         """As it was said."""
-        ...
 
     @property
     def readings(self) -> Sequence[WeightedReading]:
         """The likeliest first; none where there is a problem."""
-        ...
 
     @property
     def problem(self) -> str | None:
         """Why there is no reading."""
-        ...
+
+
+class ParsedCommand(ReadCommand, Protocol):
+    """What reading a command gives: readings, or the problem in words."""
+
+    @property
+    def tree(self) -> ParseTree | None:
+        """The phrases of the likeliest reading, or None if there is a problem."""
+
+    @property
+    def noun(self) -> str | None:
+        """The noun of the object meant."""
+
+    @property
+    def color(self) -> str | None:
+        """The colour stated of the object meant."""
+
+
+CommandParser = Callable[[str, Collection[str]], ParsedCommand]
+"""Reads a command, given the words that are known."""

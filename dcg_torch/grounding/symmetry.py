@@ -102,12 +102,18 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Cl
         columns = scrambled(columns) + below
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside
-        before, found = found, (len(np.unique(rows)), len(np.unique(columns)))
+        before, found = found, (_distinct(rows), _distinct(columns))
         if found == before:
             break
     row_first, row_class, row_size = _numbered(rows)
     column_first, column_class, column_size = _numbered(columns)
     return Classes(row_class, column_class, row_first, column_first, row_size, column_size)
+
+
+def _distinct(keys: Hashes) -> int:
+    """How many distinct ones there are."""
+    ordered = np.sort(keys)
+    return int(np.count_nonzero(ordered[1:] != ordered[:-1])) + min(1, len(keys))
 
 
 def _numbered(keys: Hashes) -> tuple[Ints, Ints, Ints]:

@@ -110,9 +110,8 @@ class Tables:
         if found is None:
             assert self._weight is not None
             found = np.zeros((len(self._weight), self._weight.shape[2] + 1))
-            names = set(self.features.language_names(phrase))
-            for column in sorted(self.features.language[name] for name in names):
-                found[:, :-1] += self._weight[:, column]
+            columns = sorted({self.features.language[name] for name in self.features.language_names(phrase)})
+            self._weight[:, columns].sum(axis=1, out=found[:, :-1])
             self._sides[phrase] = found
         return found
 

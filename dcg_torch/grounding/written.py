@@ -43,8 +43,9 @@ def write_out(
     designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
 ) -> Written:
     """The rows of designs, of which there is at least one; for the arguments see `reduction.reduce`."""
-    incidence, rows, columns = _written_out(designs, active)
-    offset, count = offset_of(designs, fixed), np.concatenate([design.count for design in designs], axis=1)
+    codes = [_codes(design, active.shape) for design in designs]
+    incidence, rows, columns = _written_out(codes, active)
+    offset, count = _offset(codes, fixed), np.concatenate([design.count for design in designs], axis=1)
     unmoved = np.ones(count.shape[1], dtype=np.bool_)
     unmoved[rows] = False
     constant = constant_of(count, offset, unmoved)
@@ -103,17 +104,45 @@ def differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
     return differences
 
 
-def _written_out(designs: Sequence[DesignMatrix], active: Mask) -> tuple[Incidence, Ints, Ints]:
+def _codes(design: DesignMatrix, shape: tuple[int, int]) -> Ints:
+    """(N, k, k') the cell of each pair that fires, in a table of one language and one grounding column more."""
+    languages, groundings = shape
+    left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
+    return left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
+
+
+def _one_more(mask: Mask) -> Mask:
+    """(L + 1, G + 1) with what padding fires: nothing."""
+    found = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), dtype=np.bool_)
+    found[:-1, :-1] = mask
+    return found
+
+
+def _offset(codes: Sequence[Ints], fixed: Floats) -> Floats | None:
+    """(Q, N) score differences by weights that do not move; few of those that fire are not zero."""
+    some = fixed[0] != 0.0
+    for own in fixed[1:]:
+        some |= own != 0.0
+    if not some.any():
+        return None
+    flat, width, totals = _one_more(some).reshape(-1), fixed.shape[2], []
+    for code in codes:
+        fires = flat[code]
+        rows = np.repeat(np.arange(len(code)), np.count_nonzero(fires, axis=(1, 2)))
+        left, right = np.divmod(code[fires], width + 1)
+        values = fixed[:, left, right]
+        totals.append(summed(values[1:] - values[0], rows, len(code)))
+    return np.concatenate(totals, axis=1)
+
+
+def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, Ints]:
     """Which pairs fire: of the rows in which some does, the rows' numbers, and the cells of (L, G) that do."""
-    languages, groundings = active.shape
-    mask = np.zeros((languages + 1, groundings + 1), dtype=np.bool_)
-    mask[:-1, :-1] = active
+    groundings = active.shape[1]
+    mask = _one_more(active)
     flat, parts, lengths = mask.reshape(-1), [], []
-    for design in designs:
-        left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
-        codes = left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
-        fires = flat[codes]
-        parts.append(codes[fires])
+    for code in codes:
+        fires = flat[code]
+        parts.append(code[fires])
         lengths.append(np.count_nonzero(fires, axis=(1, 2)))
     pairs, length = np.concatenate(parts), np.concatenate(lengths)
     seen = np.zeros(mask.size, dtype=np.bool_)

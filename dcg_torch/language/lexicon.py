@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any, Final
@@ -118,11 +118,27 @@ def match_preposition(joined: str, offset: int) -> PrepositionMatch | None:
 @functools.cache
 def english() -> Mapping[str, Mapping[str, int]]:
     """A dictionary: word -> {part of speech (n, v, a, r): how often it is that, a power of two}."""
-    found: dict[str, Mapping[str, int]] = {}
-    for line in lines("english.tsv"):
-        word, kinds = line.split("\t")
-        found[word] = {kinds[i]: int(kinds[i + 1]) for i in range(0, len(kinds), 2)}
-    return found
+    return _Dictionary(line.partition("\t")[::2] for line in lines("english.tsv"))
+
+
+class _Dictionary(Mapping[str, Mapping[str, int]]):
+    """A dictionary whose lines are read when their word is looked up: it has tens of thousands."""
+
+    def __init__(self, entries: Iterable[tuple[str, str]]) -> None:
+        self._kinds = dict(entries)
+
+    def __getitem__(self, word: str) -> Mapping[str, int]:
+        kinds = self._kinds[word]
+        return {kinds[i]: int(kinds[i + 1]) for i in range(0, len(kinds), 2)}
+
+    def __contains__(self, word: object) -> bool:
+        return word in self._kinds
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._kinds)
+
+    def __len__(self) -> int:
+        return len(self._kinds)
 
 
 @functools.cache

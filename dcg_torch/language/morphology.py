@@ -85,7 +85,7 @@ def is_english(word: str) -> bool:
     """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
     if word in lx.english() or word in lx.PRONOUNS or word in lx.NUMBERS or word in lx.NORMAL:
         return True
-    if any(word in words for words in lx.SETS.values()):
+    if any(word in words for words in (*lx.SETS.values(), *lx.PLACING.values())):
         return True
     if singular(word) in lx.english() or verb(word) in lx.english():
         return True

@@ -222,11 +222,10 @@ def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:
 def default_parser() -> Parser:
     """One parser for the whole process, loaded at the first call.
 
-    What is loaded by then leaves Python's cyclic garbage collector: walking the dictionary would stop a command now
+    What is loaded by then leaves Python's cyclic garbage collector: walking it would stop a command now
     and then, and it lives as long as the process anyway.
     """
     parser = Parser()
-    gc.collect()
     gc.freeze()
     return parser
 

@@ -73,14 +73,20 @@ def _cheap(words: int, types: int) -> bool:
 
 def _clusters(linked: NDArray[np.bool_], free: NDArray[np.bool_]) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
     """Words and repelling types that hang together, as (indices of words, indices of types)."""
+    of_word: list[list[int]] = [[] for _ in range(len(linked))]
+    of_type: list[list[int]] = [[] for _ in free]
+    for w, t in np.argwhere(linked & free).tolist():
+        of_word[w].append(t)
+        of_type[t].append(w)
     left = set(range(len(linked)))
     found = []
     while left:
         words, types, fresh = set[int](), set[int](), {left.pop()}
         while fresh:
             words |= fresh
-            types |= {int(t) for w in fresh for t in np.flatnonzero(linked[w] & free)}
-            fresh = {int(w) for t in types for w in np.flatnonzero(linked[:, t])} - words
+            new = {t for w in fresh for t in of_word[w]} - types
+            types |= new
+            fresh = {w for t in new for w in of_type[t]} - words
         left -= words
         found.append((np.array(sorted(words)), np.array(sorted(types), dtype=np.int64)))
     return found
@@ -128,36 +134,50 @@ def propagate(
     other words, the type answers with the ratio repeat P / (repeat + P - 1), or 1 / (1 + sum of odds) at repeat 0.
     """
     _check(psi, repeat, free)
-    psi = _scaled(psi)
-    answer = np.ones(psi.shape)
+    psi, held = _scaled(psi), np.flatnonzero(~free)
+    answer, odds, work = np.ones(psi.shape), np.zeros(psi.shape), np.empty(psi.shape)
     sweeps = 0
-    odds = np.zeros(psi.shape)
     while sweeps < most:
         sweeps += 1
-        pull = psi * answer
-        odds = pull / np.maximum(pull.sum(axis=1, keepdims=True) - pull, 1e-300)
+        np.multiply(psi, answer, out=odds)
+        np.subtract(odds.sum(axis=1, keepdims=True), odds, out=work)
+        odds /= np.maximum(work, 1e-300, out=work)
         np.minimum(odds, 1e12, out=odds)
+        renewed = _answers(odds, repeat, work)
+        renewed[:, held] = 1.0
         # half a step in the logarithm: the undamped recursion can swing where words are many and repel weakly
-        renewed = np.sqrt(answer * np.where(free, _answers(odds, repeat), 1.0))
-        change = float(np.abs(renewed - answer).max(initial=0.0))
-        answer = renewed
+        np.sqrt(np.multiply(renewed, answer, out=renewed), out=renewed)
+        answer -= renewed
+        change = max(answer.max(initial=0.0), -answer.min(initial=0.0))
+        answer, work = renewed, answer
         if change < tolerance:
             break
     pull = psi * answer
     word = pull / pull.sum(axis=1, keepdims=True)
     # Of each type the belief about "no word at all", from the same messages.
-    grown = np.exp(np.log1p(repeat * odds).sum(axis=0)) if repeat > 0 else None
-    some = odds.sum(axis=0) if grown is None else (grown - 1.0) / repeat
+    some = odds.sum(axis=0) if repeat == 0.0 else (_product(1.0 + repeat * odds) - 1.0) / repeat
     return Marginals(word, np.where(free, some / (1.0 + some), 0.0), sweeps)
 
 
-def _answers(odds: Matrix, repeat: float) -> Matrix:
-    """Of every type to every word: weight of "w too names t" over that of "w does not"."""
+def _answers(odds: Matrix, repeat: float, out: Matrix) -> Matrix:
+    """Of every type to every word: weight of "w too names t" over that of "w does not"; written into `out`."""
     if repeat == 0.0:
-        return np.asarray(1.0 / (1.0 + odds.sum(axis=0) - odds))
-    log_one = np.log1p(repeat * odds)
-    less = np.expm1(np.minimum(log_one.sum(axis=0) - log_one, 600.0))  # P - 1
-    return np.asarray(repeat * (1.0 + less) / (repeat + less))
+        np.subtract(1.0 + odds.sum(axis=0), odds, out=out)
+        return np.divide(1.0, out, out=out)
+    np.multiply(odds, repeat, out=out)
+    out += 1.0
+    others = np.divide(_product(out), out, out=out)  # P
+    under = others + (repeat - 1.0)
+    others *= repeat
+    others /= under
+    return others
+
+
+def _product(factors: Matrix) -> Vector:
+    """(T,) of the factors of each type; there is no telling beyond 1e300."""
+    with np.errstate(over="ignore"):
+        product: Vector = np.minimum(factors.prod(axis=0), 1e300)
+    return product
 
 
 def _scaled(psi: Matrix) -> Matrix:

@@ -35,6 +35,8 @@ UNMET = "(unmet)"
 """Stands for all types that no object met so far was of."""
 SPREAD = 10.0
 """Number of words among which a slip falls."""
+_AKIN = 0.1
+"""How readily a word is said of a type whose name means what the word's type is called."""
 _SOURCES = 8  # commands kept for each word, the ones that told most
 
 
@@ -128,6 +130,12 @@ class Posterior:
         at = int(row.argmax())
         return self.types[at], float(row[at])
 
+    def best_of_all(self) -> dict[str, tuple[str, float]]:
+        """word -> its most probable type, and the probability."""
+        at = self.table.argmax(axis=1) if self.words else np.zeros(0, dtype=np.int64)
+        found = self.table[np.arange(len(at)), at].tolist()
+        return {w: (self.types[k], p) for w, k, p in zip(self.words, at.tolist(), found, strict=True)}
+
     @cached_property
     def _row(self) -> dict[str, int]:
         return {w: k for k, w in enumerate(self.words)}
@@ -201,7 +209,8 @@ class Beliefs:
         """P(word names type), for every word heard, every type met, and a word never heard."""
         prior, types = self.prior, (*self.types, UNMET)
         column = {t: k for k, t in enumerate(types)}
-        named = np.array([t in set(self.settled.values()) for t in self.types] + [False])
+        settled = set(self.settled.values())
+        named = np.array([t in settled for t in self.types] + [False])
         free = ~named
         free[-1] = False
         weight = np.where(named, prior.synonym, 1.0)
@@ -220,6 +229,7 @@ class Beliefs:
         new = weight * (1.0 - found.taken * (1.0 - prior.synonym))
         return Posterior((*self.settled, *self.heard), types, np.vstack([fixed, found.word]), new / new.sum())
 
+    @cached_property
     def said_of(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """How readily each word is said of an object of each type: the posterior, with slips.
 
@@ -229,6 +239,16 @@ class Beliefs:
         slip = self.prior.slip
         table, new = self.posterior.table, self.posterior.new
         return (1.0 - slip) * table + slip / SPREAD * (1.0 - table), (1.0 - slip) * new + slip / SPREAD * (1.0 - new)
+
+    def akin(self, word: str, type_: str) -> float:
+        """How readily a word is said of a type because what it names is called alike, where that itself is not there.
+
+        What one recogniser calls a laptop is a computer to another.
+        """
+        meaning, probability = self.posterior.best(word)
+        if UNMET in (meaning, type_) or meaning == type_ or meaning.startswith(OPAQUE) or type_.startswith(OPAQUE):
+            return 0.0
+        return _AKIN * probability / (1.0 + math.exp(-log_odds(meaning, type_)))
 
 
 def likelihoods(evidence: Evidence, slip: float) -> tuple[float, dict[str, float]]:

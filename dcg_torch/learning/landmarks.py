@@ -72,7 +72,7 @@ class Part:
 def fit_landmarks_em(
     parts: Sequence[Part],
     features: FeatureSet,
-    ground: GroundEncoded,
+    ground_now: Callable[[], GroundEncoded],
     fit: Callable[[list[Choice], bool], None],
     *,
     rounds: int,
@@ -82,7 +82,7 @@ def fit_landmarks_em(
 
     Args:
         features: the columns; only weights change meanwhile, so what a world looks like is encoded once.
-        ground: grounds with the present weights.
+        ground_now: gives what grounds with the present weights.
         fit: fits them to choices; told whether it is the last round, before which they are only on their way.
         rounds: of expectation and maximisation.
         progress: called with the number of each round that is done.
@@ -90,6 +90,7 @@ def fit_landmarks_em(
     encoders: dict[WorldModel, WorldEncoder] = {}
     encoded = [(part, encoders.setdefault(part.world, WorldEncoder(features, part.world))) for part in parts]
     for number in range(rounds):
+        ground = ground_now()
         fit([choice for part, encoder in encoded for choice in _expected(part, encoder, ground)], number == rounds - 1)
         if progress is not None:
             progress(number)

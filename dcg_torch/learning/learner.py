@@ -69,22 +69,18 @@ class Learner(Protocol):
     @property
     def symbols(self) -> Mapping[str, Symbol]:
         """The words that are held to name a type."""
-        ...
 
     @property
     def known_types(self) -> tuple[str, ...]:
         """The types that are known: in the order in which they became so."""
-        ...
 
     @property
     def settled(self) -> frozenset[str]:
         """The words of which nothing is left to be learned."""
-        ...
 
     @property
     def open_words(self) -> frozenset[str]:
         """The nouns and words for colours that were heard, and of which something is left to be learned."""
-        ...
 
     @property
     def frames(self) -> FrameCounts | None:
@@ -93,15 +89,12 @@ class Learner(Protocol):
 
     def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[Learner, Learned]:
         """The learner after a command."""
-        ...
 
     def told(self, word: str, type_: str) -> Learner:
         """The learner after a person said what a noun names."""
-        ...
 
     def forget(self, word: str) -> Learner:
         """The learner without all that it heard of a noun."""
-        ...
 
     def with_frames(self, frames: FrameCounts | None) -> Learner:
         """The learner with other counts of frames of reference."""
@@ -109,39 +102,30 @@ class Learner(Protocol):
 
     def taught(self, taught: Taught) -> Learner:
         """The learner after lessons whose objects were known."""
-        ...
 
     def training_examples(self, features: FeatureSet) -> Sequence[Example]:
         """What the weights are to follow; one that was there before is the same object again."""
-        ...
 
     def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
         """What else they are to follow: of every one of some phrases with every one of some objects."""
-        ...
 
     def columns(self, features: FeatureSet) -> FeatureSet:
         """The features, with columns for all that has been learned."""
-        ...
 
     def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
         """(L, G) the weights that follow from the training examples; None: all."""
-        ...
 
     def names(self) -> dict[str, str]:
         """type -> a word for it that the robot holds for certain."""
-        ...
 
     def meanings(self, word: str) -> dict[str, float]:
         """type -> probability that a noun names it."""
-        ...
 
     def beliefs(self, but: Collection[str]) -> dict[str, dict[str, float]] | None:
         """noun -> type -> probability, of all nouns `but` some; None where there are no degrees of belief."""
-        ...
 
     def lexicon(self) -> list[Entry]:
         """Every noun with what it may mean, and from which commands."""
-        ...
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,12 @@ import json
 from collections.abc import Iterable
 from dataclasses import asdict, dataclass
 from pathlib import Path
-
-from rich.table import Table
+from typing import TYPE_CHECKING
 
 from dcg_torch.learning.beliefs import Beliefs
+
+if TYPE_CHECKING:
+    from rich.table import Table
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +48,8 @@ def lexicon(beliefs: Beliefs, least: float = 0.01) -> list[Entry]:
 
 def lexicon_table(entries: Iterable[Entry], title: str = "What the words mean to the robot") -> Table:
     """The lexicon as a table for the console."""
+    from rich.table import Table  # here: a model that nobody looks at needs none
+
     table = Table(title=title, title_justify="left")
     for name in ("word", "means", "commands", "learned from"):
         table.add_column(name)

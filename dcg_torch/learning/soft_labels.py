@@ -16,6 +16,7 @@ each type, each colour word with each colour, and the hypothetical objects once.
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -86,9 +87,11 @@ class _Odds:
 
 
 def _labelled(table: _Odds, strength: float) -> SoftLabels:
-    odds = np.clip(table.odds, 1e-6, 1e6)
+    shown = np.ones(table.odds.shape, dtype=np.bool_) if table.shown is None else table.shown
+    odds = np.clip(table.odds[shown], 1e-6, 1e6)
+    active, inactive = np.zeros(shown.shape), np.zeros(shown.shape)
     # weights a and b with a / b = odds and a b / (a + b) = strength
-    active, inactive = strength * (1.0 + odds), strength * (1.0 + 1.0 / odds)
+    active[shown], inactive[shown] = strength * (1.0 + odds), strength * (1.0 + 1.0 / odds)
     return SoftLabels(table.phrases, table.objects, active, inactive, table.shown)
 
 
@@ -101,23 +104,29 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
 
     Of many types a noun is shown with those that it was heard among, and with the first `_MANY` of all.
     """
-    table, new = nouns.said_of()
+    table, new = nouns.said_of
     types, column = nouns.posterior.types, nouns.posterior.column
-    rows = [(word, row) for word, row in enumerate(nouns.posterior.words) if row not in fixed]
+    words = [(word, row) for word, row in enumerate(nouns.posterior.words) if row not in fixed]
+    heard = [[column[t] for t in nouns.heard[word].more] if word in nouns.heard else [] for _, word in words]
+    kept = sorted({*range(min(_MANY, len(types))), len(types) - 1, *(k for of in heard for k in of)})
     unheard = (NEVER_HEARD, *forgotten)
-    odds = np.vstack([table[[k for k, _ in rows]], np.broadcast_to(new, (len(unheard), len(types)))])
+    known = table[np.ix_([k for k, _ in words], kept)]
+    odds = np.vstack([known, np.broadcast_to(new[kept], (len(unheard), len(kept)))])
     shown = np.zeros(odds.shape, dtype=np.bool_)
     shown[:, :_MANY] = shown[:, -1] = True
-    if len(types) > _MANY:
-        for k, (_, word) in enumerate(rows):
-            if word in nouns.heard:
-                shown[k, [column[t] for t in nouns.heard[word].more]] = True
-    yield _Odds([_phrase(w) for w in (*(w for _, w in rows), *unheard)], [_object(t) for t in types], odds, shown)
+    place = {k: at for at, k in enumerate(kept)}
+    for k, ((_, word), of) in enumerate(zip(words, heard, strict=True)):
+        among = [place[t] for t in of]
+        shown[k, among] = True
+        if nouns.prior.names:
+            odds[k, among] = np.maximum(odds[k, among], [nouns.akin(word, types[t]) for t in of])
+    phrases = [_phrase(word) for word in (*(word for _, word in words), *unheard)]
+    yield _Odds(phrases, [_object(types[k]) for k in kept], odds, shown)
 
 
 def _colors(nouns: Beliefs, colors: Beliefs, fixed: Collection[str]) -> Iterator[_Odds]:
     """Every colour word with every colour, on a known type and on one not met."""
-    table, new = colors.said_of()
+    table, new = colors.said_of
     words = [*((w, row) for w, row in zip(colors.posterior.words, table, strict=True) if w not in fixed)]
     words.append((NEVER_HEARD, new))
     for noun, type_, scale in _anchors(nouns):
@@ -138,7 +147,7 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
     """A phrase without a noun, with a colour said and without: a perceived and an unseen object of every type."""
     said: list[tuple[str | None, str | None, float, float]] = [(None, None, 1.0, unseen.ahead)]
     if colors.posterior.words:
-        row = colors.said_of()[0][0]
+        row = colors.said_of[0][0]
         color = colors.posterior.types[int(row.argmax())]
         said.append((colors.posterior.words[0], color, float(row.max()), unseen.ahead_colored))
     for word, color_of, odds, ahead in said:
@@ -152,7 +161,7 @@ def _unnamed(nouns: Beliefs, colors: Beliefs, unseen: Unseen, looked: frozenset[
 
 def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
     """A known noun with its type, and an unheard one with a type not met: on these, all else is shown."""
-    table, new = nouns.said_of()
+    table, new = nouns.said_of
     posterior = nouns.posterior
     if posterior.words:
         at = int(table[0].argmax())
@@ -160,6 +169,7 @@ def _anchors(nouns: Beliefs) -> Iterator[tuple[str, str, float]]:
     yield NEVER_HEARD, UNMET, float(new[-1])
 
 
+@functools.lru_cache(maxsize=1 << 16)
 def _phrase(noun: str | None, color: str | None = None) -> Phrase:
     return Phrase(PhraseKind.NOUN, " ".join(filter(None, (color, noun or "one"))), noun=noun, color=color)
 
@@ -169,6 +179,7 @@ def _hypothetical(type_: str, looked: frozenset[str]) -> list[Object]:
     return [_object(type_, hypothetical=True, attributes=attributes) for attributes in (frozenset[str](), looked)]
 
 
+@functools.lru_cache(maxsize=1 << 16)
 def _object(
     type_: str, color: str | None = None, *, hypothetical: bool = False, attributes: frozenset[str] = frozenset()
 ) -> Object:

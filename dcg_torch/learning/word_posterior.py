@@ -105,7 +105,7 @@ class WordPosterior:
     @cached_property
     def symbols(self) -> Mapping[str, Symbol]:
         """The words that name a type with a probability of at least `HELD`."""
-        best = {w: self.nouns.posterior.best(w) for w in self.nouns.posterior.words}
+        best = self.nouns.posterior.best_of_all()
         return {w: Symbol(w, t) for w, (t, p) in best.items() if p >= HELD and t != UNMET}
 
     @property
@@ -248,7 +248,7 @@ class WordPosterior:
 
     def names(self) -> dict[str, str]:
         """type -> the word that most certainly names it, if any does."""
-        best = {word: self.nouns.posterior.best(word) for word in self.nouns.posterior.words}
+        best = self.nouns.posterior.best_of_all()
         sure = sorted((p, word, t) for word, (t, p) in best.items() if p >= _SURE and t != UNMET)
         return {t: word for _, word, t in sure}
 

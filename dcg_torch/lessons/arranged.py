@@ -36,7 +36,6 @@ class Reading(Protocol):
     @property
     def tree(self) -> ParseTree | None:
         """The phrases, or None if there are none."""
-        ...
 
 
 @dataclass(frozen=True)

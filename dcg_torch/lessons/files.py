@@ -7,34 +7,20 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import problem_of, read_yaml, shown
-from dcg_torch.types import (
-    Child,
-    Correspondence,
-    Example,
-    Grounding,
-    Percept,
-    Phrase,
-    PhraseKind,
-    Symbol,
-    WorldModel,
-)
+from dcg_torch.storage.foreign import Strict, problem_of, read_yaml, shown
+from dcg_torch.types import Child, Correspondence, Example, Grounding, Percept, Phrase, PhraseKind, Symbol, WorldModel
 
 _Words = Annotated[str, Field(strict=True, min_length=1, max_length=200, pattern=r"\S")]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-
-class TrainingEntry(_Strict):
+class TrainingEntry(Strict):
     """One positive example: a command, its parse, what is seen ("red cube"), and which of it is meant.
 
     `means` is one of `see`, or "hypothetical cube" for a known type that is out of view, or "hypothetical unknown".
@@ -52,7 +38,7 @@ class TrainingEntry(_Strict):
     inverted: Literal["verb", "preposition"] | None = None
 
 
-class TrainingFile(_Strict):
+class TrainingFile(Strict):
     """A training file: the words that are known with the types they name, the colours, and the examples."""
 
     symbols: dict[_Words, _Words] = Field(min_length=1)

@@ -6,7 +6,7 @@ those behind; "the second biggest red one" among the red ones. Definitions by th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
@@ -15,8 +15,10 @@ from dcg_torch.types import Percept, Pose
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth")
 NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
-_CLEAR = 0.35  # metres by which a rank must be told apart
+_CLEAR = 0.2  # metres by which a rank must be told apart
 _WHO = ("you", "the robot")
+Unclear = tuple[str, frozenset[str | None]]
+"""A command and the ids of what it means; None is one that can hardly be told from another."""
 
 
 def half_scene(rng: np.random.Generator) -> Scene:
@@ -29,11 +31,11 @@ def half_scene(rng: np.random.Generator) -> Scene:
         thing(f"other {k}", other, rng, (float(rng.uniform(-5.0, 6.0)), float(rng.uniform(-4.0, 4.0))))
         for k in range(int(rng.integers(1, 4)))
     ]
-    said = [*_of_half(kind, front, "in front of", rng), *_of_half(kind, behind, "behind", rng)]
+    said = [*_clear(_of_half(kind, front, "in front of", rng)), *_clear(_of_half(kind, behind, "behind", rng))]
     marks = {"the robot": (0.0, 0.0), "you": (0.0, 0.0)}
     if len(others) == 1:
         marks[f"the {other}"] = others[0].position[:2]
-    said += [told for name, at in marks.items() for told in _from_mark(kind, (*front, *behind), name, at)]
+    said += [told for name, at in marks.items() for told in _clear(_from_mark(kind, (*front, *behind), name, at))]
     if in_rows:
         for half, where in ((front, "in front of"), (behind, "behind")):
             if len(half) >= 3:
@@ -68,30 +70,28 @@ def _half(kind: str, name: str, rng: np.random.Generator, sign: float, in_rows: 
     return [thing(f"{name} {k}", kind, rng, point) for k, point in enumerate(points)]
 
 
-def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Generator) -> Iterator[Told]:
+def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Generator) -> Iterator[Unclear]:
     """What picks one or some of a half of the scene; left and right are the robot's as it faces that half."""
     who = str(rng.choice(_WHO))
     yield f"go to the {kind}s {where} {who}", frozenset(o.id for o in half)
     by_side = _ranked(half, lambda o: -o.position[1])
-    if by_side is not None and where == "in front of":
+    if where == "in front of":
         for side, order in (("left", by_side), ("right", by_side[::-1])):
             yield from ((f"go to the {text} {where} {who}", frozenset({i})) for text, i in _counted(kind, side, order))
         if len(by_side) % 2 and len(by_side) > 2:
             yield f"go to the middle {kind} {where} {who}", frozenset({by_side[len(by_side) // 2]})
     by_way = _ranked(half, lambda o: float(np.hypot(*o.position[:2])))
-    if by_way is not None:
+    if len(by_way) > 1:
         for near, far in (("nearest", "farthest"), ("closest", "furthest")):
             yield f"go to the {near} {kind} {where} {who}", frozenset({by_way[0]})
             yield f"go to the {far} {kind} {where} {who}", frozenset({by_way[-1]})
-        if len(by_way) > 2:
-            yield f"go to the two nearest {kind}s {where} {who}", frozenset(by_way[:2])
+    if len(by_way) > 2:
+        yield f"go to the two nearest {kind}s {where} {who}", frozenset(by_way[:2])
 
 
-def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float, float]) -> Iterator[Told]:
+def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float, float]) -> Iterator[Unclear]:
     """Ways to count by the distance from something."""
     order = _ranked(things, lambda o: float(np.hypot(o.position[0] - at[0], o.position[1] - at[1])))
-    if order is None:
-        return
     for k, ordinal in enumerate(ORDINALS[1 : min(3, len(order))], start=1):
         yield f"go to the {ordinal} closest {kind} to {name}", frozenset({order[k]})
         yield f"go to the {ordinal} farthest {kind} from {name}", frozenset({order[-1 - k]})
@@ -99,7 +99,7 @@ def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float,
     yield f"go to the {kind} farthest from {name}", frozenset({order[-1]})
 
 
-def _counted(kind: str, side: str, order: Sequence[str]) -> Iterator[tuple[str, str]]:
+def _counted(kind: str, side: str, order: Sequence[str | None]) -> Iterator[tuple[str, str | None]]:
     """Ways to count from one side, each with the id of the one meant."""
     yield f"{side}most {kind}", order[0]
     yield f"{kind} farthest to the {side}", order[0]
@@ -127,11 +127,19 @@ def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterat
         yield f"go to the second smallest {head}", frozenset({ranked[-2].id})
 
 
-def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> list[str] | None:
-    """The ids in the order of a value; None where two can hardly be told apart."""
+def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> list[str | None]:
+    """The ids in the order of a value; None in the place of one that can hardly be told from a neighbour."""
     ranked = sorted(things, key=value)
-    apart = np.diff([value(o) for o in ranked])
-    return [o.id for o in ranked] if len(ranked) > 1 and (apart > _CLEAR).all() else None
+    apart = np.array([np.inf, *np.diff([value(o) for o in ranked]), np.inf]) > _CLEAR
+    return [o.id if apart[k] and apart[k + 1] else None for k, o in enumerate(ranked)]
+
+
+def _clear(said: Iterable[Unclear]) -> Iterator[Told]:
+    """What names none that can hardly be told from another."""
+    for text, ids in said:
+        clear = frozenset(i for i in ids if i is not None)
+        if len(clear) == len(ids):
+            yield text, clear
 
 
 def thing(id_: str, kind: str, rng: np.random.Generator, at: tuple[float, float], size: float | None = None) -> Percept:

@@ -1,4 +1,4 @@
-"""The shipped model: made from what is in the repository (`make pretrain`), and read from a file of the package.
+"""The shipped model: made from what is in the repository (`cli.pretrain`), and read from a file of the package.
 
 It is the open-world model with relations: the 53 hand-made examples, and generated lessons on what words for relations
 mean. No human corpus enters it.
@@ -6,7 +6,6 @@ mean. No human corpus enters it.
 
 from __future__ import annotations
 
-import sys
 from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
@@ -14,14 +13,13 @@ from pathlib import Path
 from dcg_torch.grounding.features import PAPER, FeatureSet, Group
 from dcg_torch.learning.beliefs import Prior
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
-from dcg_torch.lessons import initial_training
 from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
-from dcg_torch.model.checkpoint import load, save
+from dcg_torch.model.checkpoint import load
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam=12)
 _ASSUMED = Assumptions(nouns=Prior(names=True))
-LESSONS = 1000
+LESSONS = 1500
 _ROUNDS = 3
 SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
@@ -68,15 +66,3 @@ def train_open_world(
     if lessons and Group.RELATION in variant.groups:
         model.teach(generated_lessons(default_parser().parse, lessons), relations_only=True, rounds=_ROUNDS)
     return model
-
-
-def main() -> int:
-    """Make the shipped model anew."""
-    save(train_open_world(initial_training()), SHIPPED)
-    size = sum(path.stat().st_size for path in SHIPPED.iterdir())
-    print(f"{SHIPPED}: {size / 1e6:.2f} MB")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

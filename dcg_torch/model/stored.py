@@ -29,13 +29,14 @@ from dcg_torch.learning.learner import Learner
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model.variant import Variant
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.whole import write_whole_files
 from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 FORMAT = 2
 """Of the files; 1 was that of version 0.1, in which a model's kind was told by what else was there."""
 _MOST_BEAM = 1000
+_LARGEST = 1e6  # of a weight, an example's too: beyond it log-probabilities overflow or drown
 _Arrays = dict[str, np.ndarray]
 
 
@@ -70,7 +71,9 @@ class Stored:
 
 
 def write(stored: Stored, directory: Path | str) -> None:
-    """Write a model into `directory`, which is made if need be. Each file appears whole or not at all.
+    """Write a model into `directory`, which is made if need be.
+
+    Both files are of this model, or there is none: a kill in between never leaves one beside another model's.
 
     Raises:
         CheckpointError: no folder is named.
@@ -93,8 +96,7 @@ def write(stored: Stored, directory: Path | str) -> None:
     tensors |= {"held": np.flatnonzero(stored.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
     text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
-    write_whole(directory / WEIGHTS, to_bytes(tensors))
-    write_whole(directory / DESCRIPTION, text)
+    write_whole_files(directory, {WEIGHTS: to_bytes(tensors), DESCRIPTION: text.encode("utf-8")})
 
 
 def read(directory: Path | str) -> Stored:
@@ -161,6 +163,8 @@ def _tensors(directory: Path) -> _Arrays:
         kind = np.float64 if name in ("weight", "prior") else np.int32
         if tensor.dtype != kind or tensor.ndim != 1 or not np.isfinite(tensor).all():
             raise CheckpointError(f"{path}: {name} is not a list of finite numbers of the kind {np.dtype(kind)}")
+        if kind is np.float64 and (np.abs(tensor) > _LARGEST).any():
+            raise CheckpointError(f"{path}: {name} holds numbers beyond {_LARGEST:g}; no training gives such")
     return tensors
 
 
@@ -179,8 +183,8 @@ def _check(described: _Description, learner: CommitFirst | WordPosterior, direct
             raise CheckpointError(f"{where}: example {number} has fewer weights than labels")
         if any(c.grounding.object.id not in ids for c in example.children):
             raise CheckpointError(f"{where}: example {number} has a child about an object that is not in its world")
-        if not all(math.isfinite(w) for w in (example.weight, *(example.weights or ()))):
-            raise CheckpointError(f"{where}: example {number} has a weight that is not finite")
+        if not all(abs(w) <= _LARGEST for w in (example.weight, *(example.weights or ()))):
+            raise CheckpointError(f"{where}: example {number} has a weight that is not finite, or beyond {_LARGEST:g}")
     if isinstance(learner, WordPosterior):
         for beliefs in (learner.nouns, learner.colors):
             sums = [v for h in beliefs.heard.values() for v in (h.absent, *h.more.values())]

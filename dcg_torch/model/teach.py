@@ -9,15 +9,17 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.choices import Choice, fit_choices
+from dcg_torch.grounding.choices import Choice, correspondence_signs, fit_choices
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import WorldEncoder, encode, firing
-from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.fit import FitResult
+from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
+    GroundEncoded,
     Lesson,
     Part,
     example_choices,
@@ -29,13 +31,17 @@ from dcg_torch.learning.landmarks import (
 from dcg_torch.learning.learner import Experience, Learner
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import taught_mask
+from dcg_torch.model.variant import Variant
+from dcg_torch.names.weights import log_odds
 from dcg_torch.scene.upsilon import with_known
 from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
-CORPUS_L2 = 1.0
+CORPUS_L2 = 4.0
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
+_NAMED = 6.0
+"""Log-odds at most by which a word that was settled on a type speaks for it before the corpus is weighed."""
 _ON_THE_WAY, _SETTLED = 30, 60
 """Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
 landmarks move it anyway."""
@@ -47,6 +53,7 @@ Progress = Callable[[int], None]
 class Teachable(Protocol):
     """What is taught: `GroundingModel` is it, and says what each member means."""
 
+    variant: Variant
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
@@ -110,7 +117,7 @@ def teach_corpus(
     parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
     model.learner = model.learner.with_frames(frames)
     # What was known before gives way to as much evidence as any.
-    model.prior = model.factor.weight.detach().cpu().numpy().copy()
+    model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model)
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
     fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
@@ -138,8 +145,29 @@ def _fit(
         every = [*always, *choices]
         fired = fit_choices(model.factor, every, model.features, free=free, l2=l2, prior=model.prior, max_steps=steps)
 
-    fit_landmarks_em(parts, model.features, model.solve, fit_once, rounds=rounds, progress=progress)
+    def ground_now() -> GroundEncoded:
+        return solver(model.features, model.factor, beam=model.variant.beam)
+
+    fit_landmarks_em(parts, model.features, ground_now, fit_once, rounds=rounds, progress=progress)
     return fired
+
+
+def _as_if_named(model: Teachable) -> NDArray[np.float64]:
+    """(P, L, G) what makes a type that a word was settled on as good as one that is called by the word.
+
+    Where all that is there is of one type, no choice tells that the word names it, and yet it does.
+    """
+    features = model.features
+    odds = np.zeros(features.shape)
+    if Group.NAMES in features.groups:
+        for word in sorted(model.learner.settled & model.learner.symbols.keys()):
+            pair = (
+                features.language.get(f"noun: {word}"),
+                features.grounding.get(f"type: {model.learner.symbols[word].type}"),
+            )
+            if pair[0] is not None and pair[1] is not None:
+                odds[pair] = min(_NAMED, log_odds(word, word) - log_odds(word, model.learner.symbols[word].type))
+    return correspondence_signs(model.factor)[:, None, None] * odds
 
 
 def _as_known(parts: Sequence[Part], model: Teachable) -> list[Part]:

@@ -36,11 +36,9 @@ class Grounds(Protocol):
     @property
     def symbols(self) -> Mapping[str, Symbol]:
         """The words that are held to name a type."""
-        ...
 
     def ground(self, command: str, world: WorldModel) -> Solution:
         """What a command means in a world."""
-        ...
 
 
 _SURE = 0.5

@@ -47,7 +47,9 @@ def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
         signs = {*labels, *(c.correspondence for c in e.children)}
         if signs <= {None, Correspondence.INACTIVE} or (not variant.ternary and Correspondence.INVERTED in signs):
             continue
-        if all(c.grounding.object in objects for c in e.children):
+        if all(seen):
+            kept.append(e)
+        elif all(c.grounding.object in objects for c in e.children):
             kept.append(replace(e, world=replace(e.world, objects=objects), correspondences=labels))
     return kept
 

@@ -8,7 +8,6 @@
     colors      colour words as regions of CIELAB; facts between a colour word and the name of a colour
     embedding   cosines of a sentence embedding (the extra `embeddings`)
     vocabulary  words with a fixed meaning: places, groups, who owns a side
-    build       makes the table and the weights
 
 Everything but the reading of the data is a pure function. Nothing is normalised in what a caller keeps: names are
 written out as they came.

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import bisect
 import functools
 from pathlib import Path
 
 import numpy as np
 
 TABLE = Path(__file__).parent / "data" / "nouns.npz"
-"""Made by `python -m dcg_torch.names.build`."""
+"""Made by `tools/noun_table.py`."""
 
 
 class Nouns:
@@ -41,14 +42,9 @@ class Nouns:
         return isinstance(noun, str) and self._find(noun) is not None
 
     def _find(self, noun: str) -> int | None:
-        sought, low, high = noun.encode(), 0, len(self)
-        while low < high:
-            middle = (low + high) // 2
-            if self._lemma(middle) < sought:
-                low = middle + 1
-            else:
-                high = middle
-        return low if low < len(self) and self._lemma(low) == sought else None
+        sought = noun.encode()
+        k = bisect.bisect_left(range(len(self)), sought, key=self._lemma)
+        return k if k < len(self) and self._lemma(k) == sought else None
 
     def _lemma(self, k: int) -> bytes:
         return self._lemmas[self._starts[k] : self._starts[k + 1] - 1]
@@ -75,16 +71,6 @@ class Nouns:
     def size(self, synset: int) -> int:
         """How many synsets are directly a kind of this one."""
         return int(self._sizes[synset])
-
-    def words(self, synset: int) -> tuple[str, ...]:
-        """The nouns of a synset, in alphabetical order."""
-        owners = np.searchsorted(self._sense_at, np.flatnonzero(self._senses == synset), side="right") - 1
-        return tuple(self._lemma(int(k)).decode() for k in owners)
-
-    def what_is(self, noun: str) -> tuple[str, ...]:
-        """The names of what a noun is a kind of in its commonest sense: ("chair",) for "armchair"; () if unknown."""
-        senses = self.senses(noun, 1)
-        return tuple(word for sense in senses for kind in self.kinds(sense) for word in self.words(kind))
 
 
 @functools.cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import sys
 from collections.abc import Sequence
 from pathlib import Path
@@ -14,6 +13,7 @@ from dcg_torch.report.export import to_csv
 from dcg_torch.report.runs import Run, load_runs
 from dcg_torch.report.show import print_run, print_several, save_run_figures, save_several_figure
 from dcg_torch.report.summary import ReportError
+from dcg_torch.report.terminal import CLOSED, Output, close_output
 from dcg_torch.report.text import printable
 from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.whole import write_whole
@@ -43,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _refuse("standard output is closed; leave it open, or send it to a file")
     try:
         return _flushed(_run(arguments))
-    except SystemExit as end:  # the help has been said, or nobody reads on
+    except SystemExit as end:  # the help has been said
         raise SystemExit(_flushed(int(end.code or 0))) from None
 
 
@@ -52,9 +52,11 @@ def _flushed(status: int) -> int:
     try:
         sys.stdout.flush()
     except OSError as error:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # Python is not to complain at its end
-        if status == 0 and not isinstance(error, BrokenPipeError):
-            return _refuse(f"standard output: {error.strerror}; send it where there is room")
+        close_output()
+        if status:  # it has been said
+            return status
+        closed = isinstance(error, BrokenPipeError)
+        return _refuse(CLOSED if closed else f"standard output: {error.strerror}; send it where there is room")
     return status
 
 
@@ -66,13 +68,16 @@ def _run(arguments: Sequence[str] | None) -> int:
         runs = load_runs(options.directories)
         console = make_console()
         if len(runs) == 1:
-            print_run(runs[0], console)
+            print_run(runs[0].measures, runs[0].seconds, runs[0].config, console)
         else:
             print_several(runs, console)
         for path in _write(runs, options):
             console.print(f"written: {path}", markup=False, highlight=False)
     except ReportError as error:
         return _refuse(str(error))
+    except BrokenPipeError:
+        close_output()
+        return _refuse(CLOSED)
     except OSError as error:
         return _refuse(
             f"{error.filename or 'standard output'}: can't be written ({error.strerror}); give another place"
@@ -82,8 +87,8 @@ def _run(arguments: Sequence[str] | None) -> int:
 
 def make_console() -> Console:
     """Standard output; into a pipe or a file there is no width to keep to."""
-    console = Console(highlight=False)
-    return console if console.is_terminal else Console(width=max(100, console.width), highlight=False)
+    console = Output(highlight=False)
+    return console if console.is_terminal else Output(width=max(100, console.width), highlight=False)
 
 
 def _parser() -> argparse.ArgumentParser:

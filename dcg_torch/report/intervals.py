@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -95,32 +94,8 @@ def _slopes(sums: NDArray[np.float64]) -> NDArray[np.float64] | None:
     return slopes
 
 
-@functools.cache
 def student_quantile(freedom: int) -> float:
-    """The t with P(|T| <= t) = 0.95 for `freedom` degrees of freedom.
+    """The t with P(|T| <= t) = 0.95 for `freedom` degrees of freedom, at least 1."""
+    from scipy.special import stdtrit  # here: a run of one trial needs none, and it takes a tenth of a second to import
 
-    Bisection on the finite series for whole degrees of freedom (Abramowitz and Stegun, 26.7.3 and 26.7.4), so that
-    the report needs no statistics package. Beyond 200 degrees it uses their expansion 26.7.5, good to 1e-7 there.
-    """
-    if freedom < 1:
-        raise ValueError(f"need at least 1 degree of freedom, not {freedom}")
-    if freedom > 200:
-        z = _Z
-        return z + (z**3 + z) / (4 * freedom) + (5 * z**5 + 16 * z**3 + 3 * z) / (96 * freedom**2)
-    low, high = 0.0, 13.0  # 12.71 at one degree of freedom is the largest
-    for _ in range(60):
-        middle = (low + high) / 2
-        low, high = (middle, high) if _student_inside(middle, freedom) < LEVEL else (low, middle)
-    return (low + high) / 2
-
-
-def _student_inside(t: float, freedom: int) -> float:
-    """P(|T| <= t)."""
-    angle = math.atan(t / math.sqrt(freedom))
-    odd = freedom % 2
-    term, series = math.cos(angle) ** odd, 0.0
-    for power in range(odd, freedom - 1, 2):
-        series += term
-        term *= math.cos(angle) ** 2 * (power + 1) / (power + 2)
-    inside = math.sin(angle) * series
-    return 2 / math.pi * (angle + inside) if odd else inside
+    return float(stdtrit(freedom, 0.5 + LEVEL / 2))

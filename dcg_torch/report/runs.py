@@ -19,7 +19,6 @@ from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
 from dcg_torch.report.text import printable
-from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
@@ -106,9 +105,6 @@ def load_runs(directories: Sequence[Path]) -> list[Run]:
     return [load_run(folder) for folder in folders]
 
 
-_LONGEST = 200  # characters of what a foreign line makes one say
-
-
 def read_rows(path: Path) -> list[Iteration]:
     """Read an `iterations.jsonl`; a last line cut short by a kill is left out.
 
@@ -142,8 +138,7 @@ def _read_lines(path: Path, kind: type[Record]) -> list[Record]:
         except ValidationError as error:
             if number == len(lines):  # every whole line ends in a newline, so this one was being written
                 break
-            said = plain(first_error(error, "the line"), _LONGEST)
-            raise ReportError(f"{path}:{number}: {said}; mend or remove the line") from None
+            raise ReportError(f"{path}:{number}: {first_error(error, 'the line')}; mend or remove the line") from None
     return records
 
 

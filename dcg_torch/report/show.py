@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 
 from dcg_torch.report.comparison_tables import print_configurations, print_differences, print_runs
 from dcg_torch.report.configurations import configurations
+from dcg_torch.report.measures import Measures
 from dcg_torch.report.paper import follows_paper
 from dcg_torch.report.runs import Run, read_timings
 from dcg_torch.report.tables import print_errors, print_iterations, print_measures
 
 
-def print_run(run: Run, console: Console) -> None:
-    """The tables of one run."""
-    print_measures(run.measures, console, run.seconds, beside_paper=follows_paper(run.config))
-    print_iterations(run.measures, console)
-    print_errors(run.measures, console)
+def print_run(measures: Measures, seconds: Mapping[str, float], config: Mapping[str, Any], console: Console) -> None:
+    """The tables of one run of these settings."""
+    print_measures(measures, console, seconds, beside_paper=follows_paper(config))
+    print_iterations(measures, console)
+    print_errors(measures, console)
 
 
 def print_several(runs: Sequence[Run], console: Console) -> None:

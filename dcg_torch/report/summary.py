@@ -11,9 +11,11 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 
 from dcg_torch.report.measures import Measures
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.whole import write_whole
 
 SUMMARY = "summary.json"
+_LONGEST = 200  # characters of what a foreign file makes one say
 
 
 class ReportError(UserError):
@@ -69,7 +71,7 @@ def unreadable(path: Path, error: OSError) -> ReportError:
 def first_error(error: ValidationError, whole: str) -> str:
     """Where and what the first of pydantic's errors is; `whole` names the file or line where it is no field's."""
     first = error.errors(include_url=False, include_input=False)[0]
-    return f"{'.'.join(map(str, first['loc'])) or whole}: {first['msg']}"
+    return plain(f"{'.'.join(map(str, first['loc'])) or whole}: {first['msg']}", _LONGEST)
 
 
 def flatten(config: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:

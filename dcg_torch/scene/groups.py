@@ -10,10 +10,8 @@ import itertools
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from scipy.cluster.hierarchy import linkage
-from scipy.sparse.csgraph import connected_components
 
-from dcg_torch.scene.layout import Bools, Floats
+from dcg_torch.scene.layout import Floats
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types import Object, Pose
 from dcg_torch.types.geometry import to_robot_frame
@@ -124,25 +122,23 @@ def _clusters(points: Floats) -> Iterable[list[int]]:
     n = len(points)
     if n < _LEAST:
         return
-    merges = linkage(points[:, :2], "single")
+    from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
+
+    merges = linkage(points[:, :2], "single").tolist()
     members: list[list[int]] = [[k] for k in range(n)]
-    first = np.full(2 * n - 1, np.inf)  # the distance at which the first two of a cluster come together
-    ends = np.full(2 * n - 1, np.inf)  # the distance at which a cluster becomes part of a larger one
-    for one, other, distance, _ in merges:
-        ends[[int(one), int(other)]] = distance
-        first[len(members)] = min(first[int(one)], first[int(other)], max(distance, SAME_SPOT))
-        members.append(sorted(members[int(one)] + members[int(other)]))
+    spots = [1] * n  # how many places seen from above a cluster is at
+    first = [np.inf] * n  # the distance at which the first two of a cluster come together
+    ends = [np.inf] * (2 * n - 1)  # the distance at which a cluster becomes part of a larger one
+    for left, right, distance, _ in merges:
+        one, other = int(left), int(right)
+        ends[one] = ends[other] = distance
+        first.append(min(first[one], first[other], max(distance, SAME_SPOT)))
+        spots.append(spots[one] + spots[other] - (distance < SAME_SPOT))
+        members.append(sorted(members[one] + members[other]))
     for k in range(n, 2 * n - 1):
-        last = max(float(merges[k - n, 2]), SAME_SPOT)
-        coherent = last <= _SPREAD * first[k] and ends[k] >= _APART * last
-        if coherent and _spots(points[members[k]]) >= _LEAST:
+        last = max(merges[k - n][2], SAME_SPOT)
+        if last <= _SPREAD * first[k] and ends[k] >= _APART * last and spots[k] >= _LEAST:
             yield members[k]
-
-
-def _spots(points: Floats) -> int:
-    """How many places seen from above the points are at."""
-    apart = np.linalg.norm(points[None, :, :2] - points[:, None, :2], axis=2)
-    return int(connected_components(apart < SAME_SPOT)[0])
 
 
 def _in_line(points: Floats) -> bool:
@@ -158,11 +154,9 @@ def _stacks(position: Floats) -> Iterable[frozenset[int]]:
     """Things over one another."""
     over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
     higher = np.abs(position[None, :, 2] - position[:, None, 2]) > 0.01
-    for members in _components(over & higher):
-        if len(members) >= 2:
-            yield frozenset(members)
-
-
-def _components(joined: Bools) -> Iterable[list[int]]:
-    number, label = connected_components(joined, directed=False)
-    return (np.flatnonzero(label == k).tolist() for k in range(number))
+    stack = {j: {j} for j in range(len(position))}
+    for i, j in np.argwhere(np.triu(over & higher)).tolist():
+        if stack[i] is not stack[j]:
+            stack[i] |= stack[j]
+            stack |= dict.fromkeys(stack[j], stack[i])
+    return dict.fromkeys(frozenset(of) for of in stack.values() if len(of) >= 2)

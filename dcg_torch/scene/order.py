@@ -74,15 +74,17 @@ def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
     """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
     n = len(columns[0])
     if n <= _FEW:
-        code = numbered(zip(*columns, strict=True))
-    else:  # without a tuple for each of many things
-        code = np.zeros(n, dtype=np.int64)
-        for column in columns:
-            further = column if isinstance(column, np.ndarray) else numbered(column)
-            more = int(further.max()) + 1
-            if int(code.max()) + 1 > (1 << 62) // more:
-                code = np.unique(code, return_inverse=True)[1]
-            code = code * more + further
+        rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
+        number: dict[Hashable, int] = {}
+        few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
+        return [few.index(k) for k in range(len(number))], np.array(few, dtype=np.int64)
+    code = np.zeros(n, dtype=np.int64)  # without a tuple for each of many things
+    for column in columns:
+        further = column if isinstance(column, np.ndarray) else numbered(column)
+        more = int(further.max()) + 1
+        if int(code.max()) + 1 > (1 << 62) // more:
+            code = np.unique(code, return_inverse=True)[1]
+        code = code * more + further
     _, first, kind = np.unique(code, return_index=True, return_inverse=True)
     return first.tolist(), kind
 

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
 from dcg_torch.types import Percept
-
-_TAKEN = "hypothetical "
-"""How the ids of hypothetical objects begin."""
 
 
 def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
@@ -22,8 +20,8 @@ def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
     ids: set[str] = set()
     for percept in percepts:
         id_ = percept.id
-        if not isinstance(id_, str) or id_.startswith(_TAKEN):
-            raise ValueError(f"percept {id_!r:.80}: an id is text that does not begin with {_TAKEN!r}")
+        if not isinstance(id_, str):
+            raise ValueError(f"percept {id_!r:.80}: an id is a text")
         if id_ in ids:
             raise ValueError(f"percept {id_!r:.80}: two objects have this id; give each its own")
         ids.add(id_)
@@ -31,15 +29,31 @@ def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
 
 
 def _checked(percept: Percept) -> Percept:
+    for name, given in (("type", percept.type), ("color", percept.color)):
+        if not isinstance(given, str) and not (name == "color" and given is None):
+            raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not a text")
     position = _three(percept, "position", percept.position)
     size = None if percept.size is None else _three(percept, "size", percept.size, least=0.0)
     rgb = None if percept.rgb is None else _three(percept, "rgb", percept.rgb, least=0.0, most=255.0)
-    attributes = percept.attributes
-    if not isinstance(attributes, frozenset):
-        attributes = frozenset(attributes or ())
+    attributes = _attributes(percept)
     if position is percept.position and size is percept.size and rgb is percept.rgb:
         return percept if attributes is percept.attributes else replace(percept, attributes=attributes)
     return replace(percept, position=position, size=size, rgb=rgb, attributes=attributes)
+
+
+def _attributes(percept: Percept) -> frozenset[str]:
+    """As a frozen set of texts.
+
+    Raises:
+        ValueError: they are something else.
+    """
+    given: Any = percept.attributes
+    listed: list[Any] = [None]
+    with contextlib.suppress(TypeError):
+        listed = [None] if isinstance(given, str) else list(given or ())
+    if not all(isinstance(one, str) for one in listed):
+        raise ValueError(f"percept {percept.id!r:.80}: attributes is {given!r:.60}, not a set of texts")
+    return given if isinstance(given, frozenset) else frozenset(listed)
 
 
 def _three(

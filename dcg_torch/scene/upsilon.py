@@ -42,16 +42,28 @@ def with_known(world: WorldModel, known_types: Collection[str]) -> WorldModel:
     return replace(world, objects=tuple(replace(o, known=o.type in known) for o in world.objects))
 
 
-def hypothesize_objects(known_types: Iterable[str], attributes: frozenset[str] = frozenset()) -> list[Object]:
-    """KH and UH: an unseen instance of every known type, and one of an unknown type (line 9, Section III-C)."""
+def hypothesize_objects(
+    known_types: Iterable[str], attributes: frozenset[str] = frozenset(), taken: Collection[str] = ()
+) -> list[Object]:
+    """KH and UH: an unseen instance of every known type, and one of an unknown type (line 9, Section III-C).
+
+    Args:
+        attributes: what they all have.
+        taken: ids of perceived objects, which no hypothetical one gets.
+    """
     known = [
-        Object(id=f"hypothetical {t}", type=t, known=True, hypothetical=True, attributes=attributes)
+        Object(id=_free(f"hypothetical {t}", taken), type=t, known=True, hypothetical=True, attributes=attributes)
         for t in known_types
     ]
-    return [
-        *known,
-        Object(id=HYPOTHETICAL_UNKNOWN, type=None, known=False, hypothetical=True, attributes=attributes),
-    ]
+    unknown = _free(HYPOTHETICAL_UNKNOWN, taken)
+    return [*known, Object(id=unknown, type=None, known=False, hypothetical=True, attributes=attributes)]
+
+
+def _free(id_: str, taken: Collection[str]) -> str:
+    """The id, or one with stars behind it: a real object may be called what the robot calls its guesses."""
+    while id_ in taken:
+        id_ += "*"
+    return id_
 
 
 def world_model(
@@ -71,5 +83,5 @@ def world_model(
     """
     objects = perceive_objects(percepts, known_types, unknown=unknown)
     if hypothetical:
-        objects += hypothesize_objects(known_types, unseen)
+        objects += hypothesize_objects(known_types, unseen, {o.id for o in objects})
     return WorldModel(tuple(objects), robot, speaker)

@@ -9,7 +9,7 @@ import os
 import sys
 import time
 from collections.abc import Iterator
-from types import TracebackType
+from typing import Protocol, Self
 
 from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.errors import SimulatorError
@@ -18,41 +18,45 @@ from dcg_torch.types import Pose
 STEP = 1.0 / 120.0
 """Seconds of simulated time in one physics step."""
 
+_PACE = 3.0  # times faster than real time that it may run with a window
 _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
 
 
-class Client:
+class Closing(Protocol):
+    """What lets go of something: by `close`, or at the end of a `with` statement."""
+
+    def close(self) -> None:
+        """Let go; a second call does nothing."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+
+class Client(Closing):
     """A physics server of its own, so that several may live in one process without knowing each other.
 
     It is empty at first; `empty` lays a floor.
 
     Args:
         gui: open PyBullet's window (needs a screen); otherwise nothing is shown.
-        pace: with a window, how many times faster than real time it may run.
         options: of the window, as PyBullet takes them.
 
     Raises:
         SimulatorError: `gui` was asked for and there is no display.
     """
 
-    def __init__(self, *, gui: bool = False, pace: float = 3.0, options: str = "") -> None:
+    def __init__(self, *, gui: bool = False, options: str = "") -> None:
         if gui:
             require_display()
         self.gui = gui
-        self._pace = pace
         self.id: int = pybullet.connect(pybullet.GUI, options=options) if gui else pybullet.connect(pybullet.DIRECT)
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
         self.floor = -1
-
-    def __enter__(self) -> Client:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Disconnect; a second call does nothing."""
@@ -111,7 +115,7 @@ class Client:
         for _ in range(count):
             pybullet.stepSimulation(physicsClientId=self.id)
         if self.gui:
-            time.sleep(count * STEP / self._pace)
+            time.sleep(count * STEP / _PACE)
 
     def pose(self, body: int) -> Pose:
         """Where `body` stands on the floor, and its heading in (-pi, pi]."""

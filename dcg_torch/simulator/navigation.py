@@ -26,6 +26,8 @@ Points = NDArray[np.float64]
 
 _RING = 16  # corners round an obstacle: no turn of more than 22.5 degrees at one of them
 _IN_THE_WAY = 12  # obstacles in one visibility graph, at the most: it grows as their third power
+_REACH = 0.47  # metres from the target's middle at which a drive is planned to end
+_LEFT, _GAIN = 1.6, 0.3  # metres from what is left, and metres more than there were
 _SLACK = 1e-6  # metres; keeps a path's own corners from counting as inside by rounding
 
 
@@ -128,28 +130,24 @@ def _arrays(obstacles: Sequence[Circle]) -> tuple[Points, Points]:
     return centres, np.array([c.radius for c in obstacles], dtype=np.float64)
 
 
-def approach(
-    start: tuple[float, float], target: Circle, obstacles: Sequence[Circle], *, reach: float = 0.47
-) -> Points | None:
-    """A path to `reach` metres from the middle of `target`, outside it and all other obstacles.
+def approach(start: tuple[float, float], target: Circle, obstacles: Sequence[Circle]) -> Points | None:
+    """A path to `_REACH` metres from the middle of `target`, outside it and all other obstacles.
 
-    `target.radius` counts as at most `reach`. A start that is near enough already gives a path of no length.
+    `target.radius` counts as at most that. A start that is near enough already gives a path of no length.
     """
-    if target.distance(*start) <= reach:
+    if target.distance(*start) <= _REACH:
         return np.array([start, start], dtype=np.float64)
-    own = replace(target, radius=min(target.radius, reach - 0.01))
-    goals = ring(replace(target, radius=reach), 32, towards=start)
+    own = replace(target, radius=min(target.radius, _REACH - 0.01))
+    goals = ring(replace(target, radius=_REACH), 32, towards=start)
     return shortest_path(start, goals, [*obstacles, own])
 
 
-def retreat(
-    start: tuple[float, float], target: Circle, obstacles: Sequence[Circle], *, distance: float = 1.6, gain: float = 0.3
-) -> Points | None:
-    """A path that ends at least `distance` from the middle of `target`, and `gain` farther than it began.
+def retreat(start: tuple[float, float], target: Circle, obstacles: Sequence[Circle]) -> Points | None:
+    """A path that ends at least `_LEFT` metres from the middle of `target`, and `_GAIN` farther than it began.
 
     Where the nearest such ring is full of obstacles, wider ones are tried, up to three metres more.
     """
-    least = max(distance, target.distance(*start) + gain)
+    least = max(_LEFT, target.distance(*start) + _GAIN)
     for extra in itertools.chain([0.0], np.arange(0.5, 3.1, 0.5)):
         goals = ring(replace(target, radius=least + float(extra)), 48, towards=start)
         path = shortest_path(start, goals, [*obstacles, target])

@@ -7,7 +7,6 @@ import math
 import threading
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from types import TracebackType
 
 import numpy as np
 
@@ -15,7 +14,7 @@ from dcg_torch.simulator import navigation
 from dcg_torch.simulator.base import ROBOT_RADIUS, Base
 from dcg_torch.simulator.bodies import add_object, extent, footprint
 from dcg_torch.simulator.camera import Camera
-from dcg_torch.simulator.client import Client
+from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.driver import Driver, Planner
 from dcg_torch.simulator.errors import SimulatorError
 from dcg_torch.simulator.limits import ARRIVED, AT_PLACE, LEFT, MAX_DISTANCE, check_spin, find_percept
@@ -26,8 +25,6 @@ from dcg_torch.simulator.window import OPTIONS, Window
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import World, WorldObject
-
-_REACH = 0.47  # metres from the target's middle at which a drive is planned to end
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +45,7 @@ class _Visit:
     driver: Driver
 
 
-class SimulatedRobot:
+class SimulatedRobot(Closing):
     """An `agent.robot.SimulationRobot` in a physics client of its own. Load a world before asking it anything.
 
     Another thread may call `stop`, to end what it is doing; the robot then stands until `resume` or the next world.
@@ -58,11 +55,10 @@ class SimulatedRobot:
         recogniser: how well it names what it sees; perfect by default.
         rng: draws the recogniser's mistakes at each `load`; needed only if it makes any.
         gui: open PyBullet's window.
-        on_tick: called with the pose while the robot moves.
-        observed: ticks between two of these calls, at 30 ticks to a simulated second.
+        observed: ticks between two calls of `on_tick`, at 30 ticks to a simulated second.
 
     Attributes:
-        on_tick: see above; it may be changed at any time.
+        on_tick: called with the pose while the robot moves; it may be changed at any time.
 
     Raises:
         SimulatorError: there is no screen for the window.
@@ -76,7 +72,6 @@ class SimulatedRobot:
         recogniser: Recogniser | None = None,
         rng: np.random.Generator | None = None,
         gui: bool = False,
-        on_tick: Callable[[Pose], None] | None = None,
         observed: int = 3,
     ) -> None:
         self.camera = camera or Camera()
@@ -84,7 +79,7 @@ class SimulatedRobot:
         if rng is None and (self.recogniser.wrong_class or self.recogniser.missed):
             raise ValueError("a recogniser that makes mistakes needs an rng to draw them from")
         self._rng = rng or np.random.default_rng(0)
-        self.on_tick = on_tick
+        self.on_tick: Callable[[Pose], None] | None = None
         self._observed = observed
         self.client = Client(gui=gui, options=OPTIONS)
         self._window = Window(self.client.id) if gui else None
@@ -92,14 +87,6 @@ class SimulatedRobot:
         self._stop = threading.Event()
         self._by_body: dict[int, _Placed] = {}
         self._noticed: dict[str, Percept] = {}
-
-    def __enter__(self) -> SimulatedRobot:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Let go of the physics client; a second call does nothing."""
@@ -229,8 +216,7 @@ class SimulatedRobot:
         goal = find_percept(target, percepts)
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            others = [circle for id_, circle in obstacles.items() if id_ != target]
-            return navigation.approach((self.pose.x, self.pose.y), obstacles[target], others, reach=_REACH)
+            return navigation.approach(self._here, obstacles.pop(target), [*obstacles.values()])
 
         return self._drive(plan, goal.position[:2], percepts, lambda distance: distance <= ARRIVED)
 
@@ -244,8 +230,7 @@ class SimulatedRobot:
         least = max(LEFT, self._distance(goal.position[:2]))
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
-            others = [circle for id_, circle in obstacles.items() if id_ != target]
-            return navigation.retreat((self.pose.x, self.pose.y), obstacles[target], others)
+            return navigation.retreat(self._here, obstacles.pop(target), [*obstacles.values()])
 
         return self._drive(plan, goal.position[:2], percepts, lambda distance: distance >= least)
 
@@ -254,7 +239,7 @@ class SimulatedRobot:
 
         def plan(obstacles: dict[str, Circle]) -> Points | None:
             goals = np.array([[x, y]], dtype=np.float64)
-            return navigation.shortest_path((self.pose.x, self.pose.y), goals, list(obstacles.values()))
+            return navigation.shortest_path(self._here, goals, [*obstacles.values()])
 
         return self._drive(plan, (x, y), percepts, lambda distance: distance <= AT_PLACE)
 
@@ -294,5 +279,9 @@ class SimulatedRobot:
         self._look()
         return self._noticed
 
+    @property
+    def _here(self) -> tuple[float, float]:
+        return self.pose.x, self.pose.y
+
     def _distance(self, place: tuple[float, float]) -> float:
-        return math.dist((self.pose.x, self.pose.y), place)
+        return math.dist(self._here, place)

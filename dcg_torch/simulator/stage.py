@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from types import TracebackType
 from typing import Final
 
 import numpy as np
@@ -14,7 +13,7 @@ from PIL import Image, ImageDraw, ImageFilter
 from dcg_torch.simulator.base import add_robot
 from dcg_torch.simulator.bodies import Model, Part, add_model, add_object, extent, footprint
 from dcg_torch.simulator.bodies.meshes import Mesh, merged
-from dcg_torch.simulator.client import Client
+from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
 from dcg_torch.types import Pose
@@ -25,7 +24,7 @@ _TILES: Final = ((0.89, 0.89, 0.87), (0.85, 0.85, 0.83))
 _FIELD_OF_VIEW: Final = math.radians(18.0)  # vertical; narrow, so that upright things stay upright at the edges
 
 
-class Stage:
+class Stage(Closing):
     """One world in a physics client of its own; no physics runs. Close it, or use it in a `with` statement.
 
     Args:
@@ -45,14 +44,6 @@ class Stage:
         except BaseException:
             self.close()
             raise
-
-    def __enter__(self) -> Stage:
-        return self
-
-    def __exit__(
-        self, kind: type[BaseException] | None, value: BaseException | None, traceback: TracebackType | None
-    ) -> None:
-        self.close()
 
     def close(self) -> None:
         """Let go of the client; a second call does nothing."""

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 Points = NDArray[np.float64]
+_WINDOW = 0.5
 
 
 class Track:
@@ -27,12 +28,12 @@ class Track:
         self.length: float = self._at[-1]
         self._reached = 0.0
 
-    def progress(self, x: float, y: float, *, window: float = 0.5) -> float:
-        """The place on the path nearest to (x, y), at most `window` metres on from the last one; never back."""
+    def progress(self, x: float, y: float) -> float:
+        """The place on the path nearest to (x, y), at most `_WINDOW` metres on from the last one; never back."""
         best, found = math.inf, self._reached
         pieces = zip(itertools.pairwise(self._corners), itertools.pairwise(self._at), strict=True)
         for (a, b), (begin, end) in pieces:
-            low, high = max(begin, self._reached), min(end, self._reached + window)
+            low, high = max(begin, self._reached), min(end, self._reached + _WINDOW)
             if low > high:
                 continue
             ux, uy = (b[0] - a[0]) / (end - begin), (b[1] - a[1]) / (end - begin)

@@ -12,10 +12,16 @@ from typing import Any
 from xml.etree.ElementTree import Element, ParseError
 
 import yaml
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 _LONGEST = 60  # characters that a message quotes of a foreign file
 _NEAR = 0.75  # how alike a misspelt key is to the right one
+
+
+class Strict(BaseModel):
+    """What a file must hold to the letter: no further key, no number that is not finite."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 
 def shown(value: object, longest: int = _LONGEST) -> str:

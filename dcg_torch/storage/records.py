@@ -7,29 +7,17 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from pydantic import AllowInfNan, BaseModel, ConfigDict, SerializerFunctionWrapHandler, model_serializer
+from pydantic import AllowInfNan, SerializerFunctionWrapHandler, model_serializer
+
+from dcg_torch.storage.foreign import Strict
 
 Kind = Literal["known", "unknown", "learned"]
-NO_EFFECT = (
-    "name",
-    "trials",
-    "workers",
-    "backend",
-    "metric",
-    "animate",
-    "figures",
-    "tensorboard",
-    "screenshots",
-)
+NO_EFFECT = ("name", "trials", "workers", "backend", "metric", "animate", "figures", "tensorboard", "screenshots")
 """Settings that change no byte of a trial: two runs that differ in these alone are of one configuration,
 and a run may be gone on with although these differ."""
 
 
-class _Record(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class PoseRecord(_Record):
+class PoseRecord(Strict):
     """A pose in the world: metres and radians."""
 
     x: float
@@ -37,7 +25,7 @@ class PoseRecord(_Record):
     yaw: float
 
 
-class ObjectRecord(_Record):
+class ObjectRecord(Strict):
     """One object of the world; `position` is (x, y) in metres."""
 
     id: str
@@ -46,14 +34,14 @@ class ObjectRecord(_Record):
     position: tuple[float, float]
 
 
-class ParsedRecord(_Record):
+class ParsedRecord(Strict):
     """The noun and colour of the object meant, as the parser read them."""
 
     noun: str | None
     color: str | None
 
 
-class Iteration(_Record):
+class Iteration(Strict):
     """One command of a trial, free of wall-clock times, so that the same seed gives the same bytes."""
 
     trial: int
@@ -91,7 +79,7 @@ class Iteration(_Record):
         return {k: v for k, v in fields.items() if v is not None or k not in ("beliefs", "dialogue")}
 
 
-class Timing(_Record):
+class Timing(Strict):
     """Wall-clock seconds of one command, and the size of what was trained."""
 
     trial: int

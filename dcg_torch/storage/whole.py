@@ -7,7 +7,7 @@ import errno
 import os
 import secrets
 import shutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 _MARK = ".part"
@@ -32,7 +32,7 @@ def write_whole(path: Path, content: bytes | str | Callable[[Path], object]) -> 
     path.parent.mkdir(parents=True, exist_ok=True)
     if path.is_dir():
         raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
-    part = path.with_name(f".{path.stem[:100]}.{secrets.token_hex(4)}{_MARK}{path.suffix}")
+    part = _part_of(path)
     try:
         if callable(content):
             content(part)
@@ -45,6 +45,47 @@ def write_whole(path: Path, content: bytes | str | Callable[[Path], object]) -> 
             part.unlink()
         raise
     return path
+
+
+def write_whole_files(directory: Path, contents: Mapping[str, bytes]) -> None:
+    """Write files that belong together, so that those of two writings never stand beside each other.
+
+    All are on the disk before the first takes its place. The last of the old ones goes first and the last of the new
+    ones comes last: while it is there, all others are of one writing with it.
+
+    Args:
+        directory: is made if need be; other files in it stay.
+        contents: name -> content; readers begin with the last.
+
+    Raises:
+        OSError: they cannot be written; if there is no room for them, the old ones stay.
+    """
+    directory.mkdir(parents=True, exist_ok=True)
+    paths = [directory / name for name in contents]
+    for path in paths:
+        if path.is_dir():
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+    parts = [_part_of(path) for path in paths]
+    try:
+        for part, content in zip(parts, contents.values(), strict=True):
+            part.write_bytes(content)
+            _to_disk(part)
+        if paths[-1].exists():
+            paths[-1].unlink()
+            _to_disk(directory)
+        for part, path in zip(parts, paths, strict=True):
+            os.replace(part, path)
+            _to_disk(directory)
+    except BaseException:
+        for part in parts:
+            with contextlib.suppress(OSError):
+                part.unlink()
+        raise
+
+
+def _part_of(path: Path) -> Path:
+    """A hidden place beside `path`, with its suffix."""
+    return path.with_name(f".{path.stem[:100]}.{secrets.token_hex(4)}{_MARK}{path.suffix}")
 
 
 def sweep_parts(directory: Path) -> None:

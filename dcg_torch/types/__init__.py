@@ -70,6 +70,10 @@ class Phrase:
     among: str | None = None
     look: tuple[str, ...] = ()
 
+    def __hash__(self) -> int:
+        # Few phrases that are kept together share these, and phrases are looked up all the time.
+        return hash((self.text, self.noun, self.words, self.context))
+
 
 @dataclass(frozen=True, slots=True)
 class ParseTree:

@@ -6,10 +6,10 @@ from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import Field, ValidationError, model_validator
 
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import problem_of, read_yaml, shown
+from dcg_torch.storage.foreign import Strict, problem_of, read_yaml, shown
 from dcg_torch.types import Pose
 
 REACH_OF_A_WORLD = 1_000.0
@@ -23,11 +23,7 @@ FileName = Annotated[str, Field(strict=True, min_length=1, max_length=80, patter
 Text = Annotated[str, Field(strict=True, min_length=1, max_length=1_000)]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
-
-
-class WorldObject(_Strict):
+class WorldObject(Strict):
     """One object: `position` is its foot (x, y) in metres, `yaw` its heading in radians."""
 
     id: FileName
@@ -37,7 +33,7 @@ class WorldObject(_Strict):
     yaw: Radians = 0.0
 
 
-class WrittenCommand(_Strict):
+class WrittenCommand(Strict):
     """A command that was written for a world, the id of the object it means, and what it says of that object.
 
     `noun` is the noun as said, in the singular; `color` the stated colour, or null. `away`:
@@ -51,7 +47,7 @@ class WrittenCommand(_Strict):
     away: bool = Field(False, strict=True)
 
 
-class RobotStart(_Strict):
+class RobotStart(Strict):
     """Where the robot starts, metres and radians."""
 
     x: Metres = 0.0
@@ -59,7 +55,7 @@ class RobotStart(_Strict):
     yaw: Radians = 0.0
 
 
-class World(_Strict):
+class World(Strict):
     """A world file. Ids are unique and every command's target exists.
 
     `relational` are commands in which noun and colour alone do not say what is meant.

@@ -1,6 +1,7 @@
 """`make torture`: kills, pairs of processes, full disks and hostile files, by the hundred. Bounded by `--minutes`.
 
     python tests/torture [kills] [pairs] [disk] [fuzz] [writers] [soak] [--minutes 30] [--seed 0]
+    python tests/torture fuzz --only world,model --inputs 20000 --minutes 60
 
 Prints a line a part and exits with 1 if anything did not hold. The programs run in forks of one process that has
 imported all they need, so that their first moments are as likely to be hit as their last.
@@ -9,6 +10,7 @@ imported all they need, so that their first moments are as likely to be hit as t
 from __future__ import annotations
 
 import argparse
+import functools
 import random
 import sys
 import tempfile
@@ -29,7 +31,7 @@ PARTS: dict[str, Callable[[random.Random, Path, float], tuple[bool, str]]] = {
     "disk": disks.full_disks,
     "pairs": kills.pairs,
     "kills": kills.kills,
-    "fuzz": fuzz.readers,
+    "fuzz": fuzz.feed_all,
     "writers": writers.fifty_writers,
     "soak": soak.soak,
 }
@@ -41,7 +43,10 @@ def main() -> int:
     parser.add_argument("parts", nargs="*", metavar="PART", help=f"of {', '.join(PARTS)}")
     parser.add_argument("--minutes", type=float, default=28.0, help="for all parts together")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--inputs", type=int, default=fuzz.INPUTS, help="for each reader of fuzz, at the most")
+    parser.add_argument("--only", default="", metavar="READER,READER", help="of fuzz; default: all")
     options = parser.parse_args()
+    PARTS["fuzz"] = functools.partial(fuzz.feed_all, only=options.only, inputs=options.inputs)
     names = options.parts or list(PARTS)
     until, held = time.monotonic() + 60.0 * options.minutes, True
     for k, name in enumerate(names):

@@ -1,91 +1,93 @@
-"""Twenty thousand hostile files for each reader."""
+"""Twenty thousand hostile inputs for each reader.
+
+Each input comes of the seed, the reader's name and a number alone, so that one that went wrong can be made again.
+"""
 
 from __future__ import annotations
 
 import random
 import resource
+import shutil
+import signal
 import sys
-import tempfile
 import time
-from collections.abc import Callable
+import traceback
+import warnings
 from pathlib import Path
-from typing import Any
+from types import FrameType
+from typing import NamedTuple
 
-from hostile import EPISODE, TRAINING, WORLD, damaged, json_lines, yaml_files
-from hypothesis import HealthCheck, given, seed, settings
-from hypothesis import strategies as st
-from report_rows import row
+from readers import LONGEST, Reader, readers
 
-from dcg_torch.evaluation.episodes import read_episodes
-from dcg_torch.evaluation.importers import table
-from dcg_torch.lessons import read_training
-from dcg_torch.report.runs import read_rows
-from dcg_torch.storage.errors import UserError
-from dcg_torch.world.files import load_world
-
-INPUTS, _BATCH = 20_000, 500
-_CSV = b"""id,text,object,type,x,y,z,color,target,size_x,robot_x,robot_y,robot_yaw,group
-1,"take the cone, please",a,cone,1,2,0,red,,0.2,0,0,0,g
-1,,b,cone,1,-2,0,red,x,0.2,,,,
-2,go to the cube,a,cube,1.5,2,,blue,yes,,,,,
-"""
-_SLOWEST, _MOST = 2.0, 200.0  # seconds, and MB by which the peak of memory grew, for one input
+INPUTS = 20_000
+_SLOWEST, _MOST = 2.0, 200.0  # seconds of CPU, and MB by which the peak of memory grew, for one input
+_HANGS = 20.0  # seconds of CPU after which an input is given up
 
 
-def readers(rng: random.Random, directory: Path, until: float) -> tuple[bool, str]:
-    """Feed every reader; it takes a file or refuses it with one printable line, quickly."""
-    said, good = [], True
-    largest = 0.0
-    choice: dict[str, tuple[Callable[[Path], Any], st.SearchStrategy[bytes]]] = {
-        "world": (load_world, yaml_files(WORLD)),
-        "training": (read_training, yaml_files(TRAINING)),
-        "episodes": (read_episodes, json_lines(EPISODE)),
-        "iterations": (read_rows, json_lines(row(beliefs={"crate": {"cube": 0.9}}).model_dump(mode="json"))),
-        "csv": (
-            table.convert,
-            damaged(_CSV, [b'"', b",", b"\n", b"\x00", b"\xff", b"9" * 5_000, b"nan", b"," * 5_000]),
-        ),
-    }
-    for k, (name, (read, files)) in enumerate(choice.items()):
+class Fed(NamedTuple):
+    """What came of a reader's inputs: how many there were and were taken, the most seconds and MB for one."""
+
+    tried: int = 0
+    taken: int = 0
+    slowest: float = 0.0
+    most: float = 0.0
+    wrong: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        said = f"{self.tried} inputs, {self.taken} taken, slowest {self.slowest:.2f} s, most {self.most:.0f} MB"
+        return said + "".join(f"\n        {line}" for line in self.wrong[:5])
+
+
+def feed_all(
+    rng: random.Random, directory: Path, until: float, *, only: str = "", inputs: int = INPUTS
+) -> tuple[bool, str]:
+    """Feed every reader; it takes an input or refuses it with one printable line, quickly."""
+    start, said, good = rng.randrange(2**32), [], True
+    all_of_them = readers(directory)
+    choice = [name for name in all_of_them if not only or name in only.split(",")]
+    for k, name in enumerate(choice):
         share = time.monotonic() + (until - time.monotonic()) / (len(choice) - k)
-        tried, taken, slowest, more, wrong = _feed(read, files, rng.randrange(2**32), share)
-        largest = max(largest, more)
-        good &= wrong is None and slowest < _SLOWEST and tried > 0
-        said.append(f"{name} {tried} files, {taken} taken, slowest {slowest:.2f} s{f', {wrong}' if wrong else ''}")
-    return good and largest < _MOST, "; ".join(said) + f"; at most {largest:.0f} MB for one file"
+        fed = _feed(name, all_of_them[name], start, directory / "input", share, inputs)
+        good &= not fed.wrong and fed.slowest < _SLOWEST and fed.most < _MOST and fed.tried > 0
+        said.append(f"\n    {name}: {fed}")
+        print(f"fuzz    {name}: {fed}", file=sys.stderr, flush=True)
+    return good, "".join(said)
 
 
-def _feed(
-    read: Callable[[Path], Any], files: st.SearchStrategy[bytes], start: int, until: float
-) -> tuple[int, int, float, float, str | None]:
-    """How many files there were and were taken, the most seconds and MB for one, and what went wrong first."""
-    tried = taken = 0
-    slowest = most = 0.0
-    with tempfile.TemporaryDirectory() as folder:
-        path = Path(folder) / "a_file"
-
-        @settings(max_examples=_BATCH, deadline=None, database=None, suppress_health_check=list(HealthCheck))
-        @given(files)
-        def feed(content: bytes) -> None:
-            nonlocal tried, taken, slowest, most
-            path.write_bytes(content)
-            began, held = time.process_time(), _megabytes()
-            tried += 1
-            try:
-                read(path)
-                taken += 1
-            except UserError as error:
-                if not str(error).isprintable() or len(str(error)) > 600:
-                    raise AssertionError(repr(str(error))) from error
-            slowest = max(slowest, time.process_time() - began)
-            most = max(most, _megabytes() - held)
-
+def _feed(name: str, reader: Reader, start: int, folder: Path, until: float, inputs: int) -> Fed:
+    signal.signal(signal.SIGVTALRM, _give_up)
+    warnings.simplefilter("error")  # a number that overflows got past a check
+    fed, wrong = Fed(), dict[str, str]()
+    for number in range(inputs):
+        if time.monotonic() > until:
+            break
+        rng = random.Random(f"{start} {name} {number}")
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir()
+        given = reader.make(rng, folder)
+        began, held, taken = time.process_time(), _megabytes(), 0
+        signal.setitimer(signal.ITIMER_VIRTUAL, _HANGS)
         try:
-            while tried < INPUTS and time.monotonic() < until:
-                seed(start + tried)(feed)()
+            reader.read(given)
+            taken = 1
+        except reader.refuses as error:
+            if not str(error).isprintable() or len(str(error)) > LONGEST + 3:
+                wrong.setdefault("message", f"{number}: {str(error)!r:.300}")
         except Exception as error:
-            return tried, taken, slowest, most, f"{type(error).__name__}: {str(error)[:200]}"
-    return tried, taken, slowest, most, None
+            last = traceback.extract_tb(error.__traceback__)[-1]
+            kind = f"{type(error).__name__} at {Path(last.filename).name}:{last.lineno}"
+            wrong.setdefault(kind, f"{number}: {kind}: {str(error)!r:.200}")
+        finally:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0.0)
+        seconds, more = time.process_time() - began, _megabytes() - held
+        if seconds > _SLOWEST or more > _MOST:
+            wrong.setdefault("dear", f"{number}: {seconds:.1f} s, {more:.0f} MB")
+        fed = Fed(fed.tried + 1, fed.taken + taken, max(fed.slowest, seconds), max(fed.most, more))
+    return fed._replace(wrong=tuple(wrong.values()))
+
+
+def _give_up(_: int, __: FrameType | None) -> None:
+    raise TimeoutError("it hangs")
 
 
 def _megabytes() -> float:

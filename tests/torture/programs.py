@@ -17,7 +17,7 @@ import torch
 from hostile import EPISODE
 
 from dcg_torch import evaluate
-from dcg_torch.cli import run, sweep  # noqa: F401  (imported once, before the forks)
+from dcg_torch.cli import pretrain, run, sweep  # noqa: F401  (imported once, before the forks)
 from dcg_torch.experiment import outcome, worker  # noqa: F401
 from dcg_torch.language import default_parser
 
@@ -31,12 +31,12 @@ _TIMED = ("timings.jsonl", "summary.json", "hydra.yaml", "config.yaml", "multiru
 
 @dataclass(frozen=True)
 class Program:
-    """A command that works in a folder: its main function, its arguments, and what names the folder."""
+    """A command that works in a folder: its main function, its arguments, and what stands before the folder's name."""
 
     name: str
     main: Any
     arguments: Sequence[str]
-    folder: str = "hydra.run.dir"
+    folder: str = "hydra.run.dir="
 
 
 def programs(directory: Path) -> list[Program]:
@@ -48,8 +48,9 @@ def programs(directory: Path) -> list[Program]:
     return [
         Program("experiment", run.main, (*PLAIN, "workers=1")),
         Program("experiment, 2 workers", run.main, (*PLAIN, "workers=2")),
-        Program("sweep", run.main, ("-m", *PLAIN, "workers=1", "model=dcg,dcg_upup"), "hydra.sweep.dir"),
+        Program("sweep", run.main, ("-m", *PLAIN, "workers=1", "model=dcg,dcg_upup"), "hydra.sweep.dir="),
         Program("evaluate", evaluate.main, small),
+        Program("pretrain", pretrain.main, ("--lessons=20",), "--out="),
     ]
 
 
@@ -86,7 +87,7 @@ def start(program: Program, directory: Path, output: Path) -> Process:
         for stream, path in ((1, Path(os.devnull)), (2, output)):
             os.dup2(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644), stream)
         signal.signal(signal.SIGINT, signal.default_int_handler)
-        sys.argv = ["dcg_torch", *program.arguments, f"{program.folder}={directory}"]
+        sys.argv = ["dcg_torch", *program.arguments, f"{program.folder}{directory}"]
         status = program.main()
     except SystemExit as leaving:
         status = leaving.code if isinstance(leaving.code, int) else 1

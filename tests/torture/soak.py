@@ -1,9 +1,14 @@
-"""One robot and thousands of commands: time and memory a command stay where they are."""
+"""One robot and thousands of commands: time and memory a command stay where they are.
+
+CPU time is compared, since others are busy on the machine, and medians of blocks of commands, since a busy neighbour
+makes a block dearer now and then.
+"""
 
 from __future__ import annotations
 
 import os
 import random
+import statistics
 import time
 from pathlib import Path
 from typing import NamedTuple
@@ -12,7 +17,7 @@ from programs import Program, start
 
 from dcg_torch.cli import run
 
-COMMANDS, SETTLED, WIDTH = 10_000, 2_000, 1_000
+COMMANDS, SETTLED, WIDTH, BLOCK = 10_000, 2_000, 2_000, 250
 _FLAT = 1.10
 
 
@@ -25,7 +30,7 @@ class Sample(NamedTuple):
 
 
 def soak(rng: random.Random, directory: Path, until: float) -> tuple[bool, str]:
-    """CPU time a command, and resident memory, at the end against those when `SETTLED` commands were over."""
+    """CPU time a command, and resident memory, in the end against those when `SETTLED` commands were over."""
     settings = ("experiment=long_life", f"iterations={COMMANDS}", "worlds_per_trial=1600", "workers=1")
     quiet = ("figures=false", "tensorboard=false")
     process = start(Program("soak", run.main, (*settings, *quiet)), directory / "run", directory / "err")
@@ -40,18 +45,28 @@ def soak(rng: random.Random, directory: Path, until: float) -> tuple[bool, str]:
     os.kill(process.pid, 15)
     process.end()
     count = samples[-1].done if samples else 0
-    if count < SETTLED + WIDTH:
+    if count < SETTLED + 2 * BLOCK:
         return False, f"only {count} commands in the time there was"
     width = min(WIDTH, (count - SETTLED) // 2)
-    slower = _ticks(samples, count - width, count) / _ticks(samples, SETTLED, SETTLED + width)
+    early, late = (_dearness(samples, first, first + width) for first in (SETTLED, count - width))
     larger = samples[-1].resident / next(s for s in samples if s.done >= SETTLED).resident
-    return max(slower, larger) <= _FLAT, f"{count} commands; time x{slower:.2f}, memory x{larger:.2f} since {SETTLED}"
+    tick = 1000.0 / os.sysconf("SC_CLK_TCK")  # milliseconds
+    said = f"{count} commands; CPU a command {early * tick:.1f} ms over {SETTLED} to {SETTLED + width}, "
+    said += f"{late * tick:.1f} ms over the last {width} (x{late / early:.2f}); memory x{larger:.2f} since {SETTLED}"
+    steps = (_dearness(samples, first, first + 1_000) * tick for first in range(0, count - 999, 1_000))
+    return max(late / early, larger) <= _FLAT, said + "; by thousands: " + " ".join(f"{step:.1f}" for step in steps)
+
+
+def _dearness(samples: list[Sample], first: int, last: int) -> float:
+    """Ticks of CPU a command: the median of the blocks between two counts of commands."""
+    blocks = range(first, last - BLOCK + 1, BLOCK)
+    return statistics.median(_ticks(samples, at, at + BLOCK) for at in blocks)
 
 
 def _ticks(samples: list[Sample], first: int, last: int) -> float:
-    """CPU a command between two counts of commands."""
+    """Ticks of CPU a command between two counts of commands."""
     begin = next(s for s in samples if s.done >= first)
-    end = next(s for s in samples if s.done >= last)
+    end = next((s for s in samples if s.done >= last), samples[-1])
     return (end.ticks - begin.ticks) / max(1, end.done - begin.done)
 
 

@@ -26,6 +26,7 @@ from dcg_torch.apps.collect.texts import copied, empty, normal, tidy
 
 _KEPT_FOR = 600.0  # seconds that an object is kept for the person who looks at it
 _AGAIN = "This could not be kept. Please send it again."
+_MOST_SKIPPED = 10  # objects that a person may leave out: nobody gets a code for leaving out all
 _TRIES = 20  # of an answer whose number another process took
 
 
@@ -62,6 +63,15 @@ class Written(_Base):
     object: Mapped[str] = mapped_column(String(100))
     text: Mapped[str] = mapped_column(String(1_000))
     seconds: Mapped[float | None]
+    at: Mapped[str] = mapped_column(String(40))
+
+
+class Skipped(_Base):
+    """An object for which a person could write no command, as they could not tell which one it is."""
+
+    __tablename__ = "skipped"
+    person: Mapped[str] = mapped_column(ForeignKey("person.id"), primary_key=True)
+    item: Mapped[str] = mapped_column(String(40), primary_key=True)
     at: Mapped[str] = mapped_column(String(40))
 
 
@@ -132,11 +142,15 @@ def _begin_immediate(connection: Connection) -> None:
 
 @dataclass(frozen=True)
 class Task:
-    """What a person is to do next: an item, or none where all is done; `place` counts from 1 `of` so many."""
+    """What a person is to do next: an item, or none where all is done; `place` counts from 1 `of` so many.
+
+    `skips`: may the person have another item instead?
+    """
 
     item: Item | None
     place: int
     of: int
+    skips: bool = False
 
 
 @dataclass(frozen=True)
@@ -182,18 +196,30 @@ class Answers:
             mine = set(session.scalars(select(Written.item).where(Written.person == person)))
             if len(mine) >= self._per_person:
                 return Task(None, len(mine), self._per_person)
+            skipped = set(session.scalars(select(Skipped.item).where(Skipped.person == person)))
             counts = _counts(session.execute(select(Written.item, func.count()).group_by(Written.item)))
             chosen = one.item
-            if chosen in mine or chosen not in self._items or counts.get(chosen or "", 0) >= self._per_object:
-                chosen = self._choose(session, person, mine, counts)
+            used = mine | skipped
+            if chosen in used or chosen not in self._items or counts.get(chosen or "", 0) >= self._per_object:
+                chosen = self._choose(session, person, used, counts)
                 one.item, one.shown = chosen, time.time()
-            return Task(self._items[chosen] if chosen else None, len(mine) + 1, self._per_person)
+            other = self._choose(session, person, {*used, chosen or ""}, counts)
+            skips = other is not None and len(skipped) < _MOST_SKIPPED
+            return Task(self._items[chosen] if chosen else None, len(mine) + 1, self._per_person, skips)
 
-    def _choose(self, session: Session, person: str, mine: set[str], counts: Mapping[str, int]) -> str | None:
+    def skip(self, person: str, item: str) -> None:
+        """Note that a person cannot tell which object is meant; they are shown it no more, and others still are."""
+        with contextlib.suppress(IntegrityError), Session(self._engine) as session, session.begin():
+            gone = session.scalar(select(func.count()).where(Skipped.person == person)) or 0
+            one = session.get(Person, person)
+            if one is not None and one.item == item and gone < _MOST_SKIPPED:
+                session.add(Skipped(person=person, item=item, at=_now()))
+
+    def _choose(self, session: Session, person: str, used: set[str], counts: Mapping[str, int]) -> str | None:
         """An item of those with the fewest answers, written or being written; which, depends on the person."""
         recent = select(Person.item, func.count()).where(Person.shown > time.time() - _KEPT_FOR, Person.id != person)
         looked = _counts(session.execute(recent.group_by(Person.item)))
-        free = [i for i in self._items if i not in mine and counts.get(i, 0) < self._per_object]
+        free = [i for i in self._items if i not in used and counts.get(i, 0) < self._per_object]
         return min(free, key=lambda i: (counts.get(i, 0) + looked.get(i, 0), _shuffled(person, i)), default=None)
 
     def add(self, person: str, item: str, text: str) -> Added:

@@ -25,10 +25,10 @@ def make_hit(settings: HitSettings, say: Callable[[str], object]) -> str:
         UserError: the worlds or the folder will not do.
     """
     address = urlsplit(settings.pictures_at)
-    if address.scheme not in ("http", "https") or not address.netloc:
+    if address.scheme != "https" or not address.netloc:  # Mechanical Turk's page is https, and shows no http pictures
         raise CollectError(
             f"pictures_at={settings.pictures_at}: write the https address below which you will put the pictures, "
-            "as in pictures_at=https://example.org/pictures"
+            "as in pictures_at=https://example.org/pictures; browsers leave out http pictures on a page of https"
         )
     worlds, folder = task_worlds(settings), Path(settings.folder).expanduser()
     check_place(folder, (TASK,), setting="folder")

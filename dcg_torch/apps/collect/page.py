@@ -31,7 +31,11 @@ WORKER_IDS = ("workerId", "PROLIFIC_PID", "participant")
 COOKIE = "dcg_collect"
 _KEY = re.compile(r"[0-9a-f]{64}")
 _LARGEST_FORM = 16_384  # bytes
-_NOTES = {"kept": "Your command is kept.", "next": "That picture needs no more commands. Here is another one."}
+_NOTES = {
+    "kept": "Your command is kept.",
+    "next": "That picture needs no more commands. Here is another one.",
+    "skipped": "You left that picture out. Here is another one.",
+}
 _HEADERS = {
     "Content-Security-Policy": "default-src 'none'; img-src 'self'; style-src 'self'; form-action 'self'; "
     "base-uri 'none'; frame-ancestors 'none'",
@@ -152,6 +156,9 @@ def _add_task(app: FastAPI, study: Study) -> None:
         if key is None or not _valid(key) or study.answers.code(study.person(key)) is None:
             return RedirectResponse("/", 303)
         text, item = form.get("command", ""), form.get("item", "")
+        if "skip" in form:
+            study.answers.skip(study.person(key), item)
+            return RedirectResponse("/task?note=skipped", 303)
         added = study.answers.add(study.person(key), item, text)
         if added.refused:
             return shown(key, problem=added.refused, text=text, item=item)

@@ -98,9 +98,9 @@ def _help() -> str:
 def main() -> int:
     """Run the command line; the exit status: 0 done, 2 wrong input, 130 interrupted."""
     arguments = sys.argv[1:]
-    if not arguments or {"-h", "--help", "help"} & set(arguments):
-        print(_help())
-        return 0
     with one_line_errors():
-        _run(arguments[0], arguments[1:])
+        if not arguments or {"-h", "--help", "help"} & set(arguments):
+            print(_help(), flush=True)
+        else:
+            _run(arguments[0], arguments[1:])
     return 0

@@ -43,7 +43,7 @@ def read_results(source: str) -> list[Row]:
     if "://" not in source and not _is_sqlite(path):
         return list(_csv_rows(path, read_text(path, "file of results", CollectError, "utf-8-sig")))
     if (file := source.removeprefix("sqlite:///")) != source and not Path(file).is_file():
-        raise CollectError(f"{source}: no such database")  # SQLite would make one
+        raise CollectError(f"{source}: there is no file {file}; give the one that serve wrote")  # SQLite would make one
     url = source if "://" in source else sqlite_url(path)
     return [Row(w.id, w.person, w.world, w.object, w.text) for w in read_rows(url)]
 

@@ -29,14 +29,7 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import MarkerArray
 
-from dcg_torch.apps.ros.messages import (
-    lexicon_markers,
-    lexicon_text,
-    pose_message,
-    read_percepts,
-    read_pose,
-    to_stamp,
-)
+from dcg_torch.apps.ros.messages import lexicon_markers, lexicon_text, pose_message, read_percepts, read_pose, to_stamp
 from dcg_torch.apps.ros.options import Options
 from dcg_torch.apps.ros.robot import TopicRobot
 from dcg_torch.apps.ros.senses import Senses

@@ -22,7 +22,8 @@ def main() -> int:
     arguments = sys.argv[1:]
     if {"-h", "--help"} & set(arguments):
         lines = [f"  {one.name} (default {one.default!r}): {one.metadata['help']}" for one in fields(Options)]
-        print(_USAGE + "\n".join(lines))
+        with one_line_errors():
+            print(_USAGE + "\n".join(lines), flush=True)
         return 0
     if arguments and arguments[0] != "--ros-args":
         return refuse(f"{arguments[0]}: there is no such option; parameters are given as --ros-args -p NAME:=VALUE")

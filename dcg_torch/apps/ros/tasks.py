@@ -28,15 +28,12 @@ class Outlet(Protocol):
 
     def say(self, topic: str, text: str) -> None:
         """Publish a text."""
-        ...
 
     def show(self, entries: list[Entry], percepts: tuple[Percept, ...]) -> None:
         """Publish the lexicon, as text and at what is seen."""
-        ...
 
     def complain(self, text: str) -> None:
         """Log what went wrong."""
-        ...
 
 
 class Tasks:
@@ -48,12 +45,7 @@ class Tasks:
     """
 
     def __init__(
-        self,
-        model: GroundingModel,
-        senses: Senses,
-        robot: TopicRobot,
-        options: Callable[[], Options],
-        outlet: Outlet,
+        self, model: GroundingModel, senses: Senses, robot: TopicRobot, options: Callable[[], Options], outlet: Outlet
     ) -> None:
         self.model = model
         self.percepts: tuple[Percept, ...] = ()

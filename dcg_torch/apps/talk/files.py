@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import itertools
+import shutil
 import tempfile
 import zipfile
 import zlib
@@ -24,46 +25,38 @@ MOST = 64_000_000
 """Bytes of a file that a visitor may bring along, packed or not."""
 
 
-def world_file(session: Session, file: Path) -> bytes:
-    """The world as it is now, as YAML."""
-    return _written(session.save_world, "world.yaml")
+def _save_model(session: Session, file: Path, to: Path) -> None:
+    with tempfile.TemporaryDirectory() as folder:
+        session.save_model(Path(folder) / "model")
+        shutil.make_archive(str(to.with_suffix("")), "zip", f"{folder}/model")
 
 
-def model_file(session: Session, file: Path) -> bytes:
-    """What the robot has learned, as a folder in a zip file."""
-    with tempfile.TemporaryDirectory() as place:
-        folder, packed = Path(place) / "model", io.BytesIO()
-        session.save_model(folder)
-        with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-            for part in sorted(folder.iterdir()):
-                archive.write(part, part.name)
-        return packed.getvalue()
+SAVED: dict[str, tuple[str, Callable[[Session, Path, Path], object]]] = {
+    "World": ("world.yaml", lambda session, file, to: session.save_world(to)),
+    "Model": ("model.zip", _save_model),
+    "Session": ("session.jsonl", lambda session, file, to: shutil.copy(file, to)),
+    "Episodes": ("episodes.jsonl", lambda session, file, to: export_episodes(file, to)),
+    "GIF": ("session.gif", lambda session, file, to: export_gif(file, to)),
+}
+"""What visitors may have -> the name of the file, and what writes it."""
 
 
-def session_file(session: Session, file: Path) -> bytes:
-    """The session as it is kept."""
-    return file.read_bytes()
-
-
-def episodes_file(session: Session, file: Path) -> bytes:
-    """The commands of the session as an episode file."""
-    return _written(lambda path: export_episodes(file, path), "episodes.jsonl")
-
-
-def animation_file(session: Session, file: Path) -> bytes:
-    """The commands of the session as a GIF."""
-    return _written(lambda path: export_gif(file, path), "session.gif")
+def saved(what: str, session: Session, file: Path) -> bytes:
+    """One of `SAVED`."""
+    name, write = SAVED[what]
+    with tempfile.TemporaryDirectory() as folder:
+        write(session, file, Path(folder) / name)
+        return (Path(folder) / name).read_bytes()
 
 
 def with_world(file: Path, content: bytes) -> Change:
     """A new session in the world of a YAML file, with all that the robot has learned."""
 
-    def make(session: Session, fresh: Path) -> Session:
+    def make(session: Session, model: Path, fresh: Path) -> Session:
         with tempfile.TemporaryDirectory() as place:
             path = Path(place) / "world.yaml"
             path.write_bytes(content)
             world = load_world(path)
-        model = _free(file, "-model", "")
         session.save_model(model)
         return Session(world, model, file=fresh, simulator=session.header.simulator)
 
@@ -73,14 +66,9 @@ def with_world(file: Path, content: bytes) -> Change:
 def with_model(file: Path, content: bytes) -> Change:
     """A new session in the same world, with the model of a zip file that `model_file` made."""
 
-    def make(session: Session, fresh: Path) -> Session:
-        model = _free(file, "-model", "")
-        try:
-            _unpack(content, model)
-            return Session(session.world, model, file=fresh, simulator=session.header.simulator)
-        except BaseException:
-            remove(model)
-            raise
+    def make(session: Session, model: Path, fresh: Path) -> Session:
+        _unpack(content, model)
+        return Session(session.world, model, file=fresh, simulator=session.header.simulator)
 
     return lambda session: _exchange(session, file, make)
 
@@ -88,20 +76,21 @@ def with_model(file: Path, content: bytes) -> Change:
 def with_session(file: Path, content: bytes) -> Change:
     """A session that goes on from a session file."""
 
-    def make(session: Session, fresh: Path) -> Session:
+    def make(session: Session, model: Path, fresh: Path) -> Session:
         fresh.write_bytes(content)
         return Session.open(fresh)
 
     return lambda session: _exchange(session, file, make)
 
 
-def _exchange(session: Session, file: Path, make: Callable[[Session, Path], Session]) -> None:
+def _exchange(session: Session, file: Path, make: Callable[[Session, Path, Path], Session]) -> None:
     """Make a new session beside the present one, and put its file in the place of the present one's, which is kept."""
-    fresh = _free(file, "-new", file.suffix)
+    fresh, model = _free(file, "-new", file.suffix), _free(file, "-model", "")
     try:
-        make(session, fresh).close()
+        make(session, model, fresh).close()
     except BaseException:
-        fresh.unlink(missing_ok=True)
+        remove(fresh)
+        remove(model)
         raise
     session.close()
     file.rename(_free(file, "-before", file.suffix))
@@ -113,10 +102,7 @@ def _unpack(content: bytes, folder: Path) -> None:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             if sum(item.file_size for item in archive.infolist()) > MOST:
                 raise UserError(f"the model is larger than {MOST // 1_000_000} MB; save a smaller one")
-            folder.mkdir(parents=True)
-            for item in archive.infolist():
-                if not item.is_dir():
-                    (folder / Path(item.filename).name).write_bytes(archive.read(item))
+            archive.extractall(folder)  # which lets no name lead out of the folder
     except (zipfile.BadZipFile, zlib.error, OSError, NotImplementedError, RuntimeError) as error:
         raise UserError(f"that is no model: {error}; take a zip file that this page saved") from None
 
@@ -125,10 +111,3 @@ def _free(file: Path, name: str, suffix: str) -> Path:
     """A path beside `file` that nothing is at yet."""
     paths = (file.with_name(f"{file.stem}{name}-{number}{suffix}") for number in itertools.count(1))
     return next(path for path in paths if not path.exists())
-
-
-def _written(write: Callable[[Path], object], name: str) -> bytes:
-    with tempfile.TemporaryDirectory() as place:
-        path = Path(place) / name
-        write(path)
-        return path.read_bytes()

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import secrets
-from http.cookies import SimpleCookie
-from urllib.parse import parse_qs
 
+from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocketClose
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _COOKIE = "dcg_torch_talk"
@@ -29,40 +29,21 @@ class Gate:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
-        headers = {name.decode("latin-1"): value.decode("latin-1") for name, value in scope["headers"]}
-        given = parse_qs(scope.get("query_string", b"").decode("latin-1")).get("token", [""])[0]
+        asked = HTTPConnection(scope)
+        given, cookie = asked.query_params.get("token", ""), asked.cookies.get(_COOKIE, "")
         if self._token is None:
-            if _host(headers.get("host", "")) in LOOPBACK:
-                await self.app(scope, receive, send)
-            else:
-                await _refuse(scope, receive, send, "This page is served to this machine only.")
-        elif self._same(_cookie(headers.get("cookie", ""))):
-            await self.app(scope, receive, send)
-        elif scope["type"] == "http" and self._same(given):
-            answer = RedirectResponse(scope["path"], status_code=303)
-            answer.set_cookie(_COOKIE, given, httponly=True, samesite="strict", max_age=30 * 24 * 3600)
-            await answer(scope, receive, send)
+            passes, why = asked.url.hostname in LOOPBACK, "This page is served to this machine only."
         else:
-            await _refuse(scope, receive, send, "Open the address with its token, as the program printed it.")
+            passes, why = self._same(cookie), "Open the address with its token, as the program printed it."
+        answer: ASGIApp = PlainTextResponse(why, status_code=403)
+        if passes:
+            answer = self.app
+        elif scope["type"] == "websocket":
+            answer = WebSocketClose(1008, why)
+        elif self._token is not None and self._same(given):
+            answer = redirect = RedirectResponse(scope["path"], status_code=303)
+            redirect.set_cookie(_COOKIE, given, httponly=True, samesite="strict", max_age=30 * 24 * 3600)
+        await answer(scope, receive, send)
 
     def _same(self, given: str) -> bool:
         return secrets.compare_digest(given.encode(), (self._token or "").encode())
-
-
-def _host(header: str) -> str:
-    """The host of "name:port", "[::1]:port" or "name"."""
-    return header[1:].partition("]")[0] if header.startswith("[") else header.partition(":")[0]
-
-
-def _cookie(header: str) -> str:
-    cookies: SimpleCookie = SimpleCookie()
-    cookies.load(header)
-    return cookies[_COOKIE].value if _COOKIE in cookies else ""
-
-
-async def _refuse(scope: Scope, receive: Receive, send: Send, why: str) -> None:
-    if scope["type"] == "http":
-        await PlainTextResponse(why, status_code=403)(scope, receive, send)
-    else:
-        closing: Message = {"type": "websocket.close", "code": 1008, "reason": why}
-        await send(closing)

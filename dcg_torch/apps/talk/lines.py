@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from dcg_torch.dialogue import events
 from dcg_torch.dialogue.file import Input
-from dcg_torch.world.files import World, WorldObject
+from dcg_torch.world.files import WorldObject
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,31 +49,6 @@ def line_of_event(event: events.Event) -> Line | None:
         case events.Learned(word, None):
             return Line("note", f"forgotten: {word}")
         case events.Learned(word, type_, source):
-            return Line("note", f"learned{' from the outcome' if source == 'outcome' else ''}: {word} = {type_}")
+            meaning = "" if word == type_ else f" = {type_}"
+            return Line("note", f"learned{' from the outcome' if source == 'outcome' else ''}: {word}{meaning}")
     return None
-
-
-def with_inputs(
-    world: World, inputs: Iterable[Input], watch: events.Watcher, write: Callable[[Line], None]
-) -> events.Watcher:
-    """A watcher of a session that is played again: before the events of an input it writes the line of the input.
-
-    Args:
-        world: in which the session begins.
-        inputs: of the session, its stops left out.
-        watch: of the events.
-    """
-    objects = {thing.id: thing for thing in world.objects}
-    left = iter(inputs)
-    begins = True
-
-    def watcher(event: events.Event) -> None:
-        nonlocal begins
-        if begins and (done := next(left, None)) is not None:
-            write(line_of_input(done, names_of(objects.values())))
-            if done.add is not None:
-                objects[done.add.id] = done.add
-        begins = isinstance(event, events.Done)
-        watch(event)
-
-    return watcher

@@ -3,77 +3,71 @@
 from __future__ import annotations
 
 import functools
+import json
 import math
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 
 import dcg_torch.simulator
-from dcg_torch.apps.talk.gltf import Shape, glb
-from dcg_torch.simulator.bodies import Model, Part, extent, footprint, registered, rgb
+from dcg_torch.simulator.bodies import Model, Part, registered, rgb
+from dcg_torch.simulator.bodies.colors import RGB
 from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, box, lathed
+from dcg_torch.types.geometry import FIELD_OF_VIEW
 
 _MODELS = Path(dcg_torch.simulator.__file__).parent / "models"
-FLOOR = 40
-"""Metres of the floor that has lines."""
-_PIECE = 4  # metres
+_FAN = 4.0  # metres of the field of view that are drawn
 _STAND_IN = 0.3  # metres: a cube of this size stands for a type without a body
 
 
 @functools.lru_cache(maxsize=512)
-def object_file(type_: str, color: str) -> bytes:
-    """An object of a type and colour as binary glTF; a cube stands for a type that the simulator has no body for."""
-    return _file(_model(type_), _color(color))
+def object_looks(type_: str, color: str) -> str:
+    """An object of a type and colour, as `body.js` reads it; a cube stands for a type that has no body."""
+    return json.dumps(_parts(_model(type_), _color(color)))
 
 
 @functools.cache
-def robot_file() -> bytes:
-    """The robot as binary glTF, facing x."""
-    return _file(_robot(), (0.5, 0.5, 0.5))
+def robot_looks() -> str:
+    """The robot, facing x, with its field of view on the floor before it."""
+    edge = [FIELD_OF_VIEW * (k / 16 - 0.5) for k in range(17)]
+    fan = np.array([(0.0, 0.0, 0.004), *((_FAN * math.cos(a), _FAN * math.sin(a), 0.004) for a in edge)])
+    mesh = Mesh(fan, np.tile([0.0, 0.0, 1.0], (len(fan), 1)), np.array([(0, k, k + 1) for k in range(1, len(edge))]))
+    return json.dumps([*_parts(_robot(), (0.5, 0.5, 0.5)), _part(mesh, (0.31, 0.56, 1.0), 0.28)])
 
 
-@functools.cache
-def floor_file() -> bytes:
-    """The lines of a square of `FLOOR` metres about the origin, a metre apart, as binary glTF."""
-    at = np.arange(-FLOOR / 2, FLOOR / 2 + 1)
-    # in short pieces, since some browsers leave out a line that passes the viewer
-    pieces = [(a, b, b + _PIECE) for a in at for b in at[:-1:_PIECE]]
-    ends = [[(a, b, 0), (a, c, 0), (b, a, 0), (c, a, 0)] for a, b, c in pieces]
-    lines = np.array(ends, dtype=float).reshape(-1, 3)
-    up = np.tile([0.0, 0.0, 1.0], (len(lines), 1))
-    return glb([Shape(lines, up, np.arange(len(lines)).reshape(-1, 2), (0.80, 0.79, 0.77))])
-
-
-@functools.lru_cache(maxsize=512)
 def radius_of(type_: str) -> float:
     """Metres of the floor that an object of this type takes, from its foot."""
-    return footprint(type_) if type_ in registered() else _STAND_IN / math.sqrt(2)
+    return _model(type_).radius
 
 
-@functools.lru_cache(maxsize=512)
 def height_of(type_: str) -> float:
     """Metres that an object of this type stands tall."""
-    return extent(type_)[2] if type_ in registered() else _STAND_IN
+    return float(_model(type_).bounds[1][2])
 
 
-def _color(name: str) -> tuple[float, float, float]:
+def _color(name: str) -> RGB:
     try:
         return rgb(name)
     except ValueError:
         return (0.6, 0.6, 0.6)
 
 
+@functools.lru_cache(maxsize=512)
 def _model(type_: str) -> Model:
-    if type_ in registered():
-        return model(type_)
-    return Model((Part(box(_STAND_IN, _STAND_IN, _STAND_IN)),))
+    return model(type_) if type_ in registered() else Model((Part(box(_STAND_IN, _STAND_IN, _STAND_IN)),))
 
 
-def _file(looks: Model, color: tuple[float, float, float]) -> bytes:
-    parts = [(part.mesh, color if part.paint is None else part.paint) for part in looks.by_paint()]
-    return glb([Shape(mesh.vertices, mesh.normals, mesh.triangles, paint) for mesh, paint in parts])
+def _parts(looks: Model, color: RGB) -> list[dict[str, Any]]:
+    return [_part(part.mesh, color if part.paint is None else part.paint) for part in looks.by_paint()]
+
+
+def _part(mesh: Mesh, color: RGB, opacity: float = 1.0) -> dict[str, Any]:
+    """A mesh in one colour; all lists are flat, and lengths have tenths of a millimetre."""
+    arrays = {"vertices": mesh.vertices, "normals": mesh.normals, "triangles": mesh.triangles}
+    return {name: a.round(4).ravel().tolist() for name, a in arrays.items()} | {"color": color, "opacity": opacity}
 
 
 def _robot() -> Model:

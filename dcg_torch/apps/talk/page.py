@@ -5,15 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from nicegui import Client, events, ui
+from nicegui import events, ui
 
 from dcg_torch.apps.talk.host import Host
 from dcg_torch.apps.talk.lines import Line
 from dcg_torch.apps.talk.panels import candidates_table, words_table
 from dcg_torch.apps.talk.scene import WorldView
-from dcg_torch.apps.talk.tools import Tools
+from dcg_torch.apps.talk.tools import Tools, told
 from dcg_torch.dialogue.file import Input
-from dcg_torch.storage.errors import UserError
 from dcg_torch.world.files import World
 
 CSS = Path(__file__).with_name("page.css")
@@ -26,56 +25,54 @@ class Page:
 
     Args:
         host: the conversation.
-        client: the visitor's connection; the page goes when it goes.
     """
 
-    def __init__(self, host: Host, client: Client) -> None:
+    def __init__(self, host: Host) -> None:
         self._host = host
         self._said = 0  # lines of the conversation that were shown, those that are gone included
         self._pointed: str | None = None
         self._shown: World | None = None
         with ui.element("main").classes("talk"):
-            self._head()
+            with ui.element("header").classes("head"):
+                ui.html("Talk to the robot", tag="h1", sanitize=False)
+                self._status = ui.label().classes("status").props("role=status")
             self._world()
             self._chat()
-            self._see_and_mean()
-            self._words_and_tools()
+            with ui.element("div").classes("pair"):
+                with _card("Its camera").classes("camera"):
+                    self._view.camera()
+                with _card("What may be meant"):
+                    self._means = ui.html(sanitize=False)
+            with ui.element("div").classes("side"):
+                with _card("Words it has learned"):
+                    self._words = ui.html(sanitize=False)
+                self._tools = Tools(self._host, self._view.by_hand)
         ui.keyboard(self._key, ignore=[], repeating=False)
-        for part in ("status", "world", "pose", "lines", "candidates", "words", "picture"):
+        for part in ("status", "world", "lines", "candidates", "words"):
             self.show(part)
-        client.on_delete(host.listen(self.show))
+        host.changed.subscribe(self.show)
 
     def show(self, part: str) -> None:
         """Bring a part of the page up to date: as `Host` names it."""
         state = self._host.state
         match part:
-            case "pose":
-                self._view.show_pose(state.pose)
             case "lines":
                 self._show_lines()
-            case "picture":
-                self._camera.set_source(state.picture or "")
             case "words":
                 self._words.set_content(words_table(state.words))
             case "candidates":
                 self._means.set_content(candidates_table(state.candidates))
-                self._show_marks()
             case "world" if state.world is not None:
-                self._view.show_world(state.world, state.seen)
+                self._view.show_world(state.world)  # what was dragged and did not stay there goes back
                 if state.world is not self._shown:
                     self._show_names(state.world)
-                self._show_marks()
             case "status":
-                self._status.set_text(self._state_of_affairs())
-
-    def _head(self) -> None:
-        with ui.element("header").classes("head"):
-            ui.html("Talk to the robot", tag="h1", sanitize=False)
-            self._status = ui.label().classes("status").props("role=status")
+                busy = f"busy, {state.waiting - 1} waiting" if state.waiting > 1 else "busy"
+                self._status.set_text("waking up" if not state.ready else busy if state.waiting else "listening")
 
     def _world(self) -> None:
         with ui.element("section").classes("view").props('aria-label="World"'):
-            self._view = WorldView(self._click, self._drag)
+            self._view = WorldView(self._click, lambda id_, place: self._tools.move(id_, place))
             with ui.element("div").classes("views"):
                 for name, where in (("Overview", "overview"), ("Above", "above"), ("Robot", "robot")):
                     ui.button(name, on_click=lambda where=where: self._look(where)).props(
@@ -96,19 +93,6 @@ class Page:
                 self._pointing = ui.select({None: "nothing"}, label="Pointing at", on_change=self._point)
                 self._pointing.props("outlined dense options-dense")
                 ui.button("Why?", on_click=self._why).props('flat no-caps aria-label="Why: factors and features"')
-
-    def _see_and_mean(self) -> None:
-        with ui.element("div").classes("pair"):
-            with _card("Its camera").classes("camera"):
-                self._camera = ui.image().props('alt="What the robot\'s camera shows" no-spinner no-transition')
-            with _card("What may be meant"):
-                self._means = ui.html(sanitize=False)
-
-    def _words_and_tools(self) -> None:
-        with ui.element("div").classes("side"):
-            with _card("Words it has learned"):
-                self._words = ui.html(sanitize=False)
-            self._tools = Tools(self._host, self._view.by_hand)
 
     def _show_lines(self) -> None:
         state = self._host.state
@@ -138,20 +122,7 @@ class Page:
         if self._pointed not in names:
             self._pointed = None
         self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
-        self._tools.show_world(world)
-
-    def _show_marks(self) -> None:
-        state = self._host.state
-        shares = {row.id: row.probability for row in state.candidates}
-        self._view.show_marks(shares, self._pointed)
-
-    def _state_of_affairs(self) -> str:
-        state = self._host.state
-        if not state.ready:
-            return "waking up"
-        if state.waiting > 1:
-            return f"busy, {state.waiting - 1} waiting"
-        return "busy" if state.waiting else "listening"
+        self._choose()
 
     def _say(self) -> None:
         text, pointed = self._input.value or "", self._pointed
@@ -168,10 +139,12 @@ class Page:
 
     def _point(self, event: events.ValueChangeEventArguments[Any]) -> None:
         self._pointed = event.value
-        self._show_marks()
+        self._choose()
 
-    def _drag(self, object_id: str, place: tuple[float, float]) -> None:
-        self._tools.move(object_id, place)
+    def _choose(self) -> None:
+        self._view.point(self._pointed)
+        things = {thing.id: thing for thing in self._shown.objects} if self._shown is not None else {}
+        self._tools.choose(things.get(self._pointed or ""))
 
     def _look(self, where: str) -> None:
         if self._host.state.world is not None:
@@ -182,13 +155,11 @@ class Page:
             self._host.stop()
 
     async def _why(self) -> None:
-        try:
+        with told():
             lines = await self._host.ask(lambda session: session.reasons())
-        except UserError as error:
-            lines = [str(error)]
-        with ui.dialog(value=True) as dialog, ui.card():
-            ui.label("\n".join(lines) or "Nothing was grounded yet.").classes("reasons")
-            ui.button("Close", on_click=dialog.close).props("no-caps")
+            with ui.dialog(value=True) as dialog, ui.card():
+                ui.label("\n".join(lines) or "Nothing was grounded yet.").classes("reasons")
+                ui.button("Close", on_click=dialog.close).props("no-caps")
 
 
 def _card(title: str) -> ui.element:

@@ -55,7 +55,13 @@ def _application(config: DictConfig) -> None:
             )
 
         address = Address.checked(settings.host, settings.port, settings.token)
-        serve(Host(file, new, settings.pace), address, show=settings.open)
+        try:
+            serve(Host(file, new, settings.pace), address, show=settings.open)
+        finally:
+            if world is not None and file.exists() and file.read_bytes().count(b"\n") < 2:  # nobody said a thing
+                file.unlink()
+                if not settings.session:
+                    file.parent.rmdir()
 
 
 def _new_file() -> Path:

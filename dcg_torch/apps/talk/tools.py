@@ -2,30 +2,19 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any
 
 from nicegui import events, ui
 
 from dcg_torch.apps.talk import files
 from dcg_torch.apps.talk.host import Change, Host
-from dcg_torch.apps.talk.lines import names_of
 from dcg_torch.dialogue.file import Input, Move
-from dcg_torch.dialogue.session import Session
 from dcg_torch.storage.errors import UserError
-from dcg_torch.world.files import World, WorldObject
+from dcg_torch.world.files import WorldObject
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES
-
-_Content = Callable[[Session, Path], bytes]
-_SAVED: tuple[tuple[str, str, _Content], ...] = (
-    ("World", "world.yaml", files.world_file),
-    ("Model", "model.zip", files.model_file),
-    ("Session", "session.jsonl", files.session_file),
-    ("Episodes", "episodes.jsonl", files.episodes_file),
-    ("GIF", "session.gif", files.animation_file),
-)
 
 
 class Tools:
@@ -38,19 +27,22 @@ class Tools:
 
     def __init__(self, host: Host, by_hand: Callable[[bool], None]) -> None:
         self._host = host
-        self._world: World | None = None
+        self._chosen: WorldObject | None = None
         with ui.expansion("Objects").classes("card").props("dense"), ui.element("div").classes("tools"):
             self._objects(by_hand)
         with ui.expansion("Save, load, replay").classes("card").props("dense"), ui.element("div").classes("tools"):
             self._files()
 
-    def show_world(self, world: World) -> None:
-        """Offer the objects of this world."""
-        self._world = world
-        names = names_of(world.objects)
-        self._which.set_options(names, value=self._which.value if self._which.value in names else None)
-        if self._which.value is None and names:
-            self._which.set_value(next(iter(names)))
+    def choose(self, thing: WorldObject | None) -> None:
+        """Show where an object is, which is now the one to be moved or taken away."""
+        self._chosen = thing
+        self._which.set_text(f"The {thing.color} {thing.type}:" if thing else "Point at an object to move it:")
+        for button in self._changes:
+            button.set_enabled(thing is not None)
+        if thing is not None:
+            for field, value in zip((self._x, self._y), thing.position, strict=True):
+                field.set_value(value)
+            self._yaw.set_value(round(math.degrees(thing.yaw)))
 
     def move(self, object_id: str, place: tuple[float, float], yaw: float | None = None) -> None:
         """Put an object elsewhere; where that is refused it goes back in the picture, too."""
@@ -58,26 +50,26 @@ class Tools:
         self._host.do(Input(move=Move(id=object_id, position=(x, y), yaw=yaw)))
 
     def _objects(self, by_hand: Callable[[bool], None]) -> None:
-        self._which = ui.select({}, label="Object", on_change=self._chosen).classes("wide")
+        self._which = ui.label().classes("wide")
         self._x = ui.number("x, metres", value=1.0, step=0.1, format="%.2f")
         self._y = ui.number("y, metres", value=0.0, step=0.1, format="%.2f")
         self._yaw = ui.number("turned, degrees", value=0, step=15, format="%.0f")
-        ui.button("Move", on_click=self._move).props("outline dense no-caps")
-        ui.button("Take away", on_click=self._remove).props("outline dense no-caps")
+        self._changes = [ui.button("Move", on_click=self._move), ui.button("Take away", on_click=self._remove)]
         ui.element("span")
         self._type = ui.select(list(MORE_TYPES), label="Type", value="cube")
         self._color = ui.select(list(MORE_COLORS), label="Colour", value="yellow")
-        ui.button("Add", on_click=self._add).props("outline dense no-caps")
+        for button in (*self._changes, ui.button("Add", on_click=self._add)):
+            button.props("outline dense no-caps")
         ui.switch("Drag objects in the picture", on_change=lambda event: by_hand(event.value)).classes("wide")
-        for field in (self._which, self._x, self._y, self._yaw, self._type, self._color):
+        for field in (self._x, self._y, self._yaw, self._type, self._color):
             field.props("outlined dense options-dense")
+        self.choose(None)
 
     def _files(self) -> None:
         ui.label("Save:").classes("wide")
-        for name, file, content in _SAVED:
-            ui.button(name, on_click=lambda f=file, c=content: self._save(f, c)).props("outline dense no-caps").props(
-                f'aria-label="Save: {name}"'
-            )
+        for what in files.SAVED:
+            button = ui.button(what, on_click=lambda what=what: self._save(what))
+            button.props(f'outline dense no-caps aria-label="Save: {what}"')
         ui.button("Replay", on_click=self._host.replay).props("outline dense no-caps")
         ui.label("Load; what is there now is kept beside it:").classes("wide")
         for name, accepted, change in (
@@ -89,54 +81,45 @@ class Tools:
             upload.on_upload(lambda event, upload=upload, change=change: self._load(event, upload, change))
             upload.props(f'accept="{accepted}" flat bordered').classes("wide")
 
-    def _chosen(self, event: events.ValueChangeEventArguments[Any]) -> None:
-        for thing in self._world.objects if self._world is not None else ():
-            if thing.id == event.value:
-                self._x.set_value(thing.position[0])
-                self._y.set_value(thing.position[1])
-                self._yaw.set_value(round(math.degrees(thing.yaw)))
-
     def _place(self) -> tuple[tuple[float, float], float]:
         x, y, yaw = (float(field.value or 0.0) for field in (self._x, self._y, self._yaw))
         return (x, y), math.radians(yaw)
 
     def _move(self) -> None:
-        place, yaw = self._place()
-        if self._which.value is not None:
-            self.move(self._which.value, place, yaw)
+        if self._chosen is not None:
+            self.move(self._chosen.id, *self._place())
 
     def _remove(self) -> None:
-        if self._which.value is not None:
-            self._host.do(Input(remove=self._which.value))
+        if self._chosen is not None:
+            self._host.do(Input(remove=self._chosen.id))
 
     def _add(self) -> None:
         (x, y), yaw = self._place()
         type_, color = str(self._type.value), str(self._color.value)
-        taken = {thing.id for thing in self._world.objects} if self._world is not None else set()
+        taken = self._host.state.names
         name = f"{color}_{type_}".replace(" ", "_")
         ids = (name if number == 1 else f"{name}_{number}" for number in range(1, len(taken) + 2))
-        thing = WorldObject(
-            id=next(i for i in ids if i not in taken), type=type_, color=color, position=(x, y), yaw=yaw
-        )
-        self._host.do(Input(add=thing))
+        id_ = next(i for i in ids if i not in taken)
+        self._host.do(Input(add=WorldObject(id=id_, type=type_, color=color, position=(x, y), yaw=yaw)))
 
-    async def _save(self, name: str, content: _Content) -> None:
-        await _told(lambda: self._hand_out(name, content))
-
-    async def _hand_out(self, name: str, content: _Content) -> None:
-        ui.download.content(await self._host.ask(lambda session: content(session, self._host.file)), name)
+    async def _save(self, what: str) -> None:
+        with told():
+            content = await self._host.ask(lambda session: files.saved(what, session, self._host.file))
+            ui.download.content(content, files.SAVED[what][0])
 
     async def _load(
         self, event: events.UploadEventArguments, upload: ui.upload, change: Callable[[Path, bytes], Change]
     ) -> None:
         content = await event.file.read()
         upload.reset()
-        await _told(lambda: self._host.exchange(change(self._host.file, content)))
+        with told():
+            await self._host.exchange(change(self._host.file, content))
 
 
-async def _told(do: Callable[[], Awaitable[Any]]) -> None:
-    """Do something, and tell the visitor if it can't be done."""
+@contextlib.contextmanager
+def told() -> Iterator[None]:
+    """Tell the visitor if something can't be done."""
     try:
-        await do()
+        yield
     except UserError as error:
         ui.notify(str(error), type="warning", multi_line=True)

@@ -11,12 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.evaluation.episodes import Episode
+from dcg_torch.storage.errors import UserError
 
 Array = NDArray[np.float64]
 
 _TEMPERATURES: Final = tuple(float(t) for t in np.geomspace(0.01, 100.0, 33))
 _SLIP = 0.02
 """Share of commands that no score tells anything about: people err, too."""
+
+
+class BaselineError(UserError):
+    """A baseline that there is not, or that lacks what it needs; the message is one line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +40,14 @@ class Baseline(Protocol):
 
     def look_ahead(self, test: Sequence[Episode]) -> None:
         """Make ready for episodes to come, which is faster together than one by one; it changes no prediction."""
+        return
 
     def predict(self, episode: Episode) -> Guess:
         """Choose among the objects of an episode."""
 
     def learn(self, episode: Episode, guess: Guess) -> None:
         """Learn from what was chosen, as if it had been right; most baselines learn nothing."""
+        return
 
 
 def choose(episode: Episode, scores: Array, temperature: float, *, several: bool = False) -> Guess:

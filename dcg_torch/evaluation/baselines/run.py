@@ -34,7 +34,7 @@ def run_baseline(
         advance: called after each test episode.
 
     Raises:
-        SettingsError: the baseline learns from training episodes, and there are none.
+        BaselineError: the baseline learns from training episodes, and there are none.
     """
     baseline.fit(train)
     baseline.look_ahead([episode for episodes in test.values() for episode in episodes])

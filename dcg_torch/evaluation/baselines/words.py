@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from dcg_torch.evaluation.baselines.base import Array, Guess, choose, fit_temperature, places_meant
+from dcg_torch.evaluation.baselines.base import Array, Baseline, Guess, choose, fit_temperature, places_meant
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.names.normal import normalise
 
@@ -58,7 +58,7 @@ def nearest(episode: Episode) -> Array:
     return scores
 
 
-class Scored:
+class Scored(Baseline):
     """A baseline whose scores are a function of the episode; it learns only how sure it may be.
 
     Args:
@@ -74,19 +74,13 @@ class Scored:
         scored = [(self._scores(e), places_meant(e)) for e in train]
         self._temperature = fit_temperature(scored, self._temperature)
 
-    def look_ahead(self, test: Sequence[Episode]) -> None:
-        """Nothing to make ready."""
-
     def predict(self, episode: Episode) -> Guess:
         """Choose the object of the highest score."""
         scores = self._scores(episode)
         return choose(episode, scores, self._temperature, several=asks_for_several(episode, scores))
 
-    def learn(self, episode: Episode, guess: Guess) -> None:
-        """Nothing: the scores are what they are."""
 
-
-class Outcomes:
+class Outcomes(Scored):
     """`overlap`, and what went with each word: the word that tells most of a type speaks for it.
 
     For a word and a type it compares how often the type was chosen where the word was said and the type was there,
@@ -94,7 +88,7 @@ class Outcomes:
     """
 
     def __init__(self, temperature: float = 3.0) -> None:
-        self._temperature = temperature
+        super().__init__(self._told, temperature)
         self._chosen: defaultdict[tuple[str | None, str], float] = defaultdict(float)
         self._offered: defaultdict[tuple[str | None, str], float] = defaultdict(float)
 
@@ -102,15 +96,7 @@ class Outcomes:
         """Count words and the types meant, then learn the temperature."""
         for episode in train:
             self._count(episode, episode.target)
-        self._temperature = fit_temperature([(self._scores(e), places_meant(e)) for e in train], self._temperature)
-
-    def look_ahead(self, test: Sequence[Episode]) -> None:
-        """Nothing to make ready."""
-
-    def predict(self, episode: Episode) -> Guess:
-        """Choose the object of the highest score."""
-        scores = self._scores(episode)
-        return choose(episode, scores, self._temperature, several=asks_for_several(episode, scores))
+        super().fit(train)
 
     def learn(self, episode: Episode, guess: Guess) -> None:
         """Count the words and the types chosen, as far as it is sure of them."""
@@ -125,7 +111,7 @@ class Outcomes:
                 self._offered[word, kind] += weight
                 self._chosen[word, kind] += weight * chosen
 
-    def _scores(self, episode: Episode) -> Array:
+    def _told(self, episode: Episode) -> Array:
         kinds = [normalise(o.type) for o in episode.objects]
         words = set(words_of(episode.text))
         usual = 1.0 / len(set(kinds))

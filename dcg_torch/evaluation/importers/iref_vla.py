@@ -12,13 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from dcg_torch.evaluation.importers.base import (
-    Converted,
-    LeftOut,
-    each_file,
-    numbers,
-    read_json_file,
-)
+from dcg_torch.evaluation.importers.base import Converted, LeftOut, each_file, numbers, read_json_file
 
 _GRAPH, _STATEMENTS = "_scene_graph.json", "_referential_statements.json"
 _NONE = (None, "", "N/A", "_")

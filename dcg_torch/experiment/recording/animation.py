@@ -37,20 +37,19 @@ class Shot(NamedTuple):
     hold: int
 
 
-def animate(commands: Sequence[RecordedCommand], path: Path, camera: Camera | None = None) -> Path:
+def animate(commands: Sequence[RecordedCommand], path: Path) -> Path:
     """Write the commands of a trial, one after the other, about three times as fast as they were.
 
     Args:
         commands: of one trial, from its first command on.
         path: of the GIF; its folder is made if need be. The file is there only once it is whole.
-        camera: the robot's own.
 
     Raises:
         ValueError: there is no command.
     """
     if not commands:
         raise ValueError("there is nothing to animate")
-    camera = camera or Camera()
+    camera = Camera()
     shots = [shot for number, recorded in enumerate(commands) for shot in schedule(number, recorded)]
     held = [shot for shot in shots if shot.hold > _GLANCE]
     palette = _palette(frames(commands, held[:: -(-len(held) // 12)], camera))

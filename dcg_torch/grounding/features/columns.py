@@ -119,9 +119,11 @@ class FeatureSet:
     def pairs(self) -> NDArray[np.bool_]:
         """(L, G): which pairs of columns are features."""
         families = [name.partition(":")[0] for name in self.grounding]
-        met = {family: [f in others for f in families] for family, others in PAIRS.items()}
-        rows = [met[name.partition(":")[0]] for name in self.language]
-        return np.array(rows, dtype=np.bool_).reshape(self.shape)
+        met = {family: np.array([f in others for f in families], dtype=np.bool_) for family, others in PAIRS.items()}
+        found = np.zeros(self.shape, dtype=np.bool_)
+        for row, name in zip(found, self.language, strict=True):
+            row[:] = met[name.partition(":")[0]]
+        return found
 
     @property
     def nouns(self) -> frozenset[str]:

@@ -16,15 +16,11 @@ import functools
 import math
 from typing import Any
 
-from dcg_torch.simulator.bodies import laboratory as laboratory  # its types register themselves
-from dcg_torch.simulator.bodies import types
+from dcg_torch.simulator.bodies import laboratory, types  # noqa: F401 - their types register themselves
 from dcg_torch.simulator.bodies.colors import RGB, rgb
 from dcg_torch.simulator.bodies.looks import Model, Part, model, register, registered
-from dcg_torch.simulator.engine import pybullet
 
-__all__ = ["TYPES", "Model", "Part", "add_model", "add_object", "extent", "footprint", "register", "registered", "rgb"]
-
-TYPES = types.TYPES
+__all__ = ["Model", "Part", "add_model", "add_object", "extent", "footprint", "register", "registered", "rgb"]
 
 
 def extent(type: str) -> tuple[float, float, float]:
@@ -68,6 +64,8 @@ def add_object(client: int, type: str, color: str, position: tuple[float, float]
 
 def add_model(client: int, looks: Model, color: RGB, position: tuple[float, float], yaw: float = 0.0) -> int:
     """Put any model, registered or not, on the floor as one static body; arguments as for `add_object`."""
+    from dcg_torch.simulator.engine import pybullet  # here: looks, sizes and colours need no physics
+
     visuals = [
         pybullet.createVisualShape(
             pybullet.GEOM_MESH,

@@ -76,7 +76,7 @@ def box(x: float, y: float, z: float) -> Mesh:
     return extruded([(-x / 2, -y / 2), (x / 2, -y / 2), (x / 2, y / 2), (-x / 2, y / 2)], z)
 
 
-def lathed(profile: Sequence[Point2], segments: int = SEGMENTS, crease: float = CREASE) -> Mesh:
+def lathed(profile: Sequence[Point2], segments: int = SEGMENTS) -> Mesh:
     """The solid that a profile of (radius, height) points makes when it turns about the z axis.
 
     The profile runs from bottom to top; an end that is not on the axis is closed by a flat disc.
@@ -87,7 +87,7 @@ def lathed(profile: Sequence[Point2], segments: int = SEGMENTS, crease: float = 
     if points[-1][0] > 0:
         points.append((0.0, points[-1][1]))
     ring = np.array(points)
-    starts, ends, start_normals, end_normals = _edges(ring, crease)
+    starts, ends, start_normals, end_normals = _edges(ring)
     angles = np.linspace(0.0, 2.0 * math.pi, segments, endpoint=False)
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
@@ -100,10 +100,10 @@ def lathed(profile: Sequence[Point2], segments: int = SEGMENTS, crease: float = 
     return _bands(turned(starts), turned(ends), turned(start_normals), turned(end_normals), closed=True)
 
 
-def extruded(outline: Sequence[Point2], height: float, crease: float = CREASE) -> Mesh:
+def extruded(outline: Sequence[Point2], height: float) -> Mesh:
     """A prism over z = 0 .. `height` whose base is `outline`: counter-clockwise, and all seen from its middle."""
     ring = np.array([*outline, outline[0]])
-    starts, ends, start_normals, end_normals = _edges(ring, crease, closed=True)
+    starts, ends, start_normals, end_normals = _edges(ring, closed=True)
     levels = np.array([0.0, height])
 
     def lifted(flat: Array, heights: Array) -> Array:
@@ -162,10 +162,10 @@ def _on_axis(profile: list[Point2]) -> list[Point2]:
     return [(0.0, profile[0][1]), *profile[1:-1], (0.0, profile[-1][1])]
 
 
-def _edges(points: Array, crease: float, closed: bool = False) -> tuple[Array, Array, Array, Array]:
+def _edges(points: Array, closed: bool = False) -> tuple[Array, Array, Array, Array]:
     """Starts, ends and outward normals at both, of the edges of a polyline that has its outside on the right.
 
-    Normals of neighbouring edges are averaged where they meet in less than `crease`.
+    Normals of neighbouring edges are averaged where they meet in less than `CREASE`.
     """
     starts, ends = points[:-1], points[1:]
     along = ends - starts
@@ -173,7 +173,7 @@ def _edges(points: Array, crease: float, closed: bool = False) -> tuple[Array, A
     starts, ends, along = starts[lengths > 0], ends[lengths > 0], along[lengths > 0]
     normals = np.stack([along[:, 1], -along[:, 0]], axis=1) / lengths[lengths > 0, None]
     following = np.roll(normals, -1, axis=0)
-    smooth = np.einsum("ij,ij->i", normals, following) > math.cos(crease)
+    smooth = np.einsum("ij,ij->i", normals, following) > math.cos(CREASE)
     if not closed:
         smooth[-1] = False
     middle = normals + following

@@ -8,7 +8,6 @@ is a giant; it is meant as a sample on a piece of door.
 from __future__ import annotations
 
 import math
-from typing import Final
 
 from dcg_torch.simulator.bodies.looks import BLACK, DARK_GRAY, GRAY, LIGHT_GRAY, WHITE, Model, Part, register
 from dcg_torch.simulator.bodies.meshes import Mesh, arc, ball, box, extruded, lathed, rod, rounded_rectangle
@@ -147,6 +146,3 @@ def traffic_cone() -> Model:
     body = [lathed(slice_of(low, high)) for low, high in ((0.03, 0.20), (0.28, 0.38), (0.44, 0.55))]
     stripes = [lathed(slice_of(low, high)) for low, high in ((0.20, 0.28), (0.38, 0.44))]
     return Model((Part(foot), *(Part(m) for m in body), *(Part(m, WHITE) for m in stripes)))
-
-
-TYPES: Final = ("cube", "sphere", "cylinder", "fire hydrant", "drill", "mailbox", "door handle", "traffic cone")

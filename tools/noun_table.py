@@ -1,4 +1,6 @@
-"""`python -m dcg_torch.names.build DICT_DIR`: makes the noun table of this room, then the weights of its facts.
+"""Make the noun table of `dcg_torch/names/data`, then the weights of the facts between nouns and class names.
+
+    python tools/noun_table.py DICT_DIR
 
 DICT_DIR holds `data.noun` and `index.noun` (wndb(5WN) describes them); Debian's package `wordnet-base` installs them
 into /usr/share/wordnet. The table keeps nouns for things that can be pointed at, the order of their senses, and what
@@ -9,14 +11,22 @@ learned from `data/nouns.yaml`.
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
+from dcg_torch.names.evidence import evidence
 from dcg_torch.names.normal import DATA, read_data
-from dcg_torch.names.weights import WEIGHTS, fit_weights
+from dcg_torch.names.weights import FACTS, WEIGHTS
 from dcg_torch.names.wordnet import TABLE
+
+Array = NDArray[np.float64]
+_L2 = 0.1
+_STEPS = 100
+_TOLERANCE = 1e-6
 
 _THINGS = frozenset({3, 5, 6, 8, 13, 17, 20, 25, 27})
 _OTHERS = frozenset({10, 14, 15, 18})
@@ -28,7 +38,7 @@ Who points at a tool or a mug means no dupe and no fool."""
 def main(arguments: list[str]) -> int:
     """Write the table; the exit status: 0 done, 2 the dictionary is not there."""
     if len(arguments) != 1:
-        print("usage: python -m dcg_torch.names.build DICT_DIR (the folder of WordNet's data.noun)", file=sys.stderr)
+        print("usage: python tools/noun_table.py DICT_DIR (the folder of WordNet's data.noun)", file=sys.stderr)
         return 2
     directory = Path(arguments[0])
     try:
@@ -53,7 +63,7 @@ def write_weights() -> int:
     lessons = read_data("nouns.yaml")
     weights = fit_weights(lessons["classes"], lessons["nouns"])
     lines = [f'"{fact}": {weight}\n' for fact, weight in weights.items()]
-    header = "# Log-odds of each fact; made by `python -m dcg_torch.names.build` from nouns.yaml.\n"
+    header = "# Log-odds of each fact; made by `python tools/noun_table.py` from nouns.yaml.\n"
     (DATA / WEIGHTS).write_text(header + "".join(lines), encoding="utf-8")
     return len(weights)
 
@@ -122,6 +132,74 @@ def _with_ancestors(synsets: set[int], hypernyms: dict[int, list[int]]) -> set[i
             found.add(one)
             open_ += hypernyms[one]
     return found
+
+
+def fit_weights(classes: Sequence[str], meanings: Mapping[str, Collection[str]]) -> dict[str, float]:
+    """The weights under which the nouns are likeliest to mean what they mean (L2-regularised maximum likelihood).
+
+    Args:
+        classes: all classes in view.
+        meanings: the classes that each noun may mean, none of them included as an empty collection.
+    """
+    nouns = sorted(meanings)
+    facts = [[evidence(noun, name) for name in classes] + [()] for noun in nouns]
+    patterns = sorted({one for row in facts for one in row})
+    design = np.array([[fact in pattern for fact in FACTS] for pattern in patterns], dtype=np.float64)
+    number = {pattern: k for k, pattern in enumerate(patterns)}
+    problem = _Problem(
+        design,
+        np.array([[number[one] for one in row] for row in facts]),
+        np.array([[*(name in meanings[noun] for name in classes), not meanings[noun]] for noun in nouns]),
+    )
+    weights = np.zeros(len(FACTS))
+    for _ in range(_STEPS):
+        loss, gradient, curvature = problem.derivatives(weights)
+        step = np.linalg.solve(curvature, gradient)
+        while np.abs(step).max() > _TOLERANCE and problem.derivatives(weights - step)[0] > loss:
+            step /= 2.0
+        weights -= step
+        if np.abs(step).max() <= _TOLERANCE:
+            break
+    return {fact: round(float(weight), 2) for fact, weight in zip(FACTS, weights, strict=True)}
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """n nouns, c choices for each, p different sets of facts, f facts.
+
+    Attributes:
+        design: (p, f), the facts of each set.
+        pattern: (n, c), which set of facts holds between a noun and a choice.
+        meant: (n, c), may the noun mean the choice?
+    """
+
+    design: Array
+    pattern: NDArray[np.int64]
+    meant: NDArray[np.bool_]
+
+    def derivatives(self, weights: Array) -> tuple[float, Array, Array]:
+        """The loss, its gradient (f,), and the curvature (f, f) of its convex part, which makes each step downhill."""
+        scores = (self.design @ weights)[self.pattern]
+        all_, right = _softmax(scores), _softmax(np.where(self.meant, scores, -np.inf))
+        loss = -np.log((all_ * self.meant).sum(axis=1)).sum() + _L2 / 2 * weights @ weights
+        share = self._by_pattern(all_)
+        gradient = (share - self._by_pattern(right)).sum(axis=0) @ self.design + _L2 * weights
+        mean = share @ self.design
+        spread = self.design.T @ (share.sum(axis=0)[:, None] * self.design) - mean.T @ mean
+        return float(loss), gradient, spread + _L2 * np.eye(len(weights))
+
+    def _by_pattern(self, values: Array) -> Array:
+        """Values (n, c) summed by pattern: (n, p)."""
+        n, p = len(values), len(self.design)
+        cells = np.arange(n)[:, None] * p + self.pattern
+        sums: Array = np.bincount(cells.ravel(), weights=values.ravel(), minlength=n * p).astype(np.float64)
+        return sums.reshape(n, p)
+
+
+def _softmax(scores: Array) -> Array:
+    weight = np.exp(scores - scores.max(axis=1, keepdims=True))
+    result: Array = weight / weight.sum(axis=1, keepdims=True)
+    return result
 
 
 if __name__ == "__main__":
