@@ -42,7 +42,7 @@ def page(found: dict[str, Any]) -> tuple[str, dict[str, dict[str, list[Result]]]
         for r in own:
             if r.unit != "ratio":
                 goal = "" if r.goal is None else f"{r.goal:g}"
-                values = " | ".join(f"{v:,.3g}" for v in (r.median, r.low, r.high))
+                values = " | ".join(f"{v:,.0f}" if v >= 1_000 else f"{v:.3g}" for v in (r.median, r.low, r.high))
                 lines.append(f"| {r.name} | {values} | {r.unit} | {r.repeats} | {goal} |")
     return "\n".join(lines) + "\n", curves
 
@@ -108,7 +108,7 @@ def draw(title: str, lines: dict[str, list[Result]], path: Path) -> None:
     axes.set(title=what, xlabel=by)
     axes.grid(alpha=0.3)
     axes.legend(fontsize=7)
-    with matplotlib.rc_context({"svg.hashsalt": "dcg_torch"}):  # the same bytes for the same figures
+    with matplotlib.rc_context({"svg.hashsalt": "dcg_torch", "svg.fonttype": "none"}):  # small, the same bytes always
         figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)
 

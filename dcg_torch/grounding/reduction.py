@@ -23,9 +23,11 @@ from dcg_torch.grounding.rows import ArrowheadRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
 from dcg_torch.grounding.written import Mask, constant_of, differences, offset_of, summed, weight_at, write_out
 
-_SOME_ENTRIES = 2_000_000
-"""Pairs that may fire, over all rows, up to which rows are written out."""
-_NEWTON_COLUMNS, _NEWTON_WORK = 400, 5e7
+_FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
+"""Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
+_CROWDED = 50
+"""Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
+_NEWTON_COLUMNS, _NEWTON_WORK = 400, 3e8
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
 
 
@@ -80,7 +82,8 @@ def reduce(
         empty = np.zeros((0, 0), dtype=np.int64)
         designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
-    if prefer == "newton" or (prefer == "auto" and entries <= _SOME_ENTRIES):
+    few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
+    if prefer == "newton" or (prefer == "auto" and few):
         found = _written(designs, weight, fixed, active, strength, always=prefer == "newton")
         if found is not None:
             return found
@@ -138,12 +141,24 @@ def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength:
     return classes(incidence, rows, bits_of(strength[None], incidence.columns))
 
 
+def _fires(design: DesignMatrix, active: Mask) -> Mask:
+    """(L, G) which of the active weights fire."""
+    fires: Mask = (binary(design.language, active.shape[0]).T @ together(design, active.shape[1]) > 0.0) & active
+    return fires
+
+
+def _crowded(designs: Sequence[DesignMatrix], active: Mask, entries: int) -> bool:
+    """Do so many rows share each of many weights that Newton's method cannot be the fastest way?"""
+    columns = int(np.count_nonzero(_fires(stack(designs), active)))
+    return columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
+
+
 def _factored(
     designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
 ) -> Reduced:
     """Rows as cells of the phrases' side times the weights."""
     design = stack(designs)
-    fires = (binary(design.language, active.shape[0]).T @ together(design, active.shape[1]) > 0.0) & active
+    fires = _fires(design, active)
     left, right = (np.flatnonzero(fires.any(axis=axis)) for axis in (1, 0))
     narrow = (len(left), len(right)) != active.shape
     kept = _kept(left, active.shape[0]), _kept(right, active.shape[1])

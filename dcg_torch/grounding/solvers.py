@@ -19,7 +19,7 @@ from dcg_torch.grounding.psi import Floats
 
 _SUFFICIENT, _CURVATURE = 1e-4, 0.9
 """Constants of the strong Wolfe conditions."""
-_ROUNDING = 1e-12
+_ROUNDING = 1e-11
 """Relative change of the value that may be rounding alone."""
 _DOWNHILL = 0.15
 """Share of the slope at the start that is still steep, for Newton's method."""

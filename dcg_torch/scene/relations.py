@@ -47,7 +47,7 @@ def _names() -> dict[str, list[str]]:
 RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for family, names in _names().items()}
 """Family of relation features -> the names of its values; at most one value of a family fires."""
 RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
-_START = dict(zip(RELATIONS, np.cumsum([0, *map(len, RELATIONS.values())]).tolist(), strict=False))
+_STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
 
 
 def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> NDArray[np.int16]:
@@ -61,12 +61,12 @@ def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> 
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
     found = _families(where, [tuple(of) for of in landmarks], where.alike(among))
-    out = np.full((len(landmarks), len(where.things), len(RELATIONS)), -1, dtype=np.int16)
-    for k, (family, start) in enumerate(_START.items()):
+    out = np.full((len(RELATIONS), len(landmarks), len(where.things)), -1, dtype=np.int16)
+    for of_family, family in zip(out, RELATIONS, strict=True):
         if family in found:
-            out[:, :, k] = found[family]
-            out[:, :, k] += start * (out[:, :, k] >= 0)
-    return out
+            of_family[:] = found[family]
+    out += _STARTS * (out >= 0)
+    return out.transpose(1, 2, 0)
 
 
 def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike) -> dict[str, Ints]:
