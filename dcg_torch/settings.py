@@ -35,7 +35,7 @@ class Bounds:
     def hold(self, number: float) -> bool:
         """Whether a number is finite and within."""
         above = number > self.low if self.open else number >= self.low
-        return math.isfinite(number) and above and number <= self.high
+        return above and number <= self.high and (isinstance(number, int) or math.isfinite(number))
 
     def __str__(self) -> str:
         low, high = f"{self.low:g}", f"{self.high:g}"
@@ -286,7 +286,7 @@ def check(settings: Settings) -> None:
     check_bounds(settings)
     if settings.simulator.spin_step == 0.0:
         raise SettingsError("simulator.spin_step=0: the robot would never look round; give degrees up to 57")
-    wrong = [trial for trial in settings.animate if not 0 <= trial < settings.trials]
+    wrong = [t for t in settings.animate if not isinstance(t, int) or not 0 <= t < settings.trials]
     if wrong:
         raise SettingsError(f"animate: there is no trial {_short(wrong[0])}; trials go from 0 to {settings.trials - 1}")
     for name, asked in (("simulator.gui", settings.simulator.gui), ("animate", settings.animate)):

@@ -27,6 +27,8 @@ WRONG = [
     pytest.param(["simulator.giu=true"], ["simulator.giu", "did you mean simulator.gui?"], id="misspelt nested key"),
     pytest.param(["+trils=3"], ["trils", "did you mean trials?"], id="added key"),
     pytest.param(["trials=many"], ["trials=many: give a whole number"], id="wrong type"),
+    pytest.param(["color_rate=" + "9" * 400], ["color_rate: a number of hundreds of digits"], id="no end of digits"),
+    pytest.param(["animate=[[1]]"], ["animate", "[1]"], id="a list within a list"),
     pytest.param(["figures=maybe"], ["figures=maybe: give true or false"], id="no truth value"),
     pytest.param(["model.l2=x"], ["model.l2=x: give a number"], id="no number"),
     pytest.param(["animate=0"], ["give a list in brackets, as in animate=[0]"], id="no list"),

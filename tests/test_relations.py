@@ -26,7 +26,7 @@ RELATIONS = PAPER | {Group.RELATION}
 @pytest.fixture(scope="module")
 def taught(training: TrainingSet) -> GroundingModel:
     model = GroundingModel.trained(training, Variant(groups=RELATIONS, hypothetical=False, l2=0.2))
-    model.teach(relational_lessons(300), relations_only=True, rounds=2)
+    model.teach(relational_lessons(400), relations_only=True, rounds=2)
     return model
 
 
@@ -93,7 +93,7 @@ def test_modifier_probabilities_equal_an_enumeration(taught: GroundingModel) -> 
 
 
 def test_held_out_lessons_are_grounded_far_above_chance(taught: GroundingModel) -> None:
-    lessons = relational_lessons(900)[800:]
+    lessons = relational_lessons(500)[400:]
     right = 0
     for lesson in lessons:
         found = taught.ground(lesson.tree, lesson.world).object

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import functools
+import re
 import secrets
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -104,6 +105,8 @@ def refuse_nothing(overrides: Sequence[str]) -> None:
         group, equals, _ = override.lstrip("+~").partition("=")
         if not group:
             raise SettingsError(f"{plain(override, 80)}: not an override; write KEY=VALUE")
+        if _ENDLESS.search(override):
+            raise SettingsError(f"{plain(group)}: a number of hundreds of digits makes no sense; give a shorter one")
         if override.startswith("~") and group in _GROUPS:
             _refuse_choice(group, "null")
         if not equals or not ("/" in group or group in (*_GROUPS, "experiment")):
@@ -116,6 +119,7 @@ def refuse_nothing(overrides: Sequence[str]) -> None:
 
 
 _GROUPS = ("model", "simulator")
+_ENDLESS = re.compile(r"[0-9]{300}")  # beyond what a float holds
 
 
 def _refuse_choices() -> None:

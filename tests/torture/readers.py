@@ -37,7 +37,7 @@ from dcg_torch.report.runs import load_run
 from dcg_torch.report.show import print_run, print_several
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.settings import Settings
-from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.resources import resource
 from dcg_torch.types import Percept
@@ -172,6 +172,8 @@ def _composed(overrides: list[str]) -> Settings:
         return settings_of(compose("config", overrides))
     except CONFIG_ERRORS as error:
         raise UserError(plain(" ".join(explain(error).split()), LONGEST)) from None  # as `cli.application` says it
+    except OSError as error:  # a name too long
+        raise UserError(plain(explain_os_error(error), LONGEST)) from None
 
 
 @functools.cache

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from nicegui import events, ui
 
@@ -30,7 +29,6 @@ class Page:
     def __init__(self, host: Host) -> None:
         self._host = host
         self._said = 0  # lines of the conversation that were shown, those that are gone included
-        self._pointed: str | None = None
         self._shown: World | None = None
         with ui.element("main").classes("talk"):
             with ui.element("header").classes("head"):
@@ -90,7 +88,7 @@ class Page:
                 ui.button("Send", on_click=self._say).props("unelevated no-caps")
                 ui.button("Stop", on_click=self._host.stop, color="red-8").props("unelevated no-caps")
             with ui.element("div").classes("below"):
-                self._pointing = ui.select({None: "nothing"}, label="Pointing at", on_change=self._point)
+                self._pointing = ui.select({None: "nothing"}, label="Pointing at", on_change=self._choose)
                 self._pointing.props("outlined dense options-dense")
                 ui.button("Why?", on_click=self._why).props('flat no-caps aria-label="Why: factors and features"')
 
@@ -119,13 +117,12 @@ class Page:
 
     def _show_names(self, world: World) -> None:
         self._shown, names = world, self._host.state.names
-        if self._pointed not in names:
-            self._pointed = None
-        self._pointing.set_options({None: "nothing", **names}, value=self._pointed)
+        pointed = self._pointing.value
+        self._pointing.set_options({None: "nothing", **names}, value=pointed if pointed in names else None)
         self._choose()
 
     def _say(self) -> None:
-        text, pointed = self._input.value or "", self._pointed
+        text, pointed = self._input.value or "", self._pointing.value
         self._input.set_value("")
         self._pointing.set_value(None)
         self._host.say(text, pointed)
@@ -135,16 +132,12 @@ class Page:
         if object_id in self._host.state.question:
             self._host.do(Input(click=object_id))
         else:
-            self._pointing.set_value(None if object_id == self._pointed else object_id)
-
-    def _point(self, event: events.ValueChangeEventArguments[Any]) -> None:
-        self._pointed = event.value
-        self._choose()
+            self._pointing.set_value(None if object_id == self._pointing.value else object_id)
 
     def _choose(self) -> None:
-        self._view.point(self._pointed)
+        self._view.point(self._pointing.value)
         things = {thing.id: thing for thing in self._shown.objects} if self._shown is not None else {}
-        self._tools.choose(things.get(self._pointed or ""))
+        self._tools.choose(things.get(self._pointing.value or ""))
 
     def _look(self, where: str) -> None:
         if self._host.state.world is not None:

@@ -45,7 +45,8 @@ def world_of(settings: TalkSettings) -> World:
 def _application(config: DictConfig) -> None:
     with one_line_errors(program="talk"):
         settings = talk_settings_of(config)
-        file = Path(settings.session) if settings.session else _new_file()
+        new_file = f"runs/talk_{datetime.now():%Y-%m-%d_%H-%M-%S}/session.jsonl"
+        file = Path(settings.session or new_file)
         world = None if file.exists() else world_of(settings)
 
         def new() -> Session:
@@ -62,10 +63,6 @@ def _application(config: DictConfig) -> None:
                 file.unlink()
                 if not settings.session:
                     file.parent.rmdir()
-
-
-def _new_file() -> Path:
-    return Path("runs") / f"talk_{datetime.now():%Y-%m-%d_%H-%M-%S}" / "session.jsonl"
 
 
 def main() -> int:
