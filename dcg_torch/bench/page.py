@@ -50,6 +50,8 @@ def page(found: dict[str, Any]) -> tuple[str, dict[str, dict[str, list[Result]]]
 def _machine(machine: dict[str, Any], results: Sequence[Result]) -> list[str]:
     told = ", ".join(f"{name} {value}" for name, value in machine.items() if name != "load")
     lines = [f"The machine: {told}; load {machine['load']:.1f} at the end."]
+    if machine["load"] > machine["processors"]:
+        lines.append("Others were busy on it, so times on the clock are far higher than on a quiet machine.")
     slow = next((r.median for r in results if r.name == "importing torch"), None)
     if slow is not None:
         lines.append(
