@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dcg_torch.bench.fits import Rows, dense_rows, ours, sparse_rows
+from dcg_torch.bench.fits import ours
 from dcg_torch.bench.learning import knowing
 from dcg_torch.bench.page import main
 from dcg_torch.bench.peers import L2, peers
 from dcg_torch.bench.result import Result, result
+from dcg_torch.bench.rows import Rows, dense_rows, sparse_rows
 from dcg_torch.grounding.design import merge
 from dcg_torch.grounding.fit import objective_at
 

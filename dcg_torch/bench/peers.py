@@ -11,14 +11,12 @@ import importlib.util
 import tempfile
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
+from dcg_torch.bench.rows import Rows
 from dcg_torch.grounding.psi import Floats
-
-if TYPE_CHECKING:
-    from dcg_torch.bench.fits import Rows
 
 L2 = 1.0
 TOLERANCE = 1e-6
