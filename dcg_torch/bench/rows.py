@@ -1,4 +1,4 @@
-"""Rows of labelled factors for benchmarks of the fit: drawn from a model of their own, few phrases or as a corpus has them."""
+"""Rows of labelled factors for benchmarks of the fit: few phrases, or as a corpus has them."""
 
 from __future__ import annotations
 
