@@ -25,6 +25,8 @@ _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
 _STRANGE = (6.0, 2.5)
 """From where on a noun's gap counts, and how much each nat: below lies what people call a thing that they know well."""
+_SLIP = 8.0
+"""Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
 _NEW = 7.0
@@ -47,7 +49,7 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     seen = np.array([not o.hypothetical and (meant is None or o.id in meant) for o in objects], dtype=np.bool_)
     if not seen.any() or not any(o.hypothetical and LOOKED_ROUND in o.attributes for o in objects):
         return None
-    strange = _excess(_noun_gap(tables, encoder, phrase), *_STRANGE)
+    strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
     return _RARE + float((strange + odd)[seen].min())
 

@@ -92,6 +92,8 @@ def singular(word: str) -> str:
     spelling = _spelling()
     if word in spelling.irregular:
         return spelling.irregular[word]
+    if f"{word}s" in spelling.singular:
+        return f"{word}s"  # whoever read "trousers" may have made one of it
     if len(word) < 4 or not word.endswith("s") or word in spelling.singular or word.endswith(("ss", "us", "is", "'s")):
         return word
     if word.endswith("ies"):
