@@ -6,6 +6,7 @@ import asyncio
 import functools
 import io
 import json
+import socket
 import subprocess
 import sys
 import zipfile
@@ -350,7 +351,11 @@ def test_a_talk_leaves_a_session_only_if_something_was_said(
 
     monkeypatch.setattr(program, "serve", lambda host, address, show: asyncio.run(serve(host)))
     monkeypatch.chdir(tmp_path)
-    assert typed(capsys, program.main, "dcg_torch.talk", "simulator=fake", "pace=0")[0] == 0
+    with socket.socket() as free:  # another test may listen where a talk does by default
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    status, _, err = typed(capsys, program.main, "dcg_torch.talk", "simulator=fake", "pace=0", f"port={port}")
+    assert status == 0, err
     assert len(list(tmp_path.glob("runs/*/session.jsonl"))) == len(list(tmp_path.glob("runs/*"))) == len(says)
 
 

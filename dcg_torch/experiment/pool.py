@@ -118,6 +118,10 @@ def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> 
             process.join()
 
 
+_LONGEST = 50
+"""Bytes of a folder in which a socket's path fits: multiprocessing adds a folder and a name to ours."""
+
+
 def _context() -> ForkServerContext | SpawnContext:
     """Of new processes: forked from one that has imported what a trial needs, where there is such a thing."""
     if "forkserver" not in multiprocessing.get_all_start_methods():
@@ -129,8 +133,12 @@ def _context() -> ForkServerContext | SpawnContext:
 
 
 def workers_folder(process: int) -> Path:
-    """Where a process keeps the socket by which it starts workers: named, so that what a kill leaves can be removed."""
-    return Path(tempfile.gettempdir()) / f"dcg_torch-{process}"
+    """Where a process keeps the socket by which it starts workers: named, so that what a kill leaves can be removed.
+
+    A socket's path has at most about a hundred bytes, so this may not be in the folder for temporary files.
+    """
+    kept = Path(tempfile.gettempdir())
+    return (kept if len(os.fsencode(kept)) <= _LONGEST else Path("/tmp")) / f"dcg_torch-{process}"
 
 
 def _keep_sockets_in(folder: Path) -> None:
