@@ -30,6 +30,7 @@ from dcg_torch.apps.talk.lines import Line, names_of
 from dcg_torch.apps.talk.looks import object_looks, robot_looks
 from dcg_torch.apps.talk.panels import candidates_table, words_table
 from dcg_torch.apps.talk.server import Address, add_routes
+from dcg_torch.cli.config import register
 from dcg_torch.dialogue.events import Candidate
 from dcg_torch.dialogue.file import Input, read_session
 from dcg_torch.dialogue.session import Session
@@ -351,6 +352,7 @@ def test_a_talk_leaves_a_session_only_if_something_was_said(
 
     monkeypatch.setattr(program, "serve", lambda host, address, show: asyncio.run(serve(host)))
     monkeypatch.chdir(tmp_path)
+    register()  # as if an experiment had been in this process
     with socket.socket() as free:  # another test may listen where a talk does by default
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]

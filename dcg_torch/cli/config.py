@@ -56,6 +56,8 @@ def register(program: str = "run") -> None:
     """
     store = ConfigStore.instance()
     if program == "talk":
+        for group in ("model", "simulator"):  # of an experiment in the same process
+            store.repo.pop(group, None)
         store.store(name="talk_schema", node=TalkSettings)
         return
     store.store(name="schema", node=Settings)
