@@ -286,6 +286,8 @@ def check(settings: Settings) -> None:
     check_bounds(settings)
     if settings.simulator.spin_step == 0.0:
         raise SettingsError("simulator.spin_step=0: the robot would never look round; give degrees up to 57")
+    if not isinstance(settings.animate, (list, tuple)):
+        raise SettingsError(f"animate={_short(settings.animate)}: give a list of trials, such as animate=[0,1]")
     wrong = [t for t in settings.animate if not isinstance(t, int) or not 0 <= t < settings.trials]
     if wrong:
         raise SettingsError(f"animate: there is no trial {_short(wrong[0])}; trials go from 0 to {settings.trials - 1}")

@@ -126,7 +126,7 @@ def test_a_damaged_folder_is_one_line(
     assert error.strip().isprintable()
 
 
-@pytest.mark.parametrize("damage", [b"\xff\xfe", b"[1, 2]", b"{", None])
+@pytest.mark.parametrize("damage", [b"\xff\xfe", b"[1, 2]", b"{", b"- !!bool abc", b"- !!timestamp abc", None])
 @pytest.mark.parametrize("name", ["settings.json", ".hydra/overrides.yaml", ".hydra/hydra.yaml"])
 def test_what_only_names_a_run_may_be_damaged(
     name: str, damage: bytes | None, tmp_path: Path, capsys: pytest.CaptureFixture[str]

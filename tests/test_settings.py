@@ -161,3 +161,8 @@ def test_a_shell_completes_every_setting(shell: str) -> None:
     text = script(shell)
     for schema in SCHEMAS:
         assert all(f"{name}=" in text for name, *_ in described(schema))
+
+
+def test_animate_that_is_no_list_is_said() -> None:
+    with pytest.raises(SettingsError, match="animate=3: give a list of trials"):
+        check(dataclasses.replace(Settings(), animate=3))  # type: ignore[arg-type]
