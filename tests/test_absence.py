@@ -10,6 +10,8 @@ import pytest
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.language import parse_command
+from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.types import OPAQUE
 
 
@@ -100,3 +102,19 @@ def test_before_a_look_round_and_without_names_nothing_is_said_of_it(model: Grou
     things = _things("red ball", "green ball")
     for of, looked in ((model, False), (dcg_torch.pretrained(opaque=True), True)):
         assert _absent(_ground(of, "take the white ball", things, looked=looked)) < 0.9
+
+
+def test_a_word_taught_where_all_is_of_one_type_is_not_absent(model: GroundingModel) -> None:
+    """No choice among widgets tells that "crate" names them, and yet each lesson says so."""
+    taught = model.copy()
+    things = _things("red widget", "green widget", "blue widget")
+    world = taught.world_model(things, robot=Pose(0.0, 0.0), looked=True)
+    lessons = []
+    for k, color in enumerate(("red", "green", "blue")):
+        tree = parse_command(f"take the {color} crate").tree
+        assert tree is not None
+        lessons += [Lesson(tree, world, frozenset({f"{k}"}))] * 4
+    taught.teach(lessons, rounds=1)
+    solution = _ground(taught, "take the green crate", things)
+    assert [o.id for o in solution.objects] == ["1"]
+    assert _absent(solution) < 0.1

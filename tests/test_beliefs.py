@@ -164,3 +164,12 @@ def test_the_lexicon_names_sources() -> None:
 def test_a_prior_that_forbids_learning_is_refused(wrong: dict[str, Any]) -> None:
     with pytest.raises(ValueError, match=next(iter(wrong))):
         Prior(**wrong)
+
+
+def test_a_word_is_said_of_a_type_that_is_called_alike_where_its_own_is_not_there() -> None:
+    beliefs = Beliefs.start(KNOWN, Prior(names=True)).meet(["laptop", "computer", "apple"])
+    beliefs = beliefs.weigh(Evidence("notebook", {"laptop": 1}))
+    assert beliefs.posterior.best("notebook")[0] == "laptop"
+    alike, other = beliefs.akin("notebook", "computer"), beliefs.akin("notebook", "apple")
+    assert 0.5 > alike > 20.0 * other
+    assert beliefs.akin("notebook", "laptop") == beliefs.akin("notebook", UNMET) == 0.0

@@ -37,6 +37,9 @@ from dcg_torch.types import Correspondence, Phrase
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
+_TOLERANCE = 1e-3
+"""Max-norm of the gradient at which a fit of choices has arrived."""
+
 
 @dataclass(frozen=True)
 class Modified:
@@ -248,14 +251,12 @@ def fit_choices(
     free: Bools | None,
     l2: float,
     prior: Floats,
-    tolerance: float = 1e-3,
     max_steps: int = 60,
 ) -> Bools:
     """Move the free weights of a factor to the likeliest of choices, in place, by L-BFGS.
 
     Args:
         free, l2, prior: as for `Likelihood`.
-        tolerance: max-norm of the gradient.
 
     Returns:
         (L, G) the features that fired and were free.
@@ -264,7 +265,7 @@ def fit_choices(
         return np.zeros(features.shape, dtype=np.bool_)
     function = Likelihood(choices, features, factor, free=free, l2=l2, prior=prior)
     with one_thread():
-        found = solvers.lbfgs(function, function.start, tolerance=tolerance, max_steps=max_steps)
+        found = solvers.lbfgs(function, function.start, tolerance=_TOLERANCE, max_steps=max_steps)
     weight = factor.weight.detach().cpu().numpy().copy()
     for own, sign in zip(weight, correspondence_signs(factor), strict=True):
         own[function.free] += sign * (found.point.at - function.start)

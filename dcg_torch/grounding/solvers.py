@@ -23,6 +23,8 @@ _ROUNDING = 1e-11
 """Relative change of the value that may be rounding alone."""
 _DOWNHILL = 0.15
 """Share of the slope at the start that is still steep, for Newton's method."""
+_PAIRS = 20
+"""Curvature pairs that L-BFGS keeps."""
 _TRIALS = 25
 """Steps tried along one direction before the search gives up."""
 
@@ -116,14 +118,13 @@ def _along(function: Function, start: Point, towards: Floats) -> tuple[Point | N
     return best, tried
 
 
-def lbfgs(function: Function, start: Floats, *, tolerance: float, max_steps: int, history: int = 20) -> Minimum:
+def lbfgs(function: Function, start: Floats, *, tolerance: float, max_steps: int) -> Minimum:
     """L-BFGS with a line search for the strong Wolfe conditions (Nocedal and Wright, chapters 3 and 7).
 
     Args:
         start: the variables at first.
         tolerance: stop at this `norm`.
         max_steps: at the most.
-        history: curvature pairs kept.
     """
     point, evaluations = function(start), 1
     moves: list[tuple[Floats, Floats, float]] = []
@@ -146,7 +147,7 @@ def lbfgs(function: Function, start: Floats, *, tolerance: float, max_steps: int
         curvature = float(moved @ turned)
         if curvature > 1e-16 * float(turned @ turned):
             moves.append((moved, turned, 1.0 / curvature))
-            del moves[:-history]
+            del moves[:-_PAIRS]
         point = other
     return Minimum(point, max_steps, evaluations, "step limit")
 
@@ -209,16 +210,14 @@ def _low_enough(start: Point, other: Point, length: float, slope: float, own: fl
     return other.value <= start.value + _ROUNDING * abs(start.value) and abs(own) <= _CURVATURE * abs(slope)
 
 
-def lbfgs_of_torch(
-    function: Function, start: Floats, *, tolerance: float, max_steps: int, history: int = 20
-) -> Minimum:
+def lbfgs_of_torch(function: Function, start: Floats, *, tolerance: float, max_steps: int) -> Minimum:
     """The same by `torch.optim.LBFGS`; it stops by the gradient of the variables themselves."""
     moving = torch.from_numpy(start.copy()).requires_grad_()
     optimizer = torch.optim.LBFGS(
         [moving],
         max_iter=max_steps,
         max_eval=2 * max_steps,
-        history_size=history,
+        history_size=_PAIRS,
         tolerance_grad=0.5 * tolerance,  # `norm` is that of sums of up to two of its gradients
         tolerance_change=1e-14,
         line_search_fn="strong_wolfe",

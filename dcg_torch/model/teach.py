@@ -160,13 +160,11 @@ def _as_if_named(model: Teachable) -> NDArray[np.float64]:
     features = model.features
     odds = np.zeros(features.shape)
     if Group.NAMES in features.groups:
-        for word in sorted(model.learner.settled & model.learner.symbols.keys()):
-            pair = (
-                features.language.get(f"noun: {word}"),
-                features.grounding.get(f"type: {model.learner.symbols[word].type}"),
-            )
-            if pair[0] is not None and pair[1] is not None:
-                odds[pair] = min(_NAMED, log_odds(word, word) - log_odds(word, model.learner.symbols[word].type))
+        symbols = model.learner.symbols
+        for word, type_ in ((w, symbols[w].type) for w in sorted(model.learner.settled & symbols.keys())):
+            row, column = features.language.get(f"noun: {word}"), features.grounding.get(f"type: {type_}")
+            if row is not None and column is not None:
+                odds[row, column] = min(_NAMED, log_odds(word, word) - log_odds(word, type_))
     return correspondence_signs(model.factor)[:, None, None] * odds
 
 

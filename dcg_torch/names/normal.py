@@ -86,8 +86,8 @@ def head_index(words: list[str] | tuple[str, ...]) -> int:
 def singular(word: str) -> str:
     """The singular of a noun in small letters; a word that is none is left alone.
 
-    >>> [singular(w) for w in ("knives", "glasses", "boxes", "berries", "bus")]
-    ['knife', 'glasses', 'box', 'berry', 'bus']
+    >>> [singular(w) for w in ("knives", "glasses", "boxes", "berries", "bus", "trouser")]
+    ['knife', 'glasses', 'box', 'berry', 'bus', 'trousers']
     """
     spelling = _spelling()
     if word in spelling.irregular:
