@@ -12,7 +12,6 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.language.references import arrive, describe_later, one_of_several, refer
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
-
 _FIRST_ORDER = "earlier_goal"
 """Of two orders in one sentence ("go to the kitchen and take the cup") the first one's goal."""
 
@@ -123,8 +122,11 @@ def _relation(other: Mention, chosen: Mention) -> str:
     order = "earlier" if (one.sentence, other.noun.start) < (two.sentence, chosen.noun.start) else "later"
     if one.sentence != two.sentence:
         return f"{order}_sentence"
-    goal = other.score >= TARGETS["goal_place"] and one.action not in VERBS["put"] | VERBS["take"]
-    return f"{order}_goal" if goal else f"{order}_clause"
+    reached = one.action in VERBS["go"] and other.place is not None and other.place.words[0] in PLACING["toward"]
+    reached = reached or (other.place is None and one.action in VERBS["arrive"])
+    if not reached:
+        return f"{order}_clause"
+    return f"{order}_goal" if chosen.score >= TARGETS["take"] else f"{order}_way"
 
 
 def _resolved(chosen: Mention, found: list[Mention]) -> Mention:

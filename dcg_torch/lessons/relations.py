@@ -29,7 +29,7 @@ _TURNS = (*RELATIONS, *DIRECTED, *DIRECTED)
 _DRAWS = 40  # worlds tried for one relation, before it is left out once
 _TRIES = 6  # descriptions tried in each of them
 _UNHEARD = 0.4
-"""Share of the lessons whose landmark may have a name that was never heard: such a noun means a thing, hardly a place."""
+"""Share of the lessons whose landmark may have a name never heard: such a noun means a thing, hardly a place."""
 
 
 @functools.cache
