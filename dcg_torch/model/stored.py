@@ -36,6 +36,7 @@ WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 FORMAT = 2
 """Of the files; 1 was that of version 0.1, in which a model's kind was told by what else was there."""
 _MOST_BEAM = 1000
+_LEAST_L2 = 1e-6  # below it a fit is singular
 _LARGEST = 1e6  # of a weight, an example's too: beyond it log-probabilities overflow or drown
 _Arrays = dict[str, np.ndarray]
 
@@ -174,8 +175,8 @@ def _check(described: _Description, learner: CommitFirst | WordPosterior, direct
     variant, where = described.variant, directory / DESCRIPTION
     if described.correspondences != (TERNARY if variant.ternary else BINARY):
         raise CheckpointError(f"{where}: its correspondences are not those of its variant")
-    if not 0.0 < variant.l2 < math.inf or not 1 <= variant.beam <= _MOST_BEAM:
-        raise CheckpointError(f"{where}: l2 must be positive and finite, beam from 1 to {_MOST_BEAM}")
+    if not _LEAST_L2 <= variant.l2 < math.inf or not 1 <= variant.beam <= _MOST_BEAM:
+        raise CheckpointError(f"{where}: l2 must be at least {_LEAST_L2:g} and finite, beam from 1 to {_MOST_BEAM}")
     for number, example in enumerate(learner.examples):
         ids = {thing.id for thing in example.world.things}
         if len(example.correspondences) > len(example.world.things):
