@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
+from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -47,6 +48,16 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
+    found = _described(tree, world)
+    return found if world is None else _said_in(found, scene_kind(world))
+
+
+def _said_in(tree: ParseTree, scene: str) -> ParseTree:
+    children = tuple(_said_in(child, scene) for child in tree.children)
+    return ParseTree(replace(tree.phrase, scene=scene), children)
+
+
+def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
     tree = in_plain_words(tree, frozenset() if world is None else heads(o.type for o in world.objects if o.type))
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())

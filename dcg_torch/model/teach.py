@@ -115,7 +115,8 @@ def teach_corpus(
     said = said_of_words(parts, known_types, known_colors)
     model.learner = model.learner.taught(said)
     nouns = [Symbol(word, of) for word, types in said.nouns.items() for of in types]
-    model.grow(model.learner.columns(model.features).extended(nouns, said.colors, _phrases(parts)))
+    columns = model.learner.columns(model.features)
+    model.grow(columns.extended(nouns, said.colors, _phrases(parts), scenes=True))
     parts = _as_known(parts, model)
     parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
     model.learner = model.learner.with_frames(frames).with_readings(readings)

@@ -123,6 +123,17 @@ def ranking(phrase: Phrase) -> Ranking | None:
     return Ranking(phrase.among or "all", ordinal, phrase.count)
 
 
+def scene_features(phrase: Phrase) -> Iterator[Feature]:
+    """The language features of a phrase's plain words in the kind of scene that it is said in."""
+    if not phrase.scene:
+        return
+    of = "word" if phrase.kind is PhraseKind.NOUN else str(phrase.kind)
+    if phrase.kind in (PhraseKind.NOUN, PhraseKind.MODIFIER):
+        for word in phrase.words:
+            if word != NOT:
+                yield Group.RELATION, f"{of}: {word}, scene {phrase.scene}"
+
+
 def word_features(phrase: Phrase) -> Iterator[Feature]:
     """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
 
