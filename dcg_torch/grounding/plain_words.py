@@ -64,6 +64,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    if not COMPASS.keys().isdisjoint(phrase.words):
+        words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)

@@ -6,6 +6,7 @@ Definitions by this project, no human data. A description is given where it fits
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterator, Sequence
 
@@ -20,6 +21,8 @@ _TABLE = Workspace((0.0, 7.0, -3.5, 3.5))
 _SEAT = Pose(-4.0, 0.0)
 _LEAST, _TRIES = 0.65, 400
 """How far things are apart at least, units; how often a place is looked for."""
+_ASKED = 6
+"""Things of a scene of which something is said."""
 _TOUCHING, _NEXT, _NEAR = 1.1, 1.5, 2.6
 """How far things are that touch, stand next to one another, are before one another."""
 _CLEAR = 1.35
@@ -66,8 +69,9 @@ def clutter_scene(rng: np.random.Generator) -> Scene:
         thing(f"o{k}", other if rng.random() < share else kind, rng, (float(p[0]), float(p[1])))
         for k, p in enumerate(points)
     ]
-    said = [told for one in objects for told in _about(one, objects, rng)]
-    said += 3 * list(_middles(kind, objects, rng))
+    some = [objects[k] for k in rng.permutation(len(objects))[:_ASKED].tolist()]
+    said = [told for one in some for told in _about(one, objects, rng)]
+    said += 2 * list(_middles(kind, objects, rng))
     rng.shuffle(said)
     return Scene(tuple(objects), _SEAT, _TABLE, tuple(said))
 
@@ -92,7 +96,38 @@ def _about(one: Percept, objects: Sequence[Percept], rng: np.random.Generator) -
                 if o is not one
             ):
                 yield f"{head} {rng.choice(_SAID[way])} {text}", only
+    yield from _by_two(one, alike, objects, head, rng)
     yield from _ranked(one, alike, head, rng)
+
+
+def _by_two(
+    one: Percept, alike: Sequence[Percept], objects: Sequence[Percept], head: str, rng: np.random.Generator
+) -> Iterator[Told]:
+    """What stands so to two things of a name, or to two of different names, and no other of its name does."""
+    only, others = frozenset({one.id}), [o for o in alike if o is not one]
+    names = [name for name in dict.fromkeys(map(_name, objects)) if name != _name(one)]
+
+    def marks(o: Percept, name: str, fits: Callable[[Percept, Percept], bool]) -> int:
+        return sum(fits(o, mark) for mark in objects if mark is not o and _name(mark) == name)
+
+    def near(o: Percept, mark: Percept) -> bool:
+        return _apart(o, mark) < (_NEXT if o is one else _CLEAR * _NEXT)
+
+    for name in names:
+        if marks(one, name, near) >= 2 and all(marks(o, name, near) < 2 for o in others):
+            yield f"{head} {rng.choice(_BESIDE + _TOUCH[:2])} two {name}s", only
+        for way in _WAYS:
+
+            def there(o: Percept, mark: Percept, way: str = way) -> bool:
+                return _is_there(o, mark, way, _AHEAD if o is one else _ASIDE, 2.0 * _NEAR)
+
+            if marks(one, name, there) >= 2 and all(marks(o, name, there) < 2 for o in others):
+                number = "the two" if sum(_name(o) == name for o in objects) == 2 else "two"
+                yield f"{head} {rng.choice(_SAID[way])} {number} {name}s", only
+    for first, second in itertools.pairwise(names):
+        both = [o for o in alike if marks(o, first, near) and marks(o, second, near)]
+        if both == [one]:
+            yield f"{head} {rng.choice(_BESIDE + _TOUCH[:2])} a {first} and a {second}", only
 
 
 def _marks(objects: Sequence[Percept], one: Percept) -> Iterator[tuple[Percept, str, bool]]:
@@ -175,12 +210,12 @@ def _first(
     return all(v >= (_CLEAR * own if margin is None else own + margin) for v in rest)
 
 
-def _is_there(one: Percept, mark: Percept, way: str, slack: float) -> bool:
+def _is_there(one: Percept, mark: Percept, way: str, slack: float, reach: float = _NEAR) -> bool:
     """Is it that way from the landmark, and near?"""
     x, y = one.position[0] - mark.position[0], one.position[1] - mark.position[1]
     away = math.hypot(x, y)
     along = (x * _WAYS[way][0] + y * _WAYS[way][1]) / max(away, 1e-9)
-    return 0.0 < away < _NEAR and along > math.cos(slack)
+    return 0.0 < away < reach and along > math.cos(slack)
 
 
 def _apart(one: Percept, other: Percept) -> float:
