@@ -7,13 +7,13 @@ import functools
 import os
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
-from dcg_torch.experiment.pool import work_off
+from dcg_torch.experiment.pool import cores, work_off, works_alone
 from dcg_torch.report.intervals import Estimate
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
@@ -44,15 +44,7 @@ def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Out
     """
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
     measures, seconds = measure(rows), summarise_seconds(timings)
-    figures: list[Path] = []
-    if settings.figures:
-        from dcg_torch.report.figures import save_figures
-
-        figures = save_figures(rows, timings, directory / "figures", beside_paper=follows_paper(asdict(settings)))
-    if settings.screenshots:
-        save_screenshots(settings, directory / "screenshots")
-    if settings.tensorboard:
-        _write_curves(directory, rows, timings, figures)
+    _work(_jobs(settings, directory), settings)
     summary = directory / SUMMARY
     if wall is not None:
         seconds["wall"] = wall
@@ -67,6 +59,45 @@ def value_of(measures: Measures, metric: Metric) -> float:
     """What a run is judged by, as one number."""
     value = getattr(measures, metric)
     return float(value.value if isinstance(value, Estimate) else value)
+
+
+Job = Callable[[], object]
+
+
+def _jobs(settings: Settings, directory: Path) -> list[Job]:
+    """What there is to draw, the longest first: pieces that don't wait for one another."""
+    jobs: list[Job] = []
+    if settings.figures or settings.tensorboard:
+        jobs.append(functools.partial(_draw, settings, directory))
+    if settings.screenshots:
+        jobs += _screenshots(settings, directory / "screenshots")
+    return jobs
+
+
+def _work(jobs: Sequence[Job], settings: Settings) -> None:
+    """Do all jobs where the trials ran, for there is imported what takes longest: here, or in several processes."""
+    if works_alone(settings):
+        for job in jobs:
+            job()
+    else:
+        for _ in work_off(_do, jobs, settings.workers or cores()):
+            pass
+
+
+def _do(job: Job) -> None:
+    job()
+
+
+def _draw(settings: Settings, directory: Path) -> None:
+    """Figures, and curves beside which they are shown."""
+    rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
+    figures: list[Path] = []
+    if settings.figures:
+        from dcg_torch.report.figures import save_figures
+
+        figures = save_figures(rows, timings, directory / "figures", beside_paper=follows_paper(asdict(settings)))
+    if settings.tensorboard:
+        _write_curves(directory, rows, timings, figures)
 
 
 def _write_curves(
@@ -104,11 +135,15 @@ def save_screenshots(settings: Settings, directory: Path) -> None:
     Raises:
         WorldFileError: a world file is missing or not valid.
     """
+    _work(_screenshots(settings, directory), settings)
+
+
+def _screenshots(settings: Settings, directory: Path) -> list[Job]:
+    """A job for each world, in a folder that is made for it."""
     worlds = trial_worlds(settings, trial_generators(settings.seed, 0)[0])
     directory.mkdir(parents=True, exist_ok=True)
     sweep_parts(directory)
-    for _ in work_off(functools.partial(_save_pairs, directory), worlds, min(settings.workers or 2, 2)):
-        pass
+    return [functools.partial(_save_pairs, directory, world) for world in worlds]
 
 
 def _save_pairs(directory: Path, world: World) -> None:

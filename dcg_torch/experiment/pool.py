@@ -27,6 +27,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from typing import Any, TypeVar
 
+from dcg_torch.settings import Settings
 from dcg_torch.storage.errors import UserError
 
 T = TypeVar("T")
@@ -44,6 +45,11 @@ class WorkerKilledError(UserError):
 def may_start_processes() -> bool:
     """Whether this process is one that a user started; one that a launcher of sweeps made works alone."""
     return multiprocessing.current_process().name == "MainProcess"
+
+
+def works_alone(settings: Settings) -> bool:
+    """Whether the settings ask for no other process: one trial, one worker, or a window, of which there is one."""
+    return settings.trials < 2 or settings.workers == 1 or settings.simulator.gui
 
 
 @functools.cache

@@ -29,7 +29,7 @@ from dcg_torch.experiment.folder import (
 )
 from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
-from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off
+from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off, works_alone
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
 from dcg_torch.storage.records import Iteration
 
@@ -109,7 +109,7 @@ def run(settings: Settings, directory: Path, progress: Progress, say: Callable[[
 def _run_trials(settings: Settings, directory: Path, trials: Sequence[int], tick: Callable[[], None]) -> None:
     """Run trials where the settings say."""
     workers = min(settings.workers or cores(), len(trials))
-    alone = len(trials) < 2 or settings.workers == 1 or settings.simulator.gui  # gui: one window to look at
+    alone = len(trials) < 2 or works_alone(settings)
     if alone or not may_start_processes() or (settings.backend is Backend.fork and workers < 2):
         _run_here(settings, directory, trials, tick)
     elif settings.backend is Backend.fork:

@@ -111,7 +111,7 @@ class WorldEncoder:
         if thing.members:
             colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
         if self.related and j >= objects:
-            states = (*states, "kind: group" if thing.members else "kind: place")
+            states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
         return self.features.thing_columns(thing, states, colors)
 
     def things(self, phrase: Phrase) -> Bag:

@@ -13,7 +13,6 @@ from pathlib import Path
 from dcg_torch.grounding.features import PAPER, FeatureSet, Group
 from dcg_torch.learning.beliefs import Prior
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
-from dcg_torch.lessons.generated import generated_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.model.checkpoint import load
 
@@ -60,7 +59,8 @@ def train_open_world(
         variant: with the feature group `relation` if there are lessons.
         assumed: what its learner takes for granted.
     """
-    from dcg_torch.language import default_parser
+    from dcg_torch.language import default_parser  # here: who takes the shipped model makes no lessons
+    from dcg_torch.lessons.generated import generated_lessons
 
     model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed or _ASSUMED))
     if lessons and Group.RELATION in variant.groups:

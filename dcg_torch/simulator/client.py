@@ -8,7 +8,7 @@ import ctypes.util
 import os
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Protocol, Self
 
 from dcg_torch.simulator.engine import pybullet
@@ -21,6 +21,8 @@ STEP = 1.0 / 120.0
 _PACE = 3.0  # times faster than real time that it may run with a window
 _FLOOR_HALF = 25.0  # metres
 _FLOOR_COLOR = (0.80, 0.79, 0.76)
+Color = tuple[float, float, float, float]
+"""Red, green, blue and opacity, each from 0 to 1."""
 
 
 class Closing(Protocol):
@@ -57,6 +59,7 @@ class Client(Closing):
         if self.id < 0:
             raise SimulatorError("the physics server did not start; try again with simulator.gui=false")
         self.floor = -1
+        self._looks: dict[int, list[tuple[int, Color]]] = {}
 
     def close(self) -> None:
         """Disconnect; a second call does nothing."""
@@ -71,6 +74,7 @@ class Client(Closing):
         outlive their bodies, and a world's poses would depend on the worlds visited before it.
         """
         pybullet.resetSimulation(physicsClientId=self.id)
+        self._looks = {}
         pybullet.setPhysicsEngineParameter(
             fixedTimeStep=STEP,
             numSubSteps=1,
@@ -96,19 +100,28 @@ class Client(Closing):
         pybullet.changeDynamics(self.floor, -1, lateralFriction=1.0, physicsClientId=self.id)
 
     @contextlib.contextmanager
-    def hidden_floor(self) -> Iterator[None]:
-        """Draw no floor, which takes half of a small picture's time; the physics doesn't notice."""
+    def hidden(self, bodies: Iterable[int]) -> Iterator[None]:
+        """Draw none of these, which saves most of a small picture's time; the physics doesn't notice."""
         if self.gui:  # it would flicker
             yield
             return
-        self._paint_floor(0.0)
+        colors = [(body, link, color) for body in bodies for link, color in self._colors(body)]
+        self._paint((body, link, (*color[:3], 0.0)) for body, link, color in colors)
         try:
             yield
         finally:
-            self._paint_floor(1.0)
+            self._paint(colors)
 
-    def _paint_floor(self, alpha: float) -> None:
-        pybullet.changeVisualShape(self.floor, -1, rgbaColor=[*_FLOOR_COLOR, alpha], physicsClientId=self.id)
+    def _colors(self, body: int) -> list[tuple[int, Color]]:
+        """What the parts of a body look like: (link, colour) of each."""
+        if body not in self._looks:
+            shapes = pybullet.getVisualShapeData(body, physicsClientId=self.id)
+            self._looks[body] = [(shape[1], shape[7]) for shape in shapes]
+        return self._looks[body]
+
+    def _paint(self, colors: Iterable[tuple[int, int, Color]]) -> None:
+        for body, link, color in colors:
+            pybullet.changeVisualShape(body, link, rgbaColor=color, physicsClientId=self.id)
 
     def step(self, count: int = 1) -> None:
         """Advance the physics by `count` steps of `STEP` seconds."""

@@ -269,15 +269,23 @@ class SimulatedRobot(Closing):
 
     def _look(self) -> list[_Placed]:
         """What the camera shows now; it is remembered as an obstacle, recognised or not."""
-        counts = self.camera.pixels(self.client, self.pose)
+        away = [body for body, placed in self._by_body.items() if not self._in_reach(placed)]
+        if len(away) == len(self._by_body):
+            return []
+        counts = self.camera.pixels(self.client, self.pose, away)
         seen = [placed for body, placed in self._by_body.items() if counts.get(body, 0) >= self.recogniser.min_pixels]
         self._noticed.update((placed.percept.id, placed.percept) for placed in seen)
         return seen
 
     def _notice(self) -> Mapping[str, Percept]:
-        """Look, and give all that has been noticed in this world."""
-        self._look()
+        """Look, unless there can be no news, and give all that has been noticed in this world."""
+        strange = (p for p in self._by_body.values() if self._noticed.get(p.percept.id) != p.percept)
+        if any(map(self._in_reach, strange)):
+            self._look()
         return self._noticed
+
+    def _in_reach(self, placed: _Placed) -> bool:
+        return self.camera.in_reach(self.pose, placed.percept.position[:2], placed.radius)
 
     @property
     def _here(self) -> tuple[float, float]:

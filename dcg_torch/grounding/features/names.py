@@ -43,7 +43,7 @@ PAIRS: dict[str, frozenset[str]] = {
     "landmark": frozenset({"kind"}),  # what states landmarks are in is chance, which a corpus has plenty of
     "noun": frozenset({"type", "part"}),
     "noun stated": frozenset({"said name", "said kind"}),
-    "noun known": frozenset({"known", "hypothetical"}),
+    "noun known": frozenset({"known", "hypothetical", "place"}),  # an unheard noun names a thing, hardly a place
     "color": frozenset({"color", "group color"}),
     "color stated": frozenset({"kind", "known", "hypothetical", "color", "said color"}),
     "words stated": frozenset({"said attribute"}),
@@ -87,6 +87,7 @@ def fixed_groundings() -> Iterator[Feature]:
     for name in said_features():
         yield Group.NAMES, name
     yield Group.RELATION, "kind: place"
+    yield Group.RELATION, "place: yes"
     yield Group.RELATION, "kind: group"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
