@@ -31,8 +31,8 @@ _SLIP = 8.0
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
 _NEIGHBOUR = 5.0
-"""Bound of the colour's gap where a word that was never learned is the name of a neighbour of the colour: what one calls
-blue another calls purple."""
+"""Bound of the colour's gap where a word that was never learned names a neighbour of the colour: what one calls blue
+another calls purple."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
