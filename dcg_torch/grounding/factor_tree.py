@@ -10,6 +10,9 @@ from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
+_OF_TWO = frozenset({"between", "in the middle of"})
+"""Prepositions that say how a thing stands to two landmarks at once."""
+
 
 def speaks_of_groups(tree: ParseTree) -> bool:
     """Does some noun phrase of the command speak of a group of objects?"""
@@ -95,7 +98,14 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
     phrase, described = _counted_from(phrase, described)
     phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
-    return ParseTree(phrase, tuple(_modifier(child, phrase) for child in described))
+    return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
+
+
+def _apart(tree: ParseTree) -> list[ParseTree]:
+    """ "Next to the cube and the cone" is next to each of them; "between" needs both."""
+    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in _OF_TWO:
+        return [tree]
+    return [replace(tree, children=(landmark,)) for landmark in tree.children]
 
 
 def _counted_from(phrase: Phrase, described: list[ParseTree]) -> tuple[Phrase, list[ParseTree]]:
@@ -114,7 +124,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     if words[0].startswith(f"{NOT} "):
         words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
     landmarks = [_noun(n, (f"landmark: of {' '.join(words)}", "landmark: of any")) for n in tree.children]
-    if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
+    if words[0] in _OF_TWO and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None
     phrase = Phrase(

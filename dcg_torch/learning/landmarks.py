@@ -216,9 +216,10 @@ def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> M
     prior = np.array([sum(h.log_score for h in combo) for combo in modifier.combos])
     prior -= np.logaddexp.reduce(prior)
     combos = np.flatnonzero(prior >= prior.max() + math.log(_NEGLIGIBLE))
-    landmarks = [modifier.landmarks(c, encoder.number) for c in combos.tolist()]
+    most = 1 if modifier.of_each else None
+    landmarks = [modifier.landmarks(c, encoder.number)[:most] for c in combos.tolist()]
     phrase = modifier.tree.phrase
-    bag = encoder.placed(landmarks, ranking(phrase))[:, : len(kept)][:, kept]
+    bag = encoder.placed(landmarks, ranking(phrase), modifier.compared)[:, : len(kept)][:, kept]
     return Modified(phrase, bag, prior[combos], NOT in phrase.words)
 
 
