@@ -91,8 +91,7 @@ def fit(
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
     if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
-    fixed, moving = weight.copy(), np.flatnonzero(active)
-    _cells(fixed)[:, moving] = 0.0 if prior is None else _cells(prior)[:, moving]
+    fixed: Floats = np.where(active, 0.0 if prior is None else prior, weight)
     where = factor.weight.device if device is None else device_of(device)
     problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
