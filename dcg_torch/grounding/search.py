@@ -153,7 +153,8 @@ class Search:
             landmark: is it one of a modifier? It alone may be a place: what a command is about is an object.
         """
         key = (tree, landmark)
-        if key not in self._nouns:
+        found = self._nouns.get(key)
+        if found is None:
             below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
@@ -162,17 +163,19 @@ class Search:
                 found = self._only_objects(tree, found)
                 found = self._or_absent(tree, found) if is_noun else found
             self._nouns[key] = found
-        return self._nouns[key]
+        return found
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
         key = (tree, landmark)
-        if key not in self._beams:
-            self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
-        return self._beams[key]
+        found = self._beams.get(key)
+        if found is None:
+            found = self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
+        return found
 
     def _modifier(self, tree: ParseTree) -> ModifierFactor:
         """The factor of a modifier, from its log Psi under every choice of landmarks."""
-        if tree not in self._modifiers:
+        found = self._modifiers.get(tree)
+        if found is None:
             number, tables = self.encoder.number, self._tables
             combos = list(itertools.product(*(self._beam_of(child, landmark=True) for child in tree.children)))
             landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
@@ -181,8 +184,8 @@ class Search:
             scores = np.array([sum(h.log_score for h in combo) for combo in combos])
             share = scores - np.logaddexp.reduce(scores)
             mixture = table[tables.factor.correspondences.index(asserted)] + share[:, None]
-            self._modifiers[tree] = ModifierFactor(tree, combos, mixture)
-        return self._modifiers[tree]
+            found = self._modifiers[tree] = ModifierFactor(tree, combos, mixture)
+        return found
 
     def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
