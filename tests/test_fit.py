@@ -21,6 +21,7 @@ from dcg_torch.grounding.fit import Solver, fit, objective_at
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.reduction import reduce
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows, SparseRows
+from dcg_torch.grounding.written import count_firing
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
 
@@ -113,6 +114,22 @@ class TestRows:
         assert point.value + reduced.constant + outside == pytest.approx(value, rel=1e-12)
         columns = reduced.columns
         assert point.norm == pytest.approx(np.abs(gradient.reshape(len(gradient), -1)[:, columns]).max(), rel=1e-9)
+
+
+def test_what_fires_is_counted() -> None:
+    rng = np.random.default_rng(5)
+    for grid in (False, True):
+        designs = [random_design(rng, phrases=4, rows=9, labels=2, columns=(7, 8), grid=grid) for _ in range(2)]
+        active = rng.random((7, 8)) < 0.7
+        fires = {
+            (left, right)
+            for design in designs
+            for phrase, things in zip(design.phrase, design.grounding, strict=True)
+            for left in design.language[phrase]
+            for right in things
+            if left >= 0 and right >= 0 and active[left, right]
+        }
+        assert 5 < count_firing(designs, active) == len(fires) < 56
 
 
 class TestFit:

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from language_sentences import DEVELOPMENT, HELD_OUT, Sentence
 
 from dcg_torch.language import Parse, Parser, default_parser, target_phrase
+from dcg_torch.language.parser import bearing
 from dcg_torch.types import ParseTree, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder", "fire hydrant", "pyramid")
@@ -241,3 +242,19 @@ def test_long_input_is_refused_at_once(parser: Parser) -> None:
     start = time.process_time()
     assert parser.parse("the cube on " * 10_000).problem is not None
     assert time.process_time() - start < 0.05
+
+
+def test_what_bears_on_a_text_decides_how_it_is_read(parser: Parser) -> None:
+    """The robot of each trial knows other words; few of them bear on a text."""
+    nouns = ("cube", "mailbox", "traffic_cone", "FireHydrant", "wug", "wugs", "dax", "cabinet", "filing cabinet")
+    texts = [s.text for s in HELD_OUT[:12]]
+    texts += ["go to the mail box", "go to the trafic cone", "take the dax to the wugs", "find the fire hydrants"]
+    for text in texts:
+        read: dict[object, Parse] = {}
+        for k in range(len(nouns)):
+            for known in (nouns[:k], nouns[k:], nouns[k : k + 1]):
+                found = parser.parse(text, known)
+                assert read.setdefault(bearing(text, known), found) == found, (text, known)
+    assert bearing("go to the wug", ["cube"]) == bearing("go to the wug", ["dax", "fire hydrant"])
+    for text, noun in (("go to the mail box", "mailbox"), ("go to the filing cabinets", "filing cabinet")):
+        assert bearing(text, ["cube"]) != bearing(text, ["cube", noun])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -66,6 +67,45 @@ def test_every_type_is_seen_near_and_far(shared: SimulatedRobot) -> None:
 def test_percepts_come_from_the_middle_of_the_view_outwards(shared: SimulatedRobot) -> None:
     there = world(("left", "cube", 3.0, 1.2), ("middle", "cube", 5.0, 0.1), ("right", "cube", 3.0, -0.8))
     assert seen(shared, there) == ["middle", "right", "left"]
+
+
+def test_what_is_not_in_reach_shows_nothing_and_hides_nothing(shared: SimulatedRobot) -> None:
+    rng, skipped = np.random.default_rng(0), 0
+    for _ in range(40):
+        kinds = rng.choice(TYPES, 6, replace=False).tolist()
+        places = rng.uniform(-4.0, 4.0, (6, 2))
+        places *= np.maximum(1.0, 1.2 / np.hypot(*places.T))[:, None]
+        things = [
+            (str(k), kind, float(x), float(y)) for k, (kind, (x, y)) in enumerate(zip(kinds, places, strict=True))
+        ]
+        shared.load(world(*things, start=(0.0, 0.0, float(rng.uniform(-3.1, 3.1)))))
+        camera, pose, bodies = shared.camera, shared.pose, shared.bodies
+        away = [bodies[id_] for id_, kind, *at in things if not camera.in_reach(pose, (at[0], at[1]), footprint(kind))]
+        picture, mask = camera.view(pose).render(shared.client)
+        shown = {body: int((mask == body).sum()) for body in bodies.values() if (mask == body).any()}
+        assert camera.pixels(shared.client, pose) == camera.pixels(shared.client, pose, away) == shown
+        assert (camera.view(pose).render(shared.client)[0] == picture).all()  # what was hidden is there again
+        skipped += len(away)
+    assert skipped > 100  # of 240
+
+
+def test_a_drive_among_known_objects_takes_no_look(shared: SimulatedRobot, monkeypatch: pytest.MonkeyPatch) -> None:
+    there = world(("goal", "cube", 2.0, 0.0), ("aside", "sphere", 2.0, 1.0), ("behind", "drill", -2.0, 0.0))
+    shared.load(there)
+    looks: list[object] = []
+    pixels = Camera.pixels
+
+    def counted(camera: Camera, *arguments: Any) -> dict[int, int]:
+        looks.append(arguments)
+        return pixels(camera, *arguments)
+
+    monkeypatch.setattr(Camera, "pixels", counted)
+    ahead = shared.perceive()
+    assert [p.id for p in ahead] == ["goal", "aside"]
+    assert shared.drive_to("goal", ahead)
+    assert len(looks) == 1  # the perceiving: only what stands behind is not known
+    shared.spin(math.pi)
+    assert [p.id for p in shared.perceive()] == ["behind"]
 
 
 def test_the_robot_is_not_in_its_own_picture(shared: SimulatedRobot) -> None:

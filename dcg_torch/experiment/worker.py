@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import functools
 import json
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Hashable
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -21,6 +20,7 @@ from dcg_torch.experiment.recording.wording import meant
 from dcg_torch.experiment.robots import make_robot
 from dcg_torch.experiment.trial import run_trial
 from dcg_torch.language import Parse, default_parser
+from dcg_torch.language.parser import bearing
 from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
@@ -75,14 +75,19 @@ def run_one(
     return model
 
 
+_MOST_PARSES = 4096
+_PARSES: dict[tuple[str, Hashable], Parse] = {}
+
+
 def _parse_once(text: str, words: Collection[str]) -> Parse:
-    """Reads a command: people say the same in many trials."""
-    return _parsed(text, frozenset(words))
-
-
-@functools.lru_cache(maxsize=4096)
-def _parsed(text: str, words: frozenset[str]) -> Parse:
-    return default_parser().parse(text, words)
+    """Reads a command: people say the same in many trials, in which the robot knows different words."""
+    key = (text, bearing(text, words))
+    found = _PARSES.get(key)
+    if found is None:
+        if len(_PARSES) >= _MOST_PARSES:
+            _PARSES.clear()
+        found = _PARSES[key] = default_parser().parse(text, words)
+    return found
 
 
 def _save_outcome(

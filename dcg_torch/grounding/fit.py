@@ -91,8 +91,8 @@ def fit(
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
     if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
-    fixed, moving = weight.copy(), np.flatnonzero(active)
-    _cells(fixed)[:, moving] = 0.0 if prior is None else _cells(prior)[:, moving]
+    fixed = weight.copy()
+    np.copyto(fixed, 0.0 if prior is None else prior, where=active)
     where = factor.weight.device if device is None else device_of(device)
     problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
@@ -103,10 +103,10 @@ def fit(
         else:
             raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
     factor.set_weight(new)
-    still = np.flatnonzero(pairs & ~active)  # of the active weights that don't move the prior is the optimum
-    distance = _cells(fixed)[:, still] - (0.0 if prior is None else _cells(prior)[:, still])
-    return FitResult(
-        value=found.point.value + constant + 0.5 * float(np.square(distance).sum(axis=0) @ _at(strength, still)),
+    distance = fixed if prior is None else fixed - prior
+    squares = strength * np.einsum("plg,plg->lg", distance, distance)
+    return FitResult(  # of the active weights that don't move the prior is the optimum
+        value=found.point.value + constant + 0.5 * float(np.sum(squares, where=pairs & ~active)),
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,
@@ -114,17 +114,6 @@ def fit(
         status=found.status,
         seconds=time.perf_counter() - began,
     )
-
-
-def _cells(weight: Floats) -> Floats:
-    """(P, L * G) the weights of each feature; a view of weights that are contiguous."""
-    return weight.reshape(len(weight), -1)
-
-
-def _at(strength: Floats, cells: NDArray[np.int64]) -> Floats:
-    """Of an (L, G) array that may be one number spread out, which is not to be copied whole."""
-    found: Floats = strength[np.divmod(cells, strength.shape[1])]
-    return found
 
 
 class Problem(NamedTuple):

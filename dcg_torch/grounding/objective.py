@@ -97,7 +97,7 @@ class Objective:
         assert isinstance(self.rows, ArrowheadRows)
         q, step = len(downhill), np.empty_like(downhill)
         curvature = self.rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
-        for (rows, columns, matrix), penalty in zip(self.rows.blocks, self._penalties, strict=True):
+        for rows, columns, matrix in self.rows.blocks:
             own, k = curvature[:, :, rows], len(columns)
             hessian = np.empty((q, k, q, k))
             for a in range(q):
@@ -105,9 +105,10 @@ class Objective:
                     hessian[a, :, b] = (matrix.T * own[a, b]) @ matrix
                     if a != b:
                         hessian[b, :, a] = hessian[a, :, b]
-            whole = hessian.reshape(q * k, q * k)
-            whole += penalty
-            step[:, columns] = np.linalg.solve(whole, downhill[:, columns].reshape(-1)).reshape(q, k)
+            diagonal = np.einsum("akbk->abk", hessian)  # a view
+            diagonal += self._basis[:, :, None] * self.strength[columns]
+            whole, right = hessian.reshape(q * k, q * k), downhill[:, columns].reshape(-1)
+            step[:, columns] = np.linalg.solve(whole, right).reshape(q, k)
         return step
 
     @cached_property
@@ -115,13 +116,6 @@ class Objective:
         """(Q, Q) I - 1/P: the penalty of a variable's differences."""
         q = len(self.count) - 1
         return np.eye(q) - 1.0 / (q + 1)
-
-    @cached_property
-    def _penalties(self) -> list[Floats]:
-        """(Q K, Q K) the Hessian of the penalty on each block's variables."""
-        assert isinstance(self.rows, ArrowheadRows)
-        diagonals = [np.diag(self.strength[own]).astype(np.float64) for _, own, _ in self.rows.blocks]
-        return [np.asarray(np.kron(self._basis, diagonal), dtype=np.float64) for diagonal in diagonals]
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""

@@ -21,7 +21,16 @@ from dcg_torch.grounding.objective import Objective
 from dcg_torch.grounding.psi import Floats, binary
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
-from dcg_torch.grounding.written import Mask, constant_of, differences, offset_of, summed, weight_at, write_out
+from dcg_torch.grounding.written import (
+    Mask,
+    constant_of,
+    count_firing,
+    differences,
+    offset_of,
+    summed,
+    weight_at,
+    write_out,
+)
 
 _FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
@@ -149,7 +158,7 @@ def _fires(design: DesignMatrix, active: Mask) -> Mask:
 
 def _crowded(designs: Sequence[DesignMatrix], active: Mask, entries: int) -> bool:
     """Do so many rows share each of many weights that Newton's method cannot be the fastest way?"""
-    columns = int(np.count_nonzero(_fires(stack(designs), active)))
+    columns = count_firing(designs, active)
     return columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
 
 

@@ -149,7 +149,8 @@ class Search:
             landmark: is it one of a modifier? It alone may be a place: what a command is about is an object.
         """
         key = (tree, landmark)
-        if key not in self._nouns:
+        found = self._nouns.get(key)
+        if found is None:
             below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
@@ -158,13 +159,14 @@ class Search:
                 found = self._only_objects(tree, found)
                 found = self._or_absent(tree, found) if is_noun else found
             self._nouns[key] = found
-        return self._nouns[key]
+        return found
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
         key = (tree, landmark)
-        if key not in self._beams:
-            self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
-        return self._beams[key]
+        found = self._beams.get(key)
+        if found is None:
+            found = self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
+        return found
 
     def _modifier(self, tree: ParseTree, compared: Bools | None = None) -> ModifierFactor:
         """The factor of a modifier; what it ranks, it ranks among `compared`."""

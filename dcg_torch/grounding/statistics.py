@@ -107,8 +107,8 @@ class Statistics:
 
     def _of_soft(self, labels: SoftLabels, at: Sequence[int]) -> _Counted:
         phrases = np.array([self._phrases.number(p) for p in labels.phrases], dtype=np.int64)
-        things = [self._number_of(o) for o in labels.objects]
         if Group.NAMES in self._groups:
+            things = [self._number_of(o) for o in labels.objects]
             seen = np.stack([self._with_facts(p, things, labels.objects) for p in phrases.tolist()])
         else:
             own = np.array([self._seen.number(_of_object(o, ())) for o in labels.objects], dtype=np.int64)
@@ -117,7 +117,7 @@ class Statistics:
         count = np.zeros((_LABELS, len(which)))
         count[1 + Correspondence.INACTIVE] = labels.inactive.reshape(-1)[which]
         count[1 + Correspondence.ACTIVE] = labels.active.reshape(-1)[which]
-        return np.repeat(phrases, len(things))[which], seen.reshape(-1)[which], count[at]
+        return np.repeat(phrases, len(labels.objects))[which], seen.reshape(-1)[which], count[at]
 
     def _number_of(self, thing: Object) -> int:
         return self._objects.setdefault(thing, len(self._objects))

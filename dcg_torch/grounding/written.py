@@ -56,6 +56,14 @@ def write_out(
     return Written(incidence, count, offset, start, own, columns, constant)
 
 
+def count_firing(designs: Sequence[DesignMatrix], active: Mask) -> int:
+    """How many of the active weights fire in some row."""
+    seen = np.zeros((active.shape[0] + 1) * (active.shape[1] + 1), dtype=np.bool_)
+    for design in designs:
+        seen[_codes(design, active.shape)] = True
+    return int(np.count_nonzero(seen & _one_more(active).reshape(-1)))
+
+
 def weight_at(d: Floats, fixed: Floats, columns: Ints) -> Floats:
     """(P, L, G) weights at variables (Q, K) of some cells, beside those that do not move."""
     mean = d.sum(axis=0) / len(fixed)

@@ -16,6 +16,7 @@ from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, VERBS, english
+from dcg_torch.language.morphology import singular
 from dcg_torch.language.phrases import items
 from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
 from dcg_torch.language.tagging import Path, paths
@@ -219,6 +220,17 @@ def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:
     top = readings[0].log_weight
     total = top + math.log(sum(math.exp(reading.log_weight - top) for reading in readings))
     return tuple(Reading(r.tree, r.log_weight - total, r.rules, r.unread) for r in readings)
+
+
+def bearing(text: str, vocabulary: Collection[str]) -> Hashable:
+    """What of a vocabulary bears on how a text is read: where it is equal, `Parser.parse` says the same of the text.
+
+    That is how misspelt words are mended, and the nouns that the text may speak of.
+    """
+    known, words = frozenset(normal_noun(noun) for noun in vocabulary), tokens(text)
+    mended = mend(words, known | names(text)) if len(words) <= MAX_WORDS else words
+    said = {form for word in (*words, *mended) for form in (word, singular(word))}
+    return tuple(mended), frozenset(noun for noun in known if said.issuperset(noun.split()))
 
 
 @functools.cache

@@ -237,9 +237,7 @@ def _only_meant(example: Example) -> Object | None:
     """The one object that a noun phrase's example says is meant; None for another kind of example."""
     if example.phrase.kind is not PhraseKind.NOUN:
         return None
-    meant = [
-        o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c is not None and c != 0
-    ]
+    meant = [o for o, c in zip(example.world.objects, example.correspondences, strict=False) if c]  # not INACTIVE
     return meant[0] if len(meant) == 1 else None
 
 

@@ -110,7 +110,9 @@ class _Screenshot:
             draw.polygon(self._circle(item.position, radius + 0.12 - grow), fill=0)
         on_floor = Image.fromarray(((self._mask == self._stage.floor) | (self._mask < 0)).astype(np.uint8) * 255)
         for layer, color in ((rim, _RIM), (ring, HIGHLIGHT)):
-            image.paste(color, mask=Image.composite(layer, Image.new("L", image.size), on_floor))
+            seen = Image.composite(layer, Image.new("L", image.size), on_floor)
+            if (place := seen.getbbox()) is not None:  # a small part of the picture
+                image.paste(color, place, seen.crop(place))
         self._outline(image, item, unit)
         self._arrow(image, item, unit)
         self._close_up(image, item, unit)
