@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import threading
+import time
 from pathlib import Path
 
 import pytest
@@ -144,6 +145,23 @@ def test_objects_are_spread_among_those_who_look_at_once(tmp_path: Path) -> None
         writer.start()
     assert len({writer.item() for writer in writers}) == 5
     assert writers[0].item() == writers[0].item()  # a reload shows the same picture
+
+
+def test_a_clock_that_is_put_back_gives_no_time_below_zero(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    url = sqlite_url(tmp_path / "answers.sqlite")
+    answers = Answers(open_database(url), items_of(WORLDS), per_person=2, per_object=3)
+    answers.agree("p")
+    now = time.time()
+    for put_back, seconds in ((-60.0, 60.0), (3_600.0, None)):
+        task = answers.task("p")
+        assert task is not None
+        assert task.item is not None
+        with monkeypatch.context() as patch:
+            patch.setattr("dcg_torch.apps.collect.database.time.time", lambda back=put_back: now - back)
+            assert answers.add("p", task.item.id, f"go to the thing {put_back}").kept
+        took = read_rows(url)[-1].seconds
+        assert (took is None) == (seconds is None)
+        assert took is None or took == pytest.approx(seconds, abs=30.0)
 
 
 def test_limits_hold_for_threads_at_once(tmp_path: Path) -> None:

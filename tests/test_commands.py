@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 from making import typed
 
-from dcg_torch.cli.commands import COMMANDS, Command, main, usage
+from dcg_torch.cli import convert, pretrain
+from dcg_torch.cli.commands import COMMANDS, Command, main, start, usage
 
 
 def test_every_command_has_a_module_and_a_line_of_help() -> None:
@@ -127,3 +128,28 @@ def test_without_pybullet_the_fake_robot_runs_and_the_other_says_how_to_get_it(t
         assert done.returncode == status, done.stderr
         assert says in done.stderr
         assert done.stderr.count("\n") == (status == 2)
+
+
+def test_ctrl_c_while_a_command_is_loaded_is_one_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(name: str) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("dcg_torch.cli.commands.importlib.import_module", interrupted)
+    assert start("pretrain", ["dcg-torch pretrain"]) == 130
+    assert capsys.readouterr().err == "dcg_torch: interrupted\n"
+
+
+def test_ctrl_c_while_options_are_read_is_one_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("argparse.ArgumentParser.parse_args", interrupted)
+    for program, arguments in ((pretrain.main, ["--lessons=0"]), (convert.main, ["csv", "a", "--out=b"])):
+        with pytest.raises(SystemExit) as left:
+            program(arguments)
+        assert left.value.code == 130
+        assert capsys.readouterr().err.startswith("dcg_torch: interrupted")

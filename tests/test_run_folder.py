@@ -23,6 +23,7 @@ from making import typed
 from dcg_torch.cli.run import main
 from dcg_torch.experiment.folder import ITERATIONS, MODEL, SETTINGS, TIMINGS, RunFolderError, lexicon_of, part_of
 from dcg_torch.experiment.runner import run
+from dcg_torch.report import __main__ as report
 from dcg_torch.settings import LearnerKind, ModelSettings, RobotKind, Settings, SimulatorSettings, Speaker
 from dcg_torch.storage.claim import claim
 
@@ -191,6 +192,34 @@ def test_what_is_no_run_folder_is_one_line(
         assert (status, out, err.count("\n")) == (2, "", 1)
         assert says in err
     assert [p.name for p in tmp_path.iterdir()] == ["a_file"]
+
+
+@pytest.mark.parametrize("name", [SETTINGS, ITERATIONS, "trials/0000.jsonl", "lexicon/0000.json"])
+def test_a_pipe_in_a_run_folder_is_one_line(
+    name: str, finished: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Whoever reads from it would wait for ever."""
+    folder = Path(shutil.copytree(finished, tmp_path / "run"))
+    (folder / name).unlink(missing_ok=True)
+    (folder / name).parent.mkdir(exist_ok=True)
+    os.mkfifo(folder / name)
+    for program in (main, report.main):
+        arguments = [*PLAIN, f"hydra.run.dir={folder}"] if program is main else [str(folder)]
+        status, out, err = typed(capsys, program, "dcg_torch", *arguments)
+        assert (status, out, err.count("\n")) == (2, "", 1)
+        assert f"{name}: this is a pipe; remove it" in err
+
+
+@pytest.mark.parametrize("to", ["nowhere", "elsewhere"])
+def test_a_link_in_the_place_of_a_model_is_replaced(to: str, finished: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(finished, tmp_path / "run"))
+    shutil.rmtree(folder / MODEL)
+    (tmp_path / "elsewhere").mkdir()
+    (folder / MODEL).symlink_to(tmp_path / to)
+    go_on(folder)
+    assert whole(folder) == whole(finished)
+    assert not (folder / MODEL).is_symlink()
+    assert not list(folder.glob(".model*"))
 
 
 def test_a_name_too_long_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

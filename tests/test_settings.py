@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import os
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +98,7 @@ WRONG = [
     ("training=no_such.yaml", "no_such.yaml: no such training file"),
 ]
 OF_EXPERIMENTS = [
+    ("training='~nobody/a.yaml'", "~nobody/a.yaml: no such training file"),
     ("simulator=null", "simulator=null: there is no such simulator; choose from fake, pybullet"),
     ("trials=1000000000", "trials=1000000000: give a number from 1 to 100000"),
     ("seed=-1", "seed=-1"),
@@ -119,6 +121,18 @@ def test_an_experiment_says_it_in_one_line(
     assert (status, out, err.count("\n")) == (2, "", 1)
     assert says in err
     assert not folder.exists()
+
+
+@pytest.mark.parametrize("setting", ["training=a.yaml", "worlds=."])
+def test_what_is_read_by_every_process_is_no_pipe(
+    setting: str, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As in `training=<(cat a.yaml)`: the second reader would find nothing, or wait for ever."""
+    monkeypatch.chdir(tmp_path)
+    os.mkfifo("a.yaml")
+    status, out, err = typed(capsys, experiment.main, "dcg_torch", "simulator=fake", setting, "hydra.run.dir=run")
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert "a.yaml: this is a pipe, which can be read only once; give a file" in err
 
 
 @pytest.mark.parametrize(("wrong", "says"), WRONG[:-1])

@@ -254,3 +254,11 @@ def test_what_the_machine_says_is_one_line_that_mends(number: int) -> None:
     said = explain_os_error(OSError(number, os.strerror(number), "some/file"))
     assert said.startswith(f"some/file: {os.strerror(number)}; ")
     assert "\n" not in said
+
+
+def test_a_folder_is_claimed_where_nobody_knows_the_home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As in a container whose user has no name."""
+    monkeypatch.delenv("HOME")
+    monkeypatch.setattr("pwd.getpwuid", lambda uid: {}[uid])
+    with claim(tmp_path / "run"):
+        assert (tmp_path / "run" / LOCK).exists()

@@ -91,6 +91,9 @@ def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
 def _main_of(name: str, command: Command) -> int:
     try:
         module = importlib.import_module(f"dcg_torch.{command.module}")
+    except KeyboardInterrupt:  # before the program can say it itself
+        print("dcg_torch: interrupted", file=sys.stderr)
+        return 130
     except ModuleNotFoundError as error:
         missing = (error.name or "").partition(".")[0]
         if command.extra is None or missing not in command.needs:

@@ -48,9 +48,9 @@ Exit status: 0 done, 2 for what can't be read or written; one line says what, wh
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; returns the exit status."""
-    options = _parser().parse_args(arguments)
-    kind = KINDS[options.kind]
     with one_line_errors():
+        options = _parser().parse_args(arguments)
+        kind = KINDS[options.kind]
         console = make_console()
         with _Progress(console) as progress:
             found = _importer(kind)(options.path, progress)

@@ -38,6 +38,7 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import EvaluateSettings, SettingsError
 from dcg_torch.storage.claim import claim
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 
@@ -206,7 +207,7 @@ def _read(key: str, given: object) -> dict[str, list[Episode]]:
         raise SettingsError(f"{key}: write {key}=FILE, or {key}=[FILE,FILE]")
     found: dict[str, list[Episode]] = {}
     for one in named:
-        path = Path(str(one)).expanduser()
+        path = at_home(str(one))
         if path.stem in found:
             raise SettingsError(f"{key}: two files are called {path.stem}; rename one")
         found[path.stem] = read_episodes(path)

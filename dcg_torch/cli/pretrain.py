@@ -22,8 +22,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = Arguments(prog="dcg-torch pretrain", description="Make the shipped model anew.")
     parser.add_argument("--out", metavar="DIR", type=Path, default=SHIPPED, help="the folder; default: the package's")
     parser.add_argument("--lessons", metavar="N", type=int, default=LESSONS, help=f"generated; default: {LESSONS}")
-    options = parser.parse_args(arguments)
     with one_line_errors(goes_on="the same command begins anew"):
+        options = parser.parse_args(arguments)
         if not 0 <= options.lessons <= _MOST:
             raise UserError(f"--lessons {options.lessons}: give a number from 0 to {_MOST}")
         with claim(options.out, (WEIGHTS, DESCRIPTION), setting="--out"):

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.foreign import at_home, pipe_in, plain
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 from dcg_torch.storage.whole import write_whole
 
@@ -49,9 +49,13 @@ def check_owner(settings: Settings, directory: Path) -> None:
         RunFolderError: it holds another experiment, or one of which nobody can say.
     """
     mark = directory / SETTINGS
+    if (given := next((path for path in _inputs(settings) if path.is_fifo()), None)) is not None:
+        raise RunFolderError(f"{given}: this is a pipe, which can be read only once; give a file")
     for name in (SETTINGS, ITERATIONS, TIMINGS):
         if (directory / name).is_dir():
             raise RunFolderError(f"{directory / name}: this is a folder; remove it, or give another hydra.run.dir")
+    if (pipe := pipe_in(directory)) is not None:
+        raise RunFolderError(f"{pipe}: this is a pipe; remove it, or give another hydra.run.dir")
     if not mark.exists():
         if (directory / PARTS).is_dir() and any((directory / PARTS).iterdir()):
             raise RunFolderError(
@@ -77,15 +81,18 @@ def mark_as_own(settings: Settings, directory: Path) -> None:
 
 def _fingerprint(settings: Settings) -> str:
     kept = {k: v for k, v in asdict(settings).items() if k not in NO_EFFECT}
-    worlds = (
-        []
-        if settings.worlds in ("committed", "generated")
-        else sorted(Path(settings.worlds).expanduser().glob("*.yaml"))
-    )
-    inputs = [*worlds, *([] if settings.training is None else [Path(settings.training).expanduser()])]
+    inputs = _inputs(settings)
     if inputs:
         kept["inputs"] = hashlib.sha256(b"\0".join(path.read_bytes() for path in inputs)).hexdigest()
     return json.dumps(kept, indent=2, sort_keys=True) + "\n"
+
+
+def _inputs(settings: Settings) -> list[Path]:
+    """The files that a run reads besides its settings."""
+    training = [] if settings.training is None else [at_home(settings.training)]
+    if settings.worlds in ("committed", "generated"):
+        return training
+    return [*sorted(at_home(settings.worlds).glob("*.yaml")), *training]
 
 
 def _difference(held: str, wanted: str) -> str:

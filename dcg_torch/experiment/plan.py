@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import functools
-from pathlib import Path
 
 import numpy as np
 
 from dcg_torch.settings import Order, Settings, SettingsError
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import World, load_worlds
 from dcg_torch.world.generator import generate_world
@@ -39,7 +39,7 @@ def trial_worlds(settings: Settings, rng: np.random.Generator) -> list[World]:
             return [draw(f"generated_{k:02d}") for k in range(settings.worlds_per_trial)]
         except ValueError as error:
             raise SettingsError(f"worlds=generated: {error}") from None
-    return _worlds_of(resource("worlds") if settings.worlds == "committed" else Path(settings.worlds).expanduser())
+    return _worlds_of(resource("worlds") if settings.worlds == "committed" else at_home(settings.worlds))
 
 
 _worlds_of = functools.cache(load_worlds)

@@ -31,6 +31,7 @@ from dcg_torch.experiment.journal import Journal
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off, works_alone
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.records import Iteration
 
 SEEN_WITHIN = 90.0
@@ -141,8 +142,8 @@ def _await_lines(directory: Path, trials: Sequence[int]) -> None:
 def _far(settings: Settings) -> Settings:
     """The settings for a process that has another working folder."""
     named = settings.worlds in ("committed", "generated")
-    worlds = settings.worlds if named else str(Path(settings.worlds).expanduser().absolute())
-    training = settings.training and str(Path(settings.training).expanduser().absolute())
+    worlds = settings.worlds if named else str(at_home(settings.worlds).absolute())
+    training = settings.training and str(at_home(settings.training).absolute())
     return replace(settings, worlds=worlds, training=training)
 
 

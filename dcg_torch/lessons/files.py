@@ -14,7 +14,7 @@ from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import Strict, problem_of, read_yaml, shown
+from dcg_torch.storage.foreign import Strict, at_home, problem_of, read_yaml, shown
 from dcg_torch.types import Child, Correspondence, Example, Grounding, Percept, Phrase, PhraseKind, Symbol, WorldModel
 
 _Words = Annotated[str, Field(strict=True, min_length=1, max_length=200, pattern=r"\S")]
@@ -57,7 +57,7 @@ def initial_training() -> TrainingSet:
 
 def training_set(path: str | Path | None) -> TrainingSet:
     """The training set of a setting `training=FILE`; None is the one that comes along."""
-    return initial_training() if path is None else read_training(Path(path).expanduser())
+    return initial_training() if path is None else read_training(at_home(path))
 
 
 def read_training(path: str | Path) -> TrainingSet:

@@ -18,7 +18,7 @@ from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
 from dcg_torch.report.text import printable
-from dcg_torch.storage.foreign import read_yaml
+from dcg_torch.storage.foreign import pipe_in, read_yaml
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
@@ -60,6 +60,8 @@ def load_run(directory: Path) -> Run:
     Raises:
         ReportError: if it is none, holds no finished command, or one of its files is damaged.
     """
+    if (pipe := pipe_in(directory)) is not None:
+        raise ReportError(f"{pipe}: this is a pipe; remove it")
     summary = read_summary(directory / SUMMARY) if (directory / SUMMARY).exists() else None
     if summary is None and not (directory / ROWS).exists():
         raise ReportError(f"{directory}: no {SUMMARY} or {ROWS} in it; give the folder of a run or of a sweep")

@@ -10,6 +10,7 @@ from collections.abc import Collection, Iterator
 from pathlib import Path
 
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.whole import sweep_parts
 
 LOCK = ".lock"
@@ -59,7 +60,7 @@ def check_place(directory: Path, marks: Collection[str] = (), *, setting: str = 
     """
     try:
         where = directory.absolute().resolve()
-        if where in (Path("/"), Path.home().resolve(), Path.cwd().resolve()) or str(directory) == "":
+        if where in (Path("/"), at_home("~").resolve(), Path.cwd().resolve()) or str(directory) == "":
             raise ClaimError(f"{setting}={directory}: this is {where} itself; give a folder of its own")
         if directory.exists() and not directory.is_dir():
             raise ClaimError(f"{setting}={directory}: this is no folder; give another name")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import difflib
 import functools
 import json
+import os
 import unicodedata
 from collections.abc import Hashable, Sequence
 from pathlib import Path
@@ -68,6 +69,20 @@ def read_text(path: Path, what: str, error: type[Exception], encoding: str = "ut
     except (OSError, RuntimeError) as wrong:  # RuntimeError: links that lead in a circle, on older Pythons
         said = getattr(wrong, "strerror", None) or "its links lead in a circle"
         raise error(f"{path}: cannot be read: {said}") from None
+
+
+def at_home(path: Path | str) -> Path:
+    """A path as a user wrote it, with `~` as in a shell: where nobody's home is known, it stays as it is."""
+    return Path(os.path.expanduser(path))
+
+
+def pipe_in(directory: Path) -> Path | None:
+    """A pipe in a folder or below it, where only files belong: who reads from it waits for ever."""
+    for folder, _, names in os.walk(directory):
+        for path in (Path(folder, name) for name in names):
+            if path.is_fifo():
+                return path
+    return None
 
 
 class _Loader(yaml.SafeLoader):

@@ -164,10 +164,11 @@ def write_whole_folder(path: Path, content: Callable[[Path], object]) -> Path:
         for file in part.rglob("*"):
             if file.is_file():
                 _to_disk(file)
-        if path.exists():
+        if os.path.lexists(path):  # a link to nowhere, too
             os.rename(path, old)
         os.rename(part, path)
     finally:
         for rest in (part, old):
-            shutil.rmtree(rest, ignore_errors=True)
+            with contextlib.suppress(OSError):
+                remove(rest)
     return path

@@ -17,6 +17,7 @@ from pathlib import Path
 from types import FrameType
 from typing import NamedTuple
 
+from hydra.core.global_hydra import GlobalHydra
 from readers import LONGEST, Reader, readers
 
 INPUTS = 20_000
@@ -47,7 +48,9 @@ def feed_all(
     choice = [name for name in all_of_them if not only or name in only.split(",")]
     for k, name in enumerate(choice):
         share = time.monotonic() + (until - time.monotonic()) / (len(choice) - k)
-        fed = _feed(name, all_of_them[name], start, directory / "input", share, inputs)
+        with warnings.catch_warnings():
+            fed = _feed(name, all_of_them[name], start, directory / "input", share, inputs)
+        GlobalHydra.instance().clear()  # the parts that follow start programs in forks of this process
         good &= not fed.wrong and fed.slowest < _SLOWEST and fed.most < _MOST and fed.tried > 0
         said.append(f"\n    {name}: {fed}")
         print(f"fuzz    {name}: {fed}", file=sys.stderr, flush=True)

@@ -16,6 +16,7 @@ import numpy as np
 from convert_making import GRAPH, STATEMENTS, edge, example, node
 from hostile import EPISODE, TRAINING, WORLD
 from hydra import compose, initialize_config_dir
+from hydra.core.global_hydra import GlobalHydra
 from making import command_tree, saw
 from report_rows import row, run, timing
 from rich.console import Console
@@ -166,7 +167,9 @@ def _overrides(rng: random.Random, folder: Path) -> list[str]:
 
 def _composed(overrides: list[str]) -> Settings:
     """What the command line makes of overrides, and how it refuses them."""
-    _hydra()
+    if not GlobalHydra.instance().is_initialized():  # once for all inputs
+        register()
+        initialize_config_dir(str(resource("conf")), version_base="1.3")
     try:
         refuse_nothing(overrides)
         return settings_of(compose("config", overrides))
@@ -174,13 +177,6 @@ def _composed(overrides: list[str]) -> Settings:
         raise UserError(plain(" ".join(explain(error).split()), LONGEST)) from None  # as `cli.application` says it
     except OSError as error:  # a name too long
         raise UserError(plain(explain_os_error(error), LONGEST)) from None
-
-
-@functools.cache
-def _hydra() -> None:
-    """Once for all inputs."""
-    register()
-    initialize_config_dir(str(resource("conf")), version_base="1.3")
 
 
 _Saved = dict[str, tuple[dict[str, Any], dict[str, np.ndarray]]]

@@ -247,6 +247,8 @@ class Answers:
         if one is None or taken >= self._per_object:
             return Added(False)
         seconds = time.time() - one.shown if one.shown is not None and one.item == item.id else None
+        if seconds is not None and seconds < 0.0:  # the clock was put back
+            seconds = None
         at = {"place": len(mine) + 1, "number": taken + 1, "seconds": seconds, "at": _now()}
         session.add(Written(person=person, item=item.id, world=item.world, object=item.object, text=text, **at))
         return Added(True)

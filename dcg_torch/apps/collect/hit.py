@@ -5,13 +5,13 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Callable
-from pathlib import Path
 from urllib.parse import urlsplit
 
 from dcg_torch.apps.collect.page import page
 from dcg_torch.apps.collect.settings import HitSettings
 from dcg_torch.apps.collect.tasks import PICTURES, CollectError, prepare, task_worlds
 from dcg_torch.storage.claim import check_place
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.whole import write_whole
 
 TASK, CSV = "task.html", "pictures.csv"
@@ -30,7 +30,7 @@ def make_hit(settings: HitSettings, say: Callable[[str], object]) -> str:
             f"pictures_at={settings.pictures_at}: write the https address below which you will put the pictures, "
             "as in pictures_at=https://example.org/pictures; browsers leave out http pictures on a page of https"
         )
-    worlds, folder = task_worlds(settings), Path(settings.folder).expanduser()
+    worlds, folder = task_worlds(settings), at_home(settings.folder)
     check_place(folder, (TASK,), setting="folder")
     write_whole(folder / TASK, page("hit.html", settings=settings))
     items = prepare(folder, worlds, say)

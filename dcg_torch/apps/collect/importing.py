@@ -17,7 +17,7 @@ from dcg_torch.apps.collect.texts import copied, empty, normal, tidy
 from dcg_torch.language import default_parser
 from dcg_torch.language.tokens import mend, normal_noun, tokens
 from dcg_torch.storage.claim import check_place
-from dcg_torch.storage.foreign import misspelt, plain, shown
+from dcg_torch.storage.foreign import at_home, misspelt, plain, shown
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 from dcg_torch.world.files import World, WrittenCommand, load_worlds
 from dcg_torch.world.writing import yaml_lines
@@ -111,8 +111,8 @@ def import_results(source: str, settings: ImportSettings) -> str:
     Raises:
         UserError: something cannot be read or written, or there is nothing to keep.
     """
-    folder = Path(settings.folder).expanduser()
-    beside = Path(source).expanduser().parent / WORLDS
+    folder = at_home(settings.folder)
+    beside = at_home(source).parent / WORLDS
     if settings.worlds is None and ("://" in source or not beside.is_dir()):
         raise CollectError(
             f"{plain(source, 200)}: no folder of worlds beside it; name one: worlds=committed, worlds=FOLDER"

@@ -18,6 +18,7 @@ from dcg_torch.apps.collect.tasks import PICTURES, CollectError, prepare, task_w
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.keyvalue import read_settings, settings_text
 from dcg_torch.storage.claim import check_place
+from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.whole import write_whole
 
 _SALT, _DATABASE = "salt", "answers.sqlite"
@@ -39,7 +40,7 @@ def serve(settings: ServeSettings) -> None:
     Raises:
         UserError: the worlds, the folder, the database or the address will not do.
     """
-    folder, worlds = Path(settings.folder).expanduser(), task_worlds(settings)
+    folder, worlds = at_home(settings.folder), task_worlds(settings)
     check_place(folder, (_SALT,), setting="folder")
     salt = _salt(folder / _SALT)
     items = prepare(folder, worlds, _say)

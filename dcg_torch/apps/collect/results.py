@@ -12,7 +12,7 @@ from typing import Any
 
 from dcg_torch.apps.collect.database import read_rows, sqlite_url
 from dcg_torch.apps.collect.tasks import CollectError
-from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text
+from dcg_torch.storage.foreign import at_home, misspelt, plain, read_json, read_text
 
 TURK = {"person": "WorkerId", "world": "Input.world", "object": "Input.object", "text": "Answer.command"}
 OURS = {"person": "person", "world": "world", "object": "object", "text": "text"}
@@ -39,7 +39,7 @@ def read_results(source: str) -> list[Row]:
     Raises:
         CollectError: it is none of these, or a column is missing.
     """
-    path = Path(source).expanduser()
+    path = at_home(source)
     if "://" not in source and not _is_sqlite(path):
         return list(_csv_rows(path, read_text(path, "file of results", CollectError, "utf-8-sig")))
     if (file := source.removeprefix("sqlite:///")) != source and not Path(file).is_file():

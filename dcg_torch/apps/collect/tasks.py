@@ -15,7 +15,7 @@ from PIL import Image
 from dcg_torch.apps.collect.settings import TaskSettings
 from dcg_torch.simulator.screenshot import pair_pictures
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import shown
+from dcg_torch.storage.foreign import at_home, shown
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.world.files import World, load_world, load_worlds
@@ -58,7 +58,7 @@ def task_worlds(settings: TaskSettings) -> list[World]:
 
 def worlds_folder(name: str) -> Path:
     """The folder that a setting names."""
-    return resource("worlds") if name == "committed" else Path(name).expanduser()
+    return resource("worlds") if name == "committed" else at_home(name)
 
 
 def items_of(worlds: Sequence[World]) -> dict[str, Item]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import secrets
 from datetime import datetime
 from pathlib import Path
 
@@ -45,7 +46,8 @@ def world_of(settings: TalkSettings) -> World:
 def _application(config: DictConfig) -> None:
     with one_line_errors(program="talk"):
         settings = talk_settings_of(config)
-        new_file = f"runs/talk_{datetime.now():%Y-%m-%d_%H-%M-%S}/session.jsonl"
+        # The random part: two of one second, or a clock put back, must not go on with the session of another.
+        new_file = f"runs/talk_{datetime.now():%Y-%m-%d_%H-%M-%S}_{secrets.token_hex(3)}/session.jsonl"
         file = Path(settings.session or new_file)
         world = None if file.exists() else world_of(settings)
 
