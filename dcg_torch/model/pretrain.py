@@ -18,7 +18,7 @@ from dcg_torch.model.checkpoint import load
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam=12)
 _ASSUMED = Assumptions(nouns=Prior(names=True))
-LESSONS = 1500
+LESSONS = 2250
 _ROUNDS = 3
 SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
