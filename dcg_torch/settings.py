@@ -138,7 +138,7 @@ class ModelSettings:
     hypothetical: bool = _setting(True, "believe in objects out of view")
     learns: bool = _setting(True, "learn new words")
     ternary: bool = _setting(True, "correspondences -1, 0, 1 (eq. 4); false: 0 and 1 (eq. 6)")
-    l2: float = _setting(0.05, "penalty on the weights", Bounds(0, 1e6, open=True))
+    l2: float = _setting(0.05, "penalty on the weights", Bounds(1e-6, 1e6))  # below: the fit is singular
     beam: int = _setting(8, "configurations kept a phrase", Bounds(1, 1_000))
     lessons: int = _setting(0, "generated lessons on relations before the first command", Bounds(0, MOST))
     learner: LearnerKind = _setting(
@@ -284,8 +284,10 @@ def check(settings: Settings) -> None:
         SettingsError: one of them does not.
     """
     check_bounds(settings)
-    if settings.simulator.spin_step == 0.0:
-        raise SettingsError("simulator.spin_step=0: the robot would never look round; give degrees up to 57")
+    if abs(step := settings.simulator.spin_step) < _LEAST_STEP:
+        raise SettingsError(
+            f"simulator.spin_step={_short(step)}: the robot would look round for ever; give degrees from 1 to 57"
+        )
     if not isinstance(settings.animate, (list, tuple)):
         raise SettingsError(f"animate={_short(settings.animate)}: give a list of trials, such as animate=[0,1]")
     wrong = [t for t in settings.animate if not isinstance(t, int) or not 0 <= t < settings.trials]
@@ -307,4 +309,5 @@ def check(settings: Settings) -> None:
         )
 
 
+_LEAST_STEP = 1.0  # degrees: 360 looks a turn
 _FEWEST_OBJECTS = 0.05  # expected in a world, so that one of the generator's 1,000 draws has an object

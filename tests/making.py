@@ -99,6 +99,7 @@ class Read:
     problem: str | None = None
     text: str = ""
     log_weight: float = 0.0
+    rules: tuple[str, ...] = ()
 
     @property
     def readings(self) -> Sequence[Any]:

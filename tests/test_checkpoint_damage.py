@@ -91,6 +91,7 @@ DESCRIPTIONS: list[tuple[str, str, Damage, str]] = [
     ("beam 0", "paper", lambda d: d["variant"].update(beam=0), "beam"),
     ("beam without end", "paper", lambda d: d["variant"].update(beam=10**9), "beam"),
     ("l2 below 0", "paper", lambda d: d["variant"].update(l2=-1.0), "l2"),
+    ("l2 next to nothing", "paper", lambda d: d["variant"].update(l2=5e-324), "l2"),
     ("l2 infinite", "paper", lambda d: d["variant"].update(l2=float("inf")), "l2"),
     ("l2 no number", "paper", lambda d: d["variant"].update(l2=float("nan")), "l2"),
     ("too many labels", "paper", lambda d: noun_example(d)["correspondences"].extend([0] * 50), "more labels"),

@@ -44,7 +44,7 @@ WRONG = [
     pytest.param(["explain=nobody"], ["explain=nobody", "no test episode", "e0"], id="unknown episode"),
     pytest.param(["rounds=0"], ["rounds=0", "from 1 to"], id="no rounds"),
     pytest.param(["folds=3"], ["folds=3", "no test file"], id="folds and a test"),
-    pytest.param(["model.l2=0"], ["model.l2=0", "above 0"], id="no penalty"),
+    pytest.param(["model.l2=0"], ["model.l2=0", "from 1e-06 to 1e+06"], id="no penalty"),
     pytest.param(["learm=true"], ["learm", "did you mean learn?"], id="misspelt key"),
     pytest.param(["+learm=true"], ["learm", "did you mean learn?"], id="added key"),
     pytest.param(["test=null"], ["test", "no file given"], id="no file"),

@@ -6,6 +6,7 @@ import errno
 import itertools
 import json
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -16,6 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from hostile import EPISODE
 from making import typed
 
 from dcg_torch.cli.run import main
@@ -261,3 +263,14 @@ def test_a_pipe_that_closes_and_a_full_output_are_one_line(tmp_path: Path) -> No
         os.close(write_end)
         assert (done.returncode, done.stderr.count("\n")) == (2, 1), done.stderr
         assert says in done.stderr
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("module", ["dcg_torch", "dcg_torch.evaluate"])
+def test_a_closed_stream_takes_nothing_and_breaks_nothing(module: str, tmp_path: Path) -> None:
+    """As in `>&-`: what is opened first would get the number of the stream, and what is printed would go into it."""
+    (tmp_path / "e.jsonl").write_text(json.dumps(EPISODE) + "\n")
+    given = (*PLAIN, "workers=2") if module == "dcg_torch" else (f"test={tmp_path / 'e.jsonl'}",)
+    line = shlex.join([sys.executable, "-m", module, *given, f"hydra.run.dir={tmp_path / 'run'}"])
+    done = subprocess.run(["sh", "-c", f"{line} <&- >&-"], stderr=subprocess.PIPE, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")

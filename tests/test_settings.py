@@ -87,6 +87,7 @@ def test_generated_worlds_that_pass_the_check_can_be_drawn(types: int, colors: i
 
 WRONG = [
     ("model.l2=inf", "model.l2=inf"),
+    ("model.l2=1e-320", "model.l2=1e-320: give a number from 1e-06 to"),  # a singular matrix
     ("model.groups=[]", "model.groups=[]"),
     ("model=null", "model=null: there is no such model; choose from dcg, "),
     ("model=schema", "model=schema: there is no such model"),
@@ -101,6 +102,8 @@ OF_EXPERIMENTS = [
     ("seed=-1", "seed=-1"),
     ("train=x.jsonl", "train: there is no such setting; did you mean training?"),
     ("simulator.spin_step=0", "spin_step=0"),
+    ("simulator.spin_step=-1e-9", "simulator.spin_step=-1e-09: the robot would look round for ever"),
+    ("hydra.job.chdir=true", "hydra.job.chdir=true: files are named from where you are"),
     ("animate=[0]", "animate"),
     ("hydra/launcher=joblibs", "hydra/launcher=joblibs: there is no such"),
 ]

@@ -7,6 +7,7 @@ import itertools
 import os
 import subprocess
 import sys
+import threading
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -18,7 +19,14 @@ from hypothesis import strategies as st
 from dcg_torch.storage.claim import LOCK, ClaimError, check_place, claim
 from dcg_torch.storage.errors import explain_os_error
 from dcg_torch.storage.foreign import misspelt, plain, shown
-from dcg_torch.storage.whole import _to_disk, sweep_parts, write_whole, write_whole_files, write_whole_folder
+from dcg_torch.storage.whole import (
+    _to_disk,
+    read_whole_files,
+    sweep_parts,
+    write_whole,
+    write_whole_files,
+    write_whole_folder,
+)
 
 
 class TestWhole:
@@ -95,6 +103,34 @@ class TestWhole:
             assert (tmp_path / "weights").read_bytes() == description.read_bytes()
         write_whole_files(tmp_path, {"weights": b"new", "description": b"new"})
         assert {p.name: p.read_bytes() for p in tmp_path.iterdir()} == {"weights": b"new", "description": b"new"}
+
+    def test_who_reads_while_it_is_written_anew_gets_files_of_one_writing(self, tmp_path: Path) -> None:
+        """The reader opens the old description; before it reads the weights, they are those of another writing."""
+        write_whole_files(tmp_path, {"weights": b"0", "description": b"0"})
+        stop = threading.Event()
+
+        def writes() -> None:
+            for number in itertools.count(1):
+                write_whole_files(tmp_path, {"weights": b"%d" % number, "description": b"%d" % number})
+                if stop.is_set():
+                    return
+
+        writer = threading.Thread(target=writes)
+        writer.start()
+        try:
+            for _ in range(300):
+                found = read_whole_files(tmp_path, ("weights", "description"))
+                assert found["weights"] == found["description"]
+        finally:
+            stop.set()
+            writer.join()
+
+    def test_files_that_a_killed_writing_left_without_their_last_are_missing(self, tmp_path: Path) -> None:
+        (tmp_path / "weights").touch()
+        with pytest.raises(FileNotFoundError, match="description"):
+            read_whole_files(tmp_path, ("weights", "description"))
+        with pytest.raises(FileNotFoundError, match="description"):
+            read_whole_files(tmp_path / "none", ("weights", "description"))
 
     def test_what_killed_writers_left_is_swept_up(self, tmp_path: Path) -> None:
         (tmp_path / "trials").mkdir()

@@ -15,7 +15,7 @@ from hydra._internal.utils import get_args_parser
 
 from dcg_torch import __version__
 from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
-from dcg_torch.report.terminal import CLOSED, close_output
+from dcg_torch.report.terminal import CLOSED, close_output, open_closed
 from dcg_torch.storage.errors import UserError, explain_os_error
 from dcg_torch.storage.foreign import plain
 
@@ -51,6 +51,7 @@ def one_line_errors(directory: Path | None = None, goes_on: str = "", program: s
         goes_on: what to say after "interrupted", of how to go on.
         program: of `settings_help.SCHEMAS`.
     """
+    open_closed()
     try:
         yield
     except CONFIG_ERRORS as error:

@@ -126,8 +126,11 @@ _ENDLESS = re.compile(r"[0-9]{300}")  # beyond what a float holds
 
 def _refuse_choices() -> None:
     """See that a kind of model and of simulator was chosen, not just their schema."""
-    choices = HydraConfig.get().runtime.choices.items() if HydraConfig.initialized() else ()
-    for group, chosen in choices:
+    if not HydraConfig.initialized():
+        return
+    if HydraConfig.get().job.chdir:
+        raise SettingsError("hydra.job.chdir=true: files are named from where you are; leave it out")
+    for group, chosen in HydraConfig.get().runtime.choices.items():
         if group in _GROUPS and chosen in (None, "null", "schema"):
             _refuse_choice(group, chosen or "null")
 

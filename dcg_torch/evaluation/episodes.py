@@ -254,7 +254,9 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
     unit = float(np.median(nearest)) if nearest else 1.0
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
         return Workspace(None, unit)
-    return Workspace(scene.scene_bounds([o.position for e in episodes for o in e.objects], episodes[0].pose), unit)
+    bounds = [scene.scene_bounds([o.position for o in e.objects], e.pose) for e in episodes if e.objects]
+    near, far, right, left = zip(*bounds, strict=True)
+    return Workspace((min(near), max(far), min(right), max(left)), unit)
 
 
 def own_scale(episode: Episode, where: Workspace) -> Workspace:

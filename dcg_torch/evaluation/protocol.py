@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
-from dcg_torch.grounding.readings import looking
+from dcg_torch.grounding.readings import worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import CommandParser, ParsedCommand
 from dcg_torch.learning.landmarks import Lesson
@@ -140,10 +140,12 @@ def train(
         where, kept = workspace(corpus), training.kept(corpus)
         weight = 1.0 if len(corpora) == 1 else min(1.0, math.sqrt(_FULL_WEIGHT / max(1, len(kept))))
         for episode in kept:
-            tree = parse(episode.text, ()).tree
-            if tree is not None and episode.target:
+            read = parse(episode.text, ())
+            if read.readings and episode.target:
                 world = test_world(model, episode, where)
-                lessons.append(Lesson(looking(tree, episode.text, world), world, frozenset(episode.target), weight))
+                readings = worth_grounding(read, world, model.learner.readings)
+                lesson = Lesson(readings[0].tree, world, frozenset(episode.target), weight, tuple(readings))
+                lessons.append(lesson)
     model.teach(
         lessons,
         known_types=training.known_types,

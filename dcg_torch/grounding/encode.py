@@ -111,7 +111,7 @@ class WorldEncoder:
         if thing.members:
             colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
         if self.related and j >= objects:
-            states = (*states, "kind: group" if thing.members else "kind: place")
+            states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
         return self.features.thing_columns(thing, states, colors)
 
     def things(self, phrase: Phrase) -> Bag:
@@ -154,8 +154,12 @@ class WorldEncoder:
         few = len(ranks) <= _FEW
         return self.unranked(phrase).beside(Coded(ranks, None) if few else Coded(*distinct_rows(ranks)))
 
-    def relations(self, landmarks: Sequence[tuple[int, ...]], among: str) -> list[NDArray[np.int16]]:
+    def relations(
+        self, landmarks: Sequence[tuple[int, ...]], among: str, members: NDArray[np.bool_] | None = None
+    ) -> list[NDArray[np.int16]]:
         """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
+        if members is not None:
+            return list(scene.relations(self.layout, landmarks, among, members))
         new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
         step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
         for start in range(0, len(new), max(1, step)):
@@ -164,12 +168,21 @@ class WorldEncoder:
             self._found.update({(of, among): one for of, one in zip(part, found, strict=True)})
         return [self._found[of, among] for of in landmarks]
 
-    def placed(self, landmarks: Sequence[tuple[int, ...]], counted: Ranking | None) -> Bag:
-        """(landmarks, things, k) bag of a modifier's factors, to each tuple of numbers of landmarks."""
+    def placed(
+        self,
+        landmarks: Sequence[tuple[int, ...]],
+        counted: Ranking | None,
+        members: NDArray[np.bool_] | None = None,
+    ) -> Bag:
+        """(landmarks, things, k) bag of a modifier's factors, to each tuple of numbers of landmarks.
+
+        Args:
+            members: (things,) those among which it ranks; None: those that `counted` names.
+        """
         counted = counted or Ranking("all")
         if not self.related:
             return np.full((len(landmarks), len(self.all), 1), self.features.placed_column)
-        return self.features.relation_columns(np.stack(self.relations(landmarks, counted.among)), counted)
+        return self.features.relation_columns(np.stack(self.relations(landmarks, counted.among, members)), counted)
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of the factors of an example in this world."""

@@ -6,8 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
+from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
+
+_OF_TWO = frozenset({"between", "in the middle of"})
+"""Prepositions that say how a thing stands to two landmarks at once."""
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:
@@ -47,6 +51,16 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
+    found = _described(tree, world)
+    return found if world is None else _said_in(found, scene_kind(world))
+
+
+def _said_in(tree: ParseTree, scene: str) -> ParseTree:
+    children = tuple(_said_in(child, scene) for child in tree.children)
+    return ParseTree(replace(tree.phrase, scene=scene), children)
+
+
+def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
     tree = in_plain_words(tree, frozenset() if world is None else heads(o.type for o in world.objects if o.type))
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
@@ -84,7 +98,14 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
     phrase, described = _counted_from(phrase, described)
     phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
-    return ParseTree(phrase, tuple(_modifier(child, phrase) for child in described))
+    return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
+
+
+def _apart(tree: ParseTree) -> list[ParseTree]:
+    """ "Next to the cube and the cone" is next to each of them; "between" needs both."""
+    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in _OF_TWO:
+        return [tree]
+    return [replace(tree, children=(landmark,)) for landmark in tree.children]
 
 
 def _counted_from(phrase: Phrase, described: list[ParseTree]) -> tuple[Phrase, list[ParseTree]]:
@@ -103,7 +124,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     if words[0].startswith(f"{NOT} "):
         words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
     landmarks = [_noun(n, (f"landmark: of {' '.join(words)}", "landmark: of any")) for n in tree.children]
-    if words[0] in ("between", "in the middle of") and len(landmarks) == 1 and landmarks[0].phrase.plural:
+    if words[0] in _OF_TWO and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None
     phrase = Phrase(

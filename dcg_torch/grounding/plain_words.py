@@ -48,6 +48,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
     Args:
         there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
     """
+    tree = _middle_of_set(_sided(tree))
     phrase, below = tree.phrase, tuple(in_plain_words(child, there) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
     if phrase.kind is not PhraseKind.NOUN:
@@ -63,11 +64,69 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    if not COMPASS.keys().isdisjoint(phrase.words):
+        words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
     return ParseTree(replace(phrase, words=words), children)
+
+
+def _sided(tree: ParseTree) -> ParseTree:
+    """ "In the bottom row" is closest to the bottom; "your side of the table" is where you are."""
+    if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
+        return tree
+    landmark = tree.children[0]
+    phrase, name = landmark.phrase, tree.phrase.words[0]
+    side = next((word for word in phrase.words if word in _SIDES_OF.get(phrase.noun or "", ())), None)
+    if side is not None and name in _WITHIN and not (phrase.plural or landmark.children):
+        place = ParseTree(replace(phrase, noun=SYNONYMS.get(side, side), words=()))
+        return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (place,))
+    owner = next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
+    sided = not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()) or name not in _AT_SIDE
+    if owner is None or sided or phrase.noun not in ("side", "end", "edge"):
+        return tree
+    who = ParseTree(replace(phrase, noun=owner, words=()))
+    return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
+
+
+_SIDES_OF = dict.fromkeys(("row", "line"), frozenset({"top", "bottom", "upper", "lower"}))
+_SIDES_OF["column"] = frozenset({"left", "right", "leftmost", "rightmost"})
+_WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
+_AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
+OWNED_BY = {"your": "you", "my": "me"}
+
+
+def _middle_of_set(tree: ParseTree) -> ParseTree:
+    """ "The cube in the middle of the five cubes on the left" is the middle one of those on the left."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return tree
+    for k, place in enumerate(tree.children):
+        name, landmark = place.phrase.words[0], place.children[0].phrase if len(place.children) == 1 else phrase
+        loose = _CLUSTERS & {*landmark.words}
+        inside = name == _MIDDLE_OF or (bool(loose) and name in INSIDE and "middle" in phrase.words)
+        if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
+            continue
+        others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
+        number = next((int(w[3:]) for w in landmark.words if w[:3] == "of " and w[3:].isdecimal()), landmark.count)
+        if others or number == 2 or phrase.plural:
+            continue
+        few = () if number is None else (f"of {number}",)
+        words = tuple(dict.fromkeys((*phrase.words, "middle", *few)))
+        one = replace(phrase, noun=phrase.noun or landmark.noun, color=phrase.color or landmark.color, words=words)
+        return ParseTree(one, (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :]))
+    return tree
+
+
+_MIDDLE_OF = "in the middle of"
+_CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == ("cluster",))
+
+
+def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
+    nouns, colors = {phrase.noun, several.noun} - {None}, {phrase.color, several.color} - {None}
+    return len(nouns) == 1 and len(colors) <= 1
 
 
 def _picks(tree: ParseTree) -> str | None:

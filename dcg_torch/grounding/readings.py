@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import re
 from collections import defaultdict
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -16,14 +16,37 @@ from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import stated_values
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
-NEGLIGIBLE = 3.0
+_NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
 _SENSELESS = math.log(1e-6)
+
+
+@dataclass(frozen=True)
+class Reading:
+    """A reading as it is grounded: what it says, its log-weight, and the choices that led to it."""
+
+    tree: ParseTree
+    log_weight: float
+    rules: tuple[str, ...] = ()
+
+
+def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[str, float]) -> list[Reading]:
+    """The readings of a command that are not negligible, the likeliest first.
+
+    Args:
+        world: what may be told by looking is added to their trees.
+        learned: "rule=option" -> what is added to the log-weight of readings that took the option.
+    """
+    weighed = [(r, r.log_weight + sum(learned.get(rule, 0.0) for rule in r.rules)) for r in command.readings]
+    weighed.sort(key=lambda one: -one[1])
+    kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
+    return [Reading(looking(r.tree, command.text, world), weight, tuple(r.rules)) for r, weight in kept]
 
 
 class SharedSearch:
@@ -77,20 +100,18 @@ class SharedSearch:
         return self._grouped
 
 
-def sum_over_frames(
-    searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[tuple[ParseTree, float]]
-) -> Solution:
+def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:
     """The sum over the frames of reference, and over the readings in each.
 
     Args:
         searches: in the world as it is seen in each frame, with the log-probability of the frame; the robot's first.
-        readings: trees with their log-weights, the likeliest first.
+        readings: the likeliest first.
     """
     found = [
-        [search.ground(from_the_other_side(tree) if search.world.viewer else tree) for tree, _ in readings]
+        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree) for r in readings]
         for search, _ in searches
     ]
-    weights = [[frame + of_reading for _, of_reading in readings] for _, frame in searches]
+    weights = [[frame + r.log_weight for r in readings] for _, frame in searches]
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
     if len(searches) == 1:
         return solution
@@ -120,7 +141,7 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     """
     if len(solutions) == 1:
         return solutions[0]
-    scores = [w + _sense(s) for w, s in zip(log_weights, solutions, strict=True)]
+    scores = [w + sense(s) for w, s in zip(log_weights, solutions, strict=True)]
     most = max(scores)
     shares = [math.exp(s - most) for s in scores]
     whole = sum(shares)
@@ -137,7 +158,7 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     return replace(solutions[best], probabilities=own)
 
 
-def _sense(solution: Solution) -> float:
+def sense(solution: Solution) -> float:
     """Logarithm of how well a reading names something that is there."""
     return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
 

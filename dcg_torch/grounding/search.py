@@ -11,21 +11,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import log_odds_of_absence
+from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.features import GROUNDING_OF, ranking
+from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.patterns import Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
-from dcg_torch.types import NOT, Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
-
-_IN_THE_SET = math.log(0.5)
-_BEHIND = 6.0
-"""A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
-just the name and of another colour is still described well, but not where one of the colour is there."""
 
 _FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
@@ -83,7 +79,7 @@ class Search:
         self._beam = beam
         self._nouns: dict[tuple[ParseTree, bool], _Scored] = {}
         self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
-        self._modifiers: dict[ParseTree, ModifierFactor] = {}
+        self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
 
     def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
@@ -172,25 +168,28 @@ class Search:
             found = self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
         return found
 
-    def _modifier(self, tree: ParseTree) -> ModifierFactor:
-        """The factor of a modifier, from its log Psi under every choice of landmarks."""
-        found = self._modifiers.get(tree)
+    def _modifier(self, tree: ParseTree, compared: Bools | None = None) -> ModifierFactor:
+        """The factor of a modifier; what it ranks, it ranks among `compared`."""
+        key = (tree, None if compared is None else compared.tobytes())
+        found = self._modifiers.get(key)
         if found is None:
-            number, tables = self.encoder.number, self._tables
-            combos = list(itertools.product(*(self._beam_of(child, landmark=True) for child in tree.children)))
-            landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
-            table = tables.placed(self.encoder, tree.phrase, landmarks)
-            asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
-            scores = np.array([sum(h.log_score for h in combo) for combo in combos])
-            share = scores - np.logaddexp.reduce(scores)
-            mixture = table[tables.factor.correspondences.index(asserted)] + share[:, None]
-            found = self._modifiers[tree] = ModifierFactor(tree, combos, mixture)
+            beams = [self._beam_of(child, landmark=True) for child in tree.children]
+            found = self._modifiers[key] = modifier_factor(tree, beams, self.encoder, self._tables, compared)
         return found
+
+    def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
+        """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
+        own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
+        parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
+        some = parts and len(others) < len(own)
+        compared = comparison_set(tree, parts, self.encoder, self._tables) if some else None
+        return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
     def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
-        modifiers = [self._modifier(c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
-        compared = self._comparison_set(tree, modifiers) if ranks(tree) else None
+        modifiers = self._all_modifiers(tree)
+        compared = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
         table = self._tables.noun(self.encoder, tree.phrase, compared)
         correspondences = self._tables.factor.correspondences
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
@@ -241,17 +240,6 @@ class Search:
             known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
         return [known[key] for key in keys]
 
-    def _comparison_set(self, tree: ParseTree, modifiers: Sequence[ModifierFactor]) -> Bools:
-        """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best."""
-        table = self._tables.unranked(self.encoder, replace(tree.phrase, words=()))
-        number = self._tables.factor.correspondences.index
-        fit: Floats = np.where(self.encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
-        odds = fit - table[number(Correspondence.INACTIVE)]
-        for modifier in modifiers:
-            fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-        found: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
-        return found
-
     def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
@@ -300,19 +288,3 @@ class Search:
             below = (*scored.combos[c], *(modifier.hypothesis(j, thing) for modifier in scored.modifiers))
             found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
         return found
-
-
-def highest(values: Floats, count: int) -> NDArray[np.int64]:
-    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
-    if count == 1:
-        return np.array([values.argmax()])
-    if len(values) <= max(512, 2 * count):
-        return np.argsort(-values, kind="stable")[:count]
-    least = np.partition(values, len(values) - count)[len(values) - count]
-    among = np.flatnonzero(values >= least)
-    return among[np.argsort(-values[among], kind="stable")[:count]]
-
-
-def ranks(tree: ParseTree) -> bool:
-    """Is it a noun phrase with words that may rank?"""
-    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None

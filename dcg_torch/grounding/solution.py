@@ -62,11 +62,15 @@ class ModifierFactor:
     Attributes:
         combos: hypotheses of the landmarks; one for each child.
         mixture: (combos, things) the logarithm of the summands.
+        compared: (things,) those among which it ranks; None: all of a kind.
+        of_each: is it to each of a combo's landmarks ("behind the two cones"), not to both at once ("between")?
     """
 
     tree: ParseTree
     combos: Sequence[tuple[Hypothesis, ...]]
     mixture: NDArray[np.float64]
+    compared: NDArray[np.bool_] | None = None
+    of_each: bool = False
 
     @cached_property
     def _log_sum(self) -> NDArray[np.float64]:

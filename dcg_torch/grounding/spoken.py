@@ -19,6 +19,10 @@ class WeightedReading(Protocol):
     def log_weight(self) -> float:
         """log p(reading | command) before the world has spoken."""
 
+    @property
+    def rules(self) -> Sequence[str]:
+        """The weighted choices that led here, as "rule=option"."""
+
 
 class ReadCommand(Protocol):
     """A command that has been read."""

@@ -70,12 +70,22 @@ class Tables:
         odds: Floats = table[of(Correspondence.ACTIVE)] - table[of(Correspondence.INACTIVE)]
         return odds
 
-    def placed(self, encoder: WorldEncoder, phrase: Phrase, landmarks: Sequence[tuple[int, ...]]) -> Floats:
-        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks."""
+    def placed(
+        self,
+        encoder: WorldEncoder,
+        phrase: Phrase,
+        landmarks: Sequence[tuple[int, ...]],
+        members: np.ndarray | None = None,
+    ) -> Floats:
+        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks.
+
+        Args:
+            members: (things,) those among which it ranks; None: all of a kind.
+        """
         counted = ranking(phrase) or Ranking("all")
         n = len(encoder.all)
         if self._weight is None or not encoder.related:
-            bag = encoder.placed(landmarks, counted)
+            bag = encoder.placed(landmarks, counted, members)
             table = self._log_psi(phrase, bag.reshape(-1, bag.shape[2]))
             return table.reshape(len(table), len(landmarks), n)
         side = self._side(phrase)
@@ -86,7 +96,7 @@ class Tables:
         out = np.empty((len(side), len(landmarks), n))
         step = max(1, _ENTRIES // (n * 16))
         for start in range(0, len(landmarks), step):
-            found = np.array(encoder.relations(landmarks[start : start + step], counted.among), dtype=np.int64)
+            found = np.array(encoder.relations(landmarks[start : start + step], counted.among, members), dtype=np.int64)
             flat = found.reshape(-1, found.shape[2]).T
             total = np.zeros((len(side), flat.shape[1])) + first[:, None]
             for table in tables:

@@ -16,7 +16,7 @@ _CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 class Clause:
     """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases.
 
-    `refused` says why it is no order about a thing.
+    `refused` says why it is no order about a thing; `sentence` is the number of its sentence.
     """
 
     verb: Item | None = None
@@ -26,6 +26,7 @@ class Clause:
     statement: bool = False
     acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
+    sentence: int = 0
 
     @property
     def action(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import bisect
 import functools
 import gc
 import math
@@ -163,7 +164,9 @@ class _Command:
         groups = split(self.items, self.parts)
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
+        stops = [item.start for item in self.items if item.kind is Kind.STOP]
         for clause, group in zip(self.clauses, groups, strict=True):
+            clause.sentence = bisect.bisect(stops, group[0].start)
             refuse(clause, group, self.parts, words)
         return root(self.clauses, decisions)
 

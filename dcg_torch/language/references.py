@@ -35,10 +35,21 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     group = max(several, key=lambda noun: noun.start).copy()
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
+    _in_the_middle(one, group)
     if SETS["groups"].isdisjoint(group.words):
         one.children += group.children
     else:
         one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
+
+
+def _in_the_middle(one: Item, several: Item) -> None:
+    """ "(There are five cones.) The one in the middle" is the middle one of the five."""
+    for place in one.children:
+        if place.words == ("in",) and len(place.children) == 1 and place.children[0].noun in SETS["middles"]:
+            if not (place.children[0].children or place.children[0].words):
+                one.children.remove(place)
+                one.words += ("middle", *((f"of {several.count}",) if (several.count or 0) > 2 else ()))
+            return
 
 
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:

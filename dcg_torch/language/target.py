@@ -12,6 +12,9 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.language.references import arrive, describe_later, one_of_several, refer
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
+_FIRST_ORDER = "earlier_goal"
+"""Of two orders in one sentence ("go to the kitchen and take the cup") the first one's goal."""
+
 
 @dataclass(slots=True, eq=False)
 class Mention:
@@ -104,8 +107,26 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     options = {f"likeliest {first}": 0.0}
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
-            options[f"other {k}"] = step * (choice.score - best - 1.0)
+            name, weight = _relation(choice, found[first]), step * (choice.score - best - 1.0)
+            if name == _FIRST_ORDER and not any(other.clause is choice.clause for other in found[:k]):
+                weight = CHOICES["first_order"]
+            options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
+
+
+def _relation(other: Mention, chosen: Mention) -> str:
+    """How another mention stands to the likeliest one; readings are weighed by it."""
+    one, two = other.clause, chosen.clause
+    if one is two:
+        return "beside_it"
+    order = "earlier" if (one.sentence, other.noun.start) < (two.sentence, chosen.noun.start) else "later"
+    if one.sentence != two.sentence:
+        return f"{order}_sentence"
+    reached = one.action in VERBS["go"] and other.place is not None and other.place.words[0] in PLACING["toward"]
+    reached = reached or (other.place is None and one.action in VERBS["arrive"])
+    if not reached:
+        return f"{order}_clause"
+    return f"{order}_goal" if chosen.score >= TARGETS["take"] else f"{order}_way"
 
 
 def _resolved(chosen: Mention, found: list[Mention]) -> Mention:

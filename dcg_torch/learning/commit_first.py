@@ -58,6 +58,11 @@ class CommitFirst:
         """The paper knows one frame of reference."""
         return None
 
+    @property
+    def readings(self) -> Mapping[str, float]:
+        """The paper knows one reading of a command."""
+        return {}
+
     def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[CommitFirst, Learned]:
         """T with the outcome of a command that was acted on, and its symbol if there is one to learn."""
         if experience.taught:
@@ -81,6 +86,10 @@ class CommitFirst:
 
     def with_frames(self, frames: FrameCounts | None) -> CommitFirst:
         """There is one frame of reference alone."""
+        return self
+
+    def with_readings(self, readings: Mapping[str, float]) -> CommitFirst:
+        """There is one reading alone."""
         return self
 
     def taught(self, taught: Taught) -> CommitFirst:

@@ -21,6 +21,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.readings import Reading
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
@@ -50,12 +51,16 @@ _NEGLIGIBLE_CHANCE = 1e-3
 
 @dataclass(frozen=True)
 class Lesson:
-    """A command and the ids of the objects it means; `weight` scales its likelihood."""
+    """A command and the ids of the objects it means; `weight` scales its likelihood.
+
+    `readings` are all that may be meant, the one of `tree` first; none where there is no doubt.
+    """
 
     tree: ParseTree
     world: WorldModel
     targets: frozenset[str]
     weight: float = 1.0
+    readings: tuple[Reading, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -211,9 +216,10 @@ def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> M
     prior = np.array([sum(h.log_score for h in combo) for combo in modifier.combos])
     prior -= np.logaddexp.reduce(prior)
     combos = np.flatnonzero(prior >= prior.max() + math.log(_NEGLIGIBLE))
-    landmarks = [modifier.landmarks(c, encoder.number) for c in combos.tolist()]
+    most = 1 if modifier.of_each else None
+    landmarks = [modifier.landmarks(c, encoder.number)[:most] for c in combos.tolist()]
     phrase = modifier.tree.phrase
-    bag = encoder.placed(landmarks, ranking(phrase))[:, : len(kept)][:, kept]
+    bag = encoder.placed(landmarks, ranking(phrase), modifier.compared)[:, : len(kept)][:, kept]
     return Modified(phrase, bag, prior[combos], NOT in phrase.words)
 
 

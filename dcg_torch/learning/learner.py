@@ -87,6 +87,11 @@ class Learner(Protocol):
         """Whose left and right are meant; None where there is one frame of reference alone."""
         ...
 
+    @property
+    def readings(self) -> Mapping[str, float]:
+        """ "rule=option" -> what was learned to add to the log-weight of a reading that takes the option."""
+        ...
+
     def hear(self, solution: Solution, experience: Experience, ground: Ground) -> tuple[Learner, Learned]:
         """The learner after a command."""
 
@@ -98,6 +103,10 @@ class Learner(Protocol):
 
     def with_frames(self, frames: FrameCounts | None) -> Learner:
         """The learner with other counts of frames of reference."""
+        ...
+
+    def with_readings(self, readings: Mapping[str, float]) -> Learner:
+        """The learner with other weights of readings."""
         ...
 
     def taught(self, taught: Taught) -> Learner:

@@ -22,7 +22,7 @@ _GIVEN = frozenset({"said name", "said kind", "said color", "said attribute", "s
 _HANDLED = frozenset({"state: covered", "state: held"})
 """Not that a thing is clear, which tells it from what is not there and says nothing about a hand."""
 _PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *GROUP_WORDS)}
-_OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group"}
+_OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group", "place: yes"}
 
 
 def believed_mask(features: FeatureSet) -> Mask:
@@ -40,7 +40,7 @@ def taught_mask(features: FeatureSet) -> Mask:
     """
     names = list(features.grounding)
     of_context = np.array([name in {"kind: placed", "kind: place", "kind: group"} for name in names])
-    of_any = np.array([name in {"kind: place", "kind: group"} for name in names])
+    of_any = np.array([name in {"kind: place", "kind: group", "place: yes"} for name in names])
     of_hand = of_context | np.array([name in _HANDLED for name in names])
     of_word = np.array([name.partition(":")[0] not in _GIVEN for name in names])
     rows = [

@@ -77,6 +77,7 @@ class WordPosterior:
         examples: of verbs and prepositions, which are taught once.
         fixed: nouns and words for colours whose weights lessons have taught, so that they follow from no posterior.
         frames: whose left and right speakers mean.
+        readings: what corpora taught of the choices that a parser makes, see `learning.readings`.
     """
 
     nouns: Beliefs
@@ -86,6 +87,7 @@ class WordPosterior:
     examples: tuple[Example, ...] = ()
     fixed: frozenset[str] = frozenset()
     frames: FrameCounts = field(default_factory=FrameCounts)
+    readings: Mapping[str, float] = field(default_factory=dict)
 
     @classmethod
     def start(cls, training: TrainingSet, assumed: Assumptions | None = None) -> WordPosterior:
@@ -201,6 +203,10 @@ class WordPosterior:
     def with_frames(self, frames: FrameCounts | None) -> WordPosterior:
         """With other counts of frames of reference."""
         return self if frames is None else replace(self, frames=frames)
+
+    def with_readings(self, readings: Mapping[str, float]) -> WordPosterior:
+        """With other weights of readings."""
+        return replace(self, readings=readings)
 
     def taught(self, taught: Taught) -> WordPosterior:
         """With the words of lessons. One that few lessons had is not settled: it is heard, as in a command."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection
 
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
+from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.formations import formation_scene
 from dcg_torch.lessons.handling import stack_scene
 from dcg_torch.lessons.relations import relational_lessons
@@ -22,4 +23,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     third = count // 3
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
-    return (*relational_lessons(count), *arranged_lessons(parse, third), *picks, *handled, *room_lessons(parse, third))
+    cluttered = arranged_lessons(parse, third, makers=(clutter_scene,))
+    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered)
+    return (*relational_lessons(count), *tables, *room_lessons(parse, third))

@@ -14,7 +14,7 @@ import numpy as np
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import with_places
-from dcg_torch.types import Percept
+from dcg_torch.types import OPAQUE, Percept
 from dcg_torch.world.generator import TYPES, generate_world
 from dcg_torch.world.speaker.fit import Surroundings
 from dcg_torch.world.speaker.phrases import command
@@ -28,6 +28,8 @@ _TURNS = (*RELATIONS, *DIRECTED, *DIRECTED)
 """Of directions there are more lessons: as seen by whom, they say only where the frames differ."""
 _DRAWS = 40  # worlds tried for one relation, before it is left out once
 _TRIES = 6  # descriptions tried in each of them
+_UNHEARD = 0.4
+"""Share of the lessons whose landmark may have a name never heard: such a noun means a thing, hardly a place."""
 
 
 @functools.cache
@@ -57,12 +59,13 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
         world = generate_world(rng, "lesson", types=types, probability=probability)
         extents = rng.uniform(0.15, 0.6, size=len(world.objects))
         around = Surroundings.of(world, extents)
-        drawn = (generate(around, relation, rng, KNOWN) for _ in range(_TRIES))
+        landmarks = types if rng.random() < _UNHEARD else KNOWN
+        drawn = (generate(around, relation, rng, KNOWN, landmarks) for _ in range(_TRIES))
         described = next((description for description in drawn if description is not None), None)
         if described is None:
             continue
         percepts = [
-            Percept(o.id, o.type, o.color, (*o.position, 0.0), (float(e), float(e), float(e)))
+            Percept(o.id, _class_name(o.type), o.color, (*o.position, 0.0), (float(e), float(e), float(e)))
             for o, e in zip(world.objects, extents, strict=True)
         ]
         upsilon = world_model(percepts, KNOWN, hypothetical=False, robot=world.start)
@@ -70,3 +73,8 @@ def _lesson(relation: str, rng: np.random.Generator) -> Lesson | None:
             command(described.tree), with_places(upsilon), frozenset(world.objects[j].id for j in described.meant)
         )
     return None
+
+
+def _class_name(kind: str) -> str:
+    """Of a type that has no name yet, one that says nothing: which of them a new word means must be inferred."""
+    return kind if kind in KNOWN else f"{OPAQUE}{kind}"

@@ -36,6 +36,7 @@ def half_scene(rng: np.random.Generator) -> Scene:
     if len(others) == 1:
         marks[f"the {other}"] = others[0].position[:2]
     said += [told for name, at in marks.items() for told in _clear(_from_mark(kind, (*front, *behind), name, at))]
+    said += _clear(_by_distance(kind, (*front, *behind)))
     if in_rows:
         for half, where in ((front, "in front of"), (behind, "behind")):
             if len(half) >= 3:
@@ -99,6 +100,14 @@ def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float,
     yield f"go to the {kind} farthest from {name}", frozenset({order[-1]})
 
 
+def _by_distance(kind: str, things: Sequence[Percept]) -> Iterator[Unclear]:
+    """The nearest and the farthest of all, also of those behind the robot."""
+    order = _ranked(things, lambda o: float(np.hypot(*o.position[:2])))
+    for near, far in (("nearest", "farthest"), ("closest", "furthest")):
+        yield f"go to the {near} {kind}", frozenset({order[0]})
+        yield f"go to the {far} {kind}", frozenset({order[-1]})
+
+
 def _counted(kind: str, side: str, order: Sequence[str | None]) -> Iterator[tuple[str, str | None]]:
     """Ways to count from one side, each with the id of the one meant."""
     yield f"{side}most {kind}", order[0]
@@ -122,9 +131,10 @@ def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterat
     for big, small in (("biggest", "smallest"), ("largest", "smallest"), ("big", "small"), ("large", "little")):
         yield f"go to the {big} {head}", frozenset({ranked[0].id})
         yield f"go to the {small} {head}", frozenset({ranked[-1].id})
-    if len(ranked) > 2:
-        yield f"go to the second biggest {head}", frozenset({ranked[1].id})
-        yield f"go to the second smallest {head}", frozenset({ranked[-2].id})
+    for k, ordinal in enumerate(ORDINALS[1 : len(ranked) - 1], start=1):
+        for big, small in (("biggest", "smallest"), ("largest", "smallest")):
+            yield f"go to the {ordinal} {big} {head}", frozenset({ranked[k].id})
+            yield f"go to the {ordinal} {small} {head}", frozenset({ranked[-1 - k].id})
 
 
 def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> list[str | None]:

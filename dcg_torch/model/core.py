@@ -20,7 +20,7 @@ from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.frames import views
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.readings import NEGLIGIBLE, SharedSearch, looking, sum_over_frames
+from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
@@ -163,15 +163,13 @@ class GroundingModel:
             command = parse_command(command, self.symbols.keys())
         if not hasattr(command, "readings"):
             raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
-        readings = command.readings if self._related else command.readings[:1]
-        if not readings:
+        if not command.readings:
             return Solution(None, world, problem=command.problem)
-        kept = [r for r in readings if r.log_weight >= readings[0].log_weight - NEGLIGIBLE]
-        trees = [looking(r.tree, command.text, world) for r in kept]
+        readings = worth_grounding(command, world, self.learner.readings)
         frames = self.learner.frames if self._related else None
         seen = views(command.text, world, None if frames is None else frames.speakers)
-        weighted = [(tree, r.log_weight) for tree, r in zip(trees, kept, strict=True)]
-        return sum_over_frames([(self._search(view), frame) for view, frame in seen], weighted)
+        searches = [(self._search(view), frame) for view, frame in seen]
+        return sum_over_frames(searches, readings if self._related else readings[:1])
 
     @property
     def _related(self) -> bool:

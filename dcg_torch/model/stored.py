@@ -29,13 +29,14 @@ from dcg_torch.learning.learner import Learner
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model.variant import Variant
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import write_whole_files
+from dcg_torch.storage.whole import read_whole_files, write_whole_files
 from dcg_torch.types import Correspondence
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 FORMAT = 2
 """Of the files; 1 was that of version 0.1, in which a model's kind was told by what else was there."""
 _MOST_BEAM = 1000
+_LEAST_L2 = 1e-6  # below it a fit is singular
 _LARGEST = 1e6  # of a weight, an example's too: beyond it log-probabilities overflow or drown
 _Arrays = dict[str, np.ndarray]
 
@@ -106,7 +107,7 @@ def read(directory: Path | str) -> Stored:
         CheckpointError: a file is missing, broken, or does not fit the other.
     """
     directory = Path(directory)
-    described, tensors = _description(directory), _tensors(directory)
+    described, tensors = _parts(directory)
     shape = len(described.correspondences), len(described.language), len(described.grounding)
     tables = ({name: k for k, name in enumerate(names)} for names in (described.language, described.grounding))
     features = FeatureSet(described.variant.groups, *tables)
@@ -129,14 +130,20 @@ def read(directory: Path | str) -> Stored:
     return Stored(described.variant, features, factor, learner, _dense("prior", tensors, shape, directory), held)
 
 
-def _description(directory: Path) -> _Description:
-    path = directory / DESCRIPTION
+def _parts(directory: Path) -> tuple[_Description, _Arrays]:
+    """Both files, of one saving even while another one goes on."""
     try:
-        return _ADAPTER.validate_json(path.read_bytes())
-    except FileNotFoundError:
-        raise CheckpointError(f"{path}: no saved model here; save one with model.save") from None
+        content = read_whole_files(directory, (WEIGHTS, DESCRIPTION))
+    except FileNotFoundError as error:
+        raise CheckpointError(f"{error.filename}: no saved model here; save one with model.save") from None
     except OSError as error:
-        raise CheckpointError(f"{path}: cannot be read: {error.strerror}") from None
+        raise CheckpointError(f"{error.filename}: cannot be read: {error.strerror}") from None
+    return _description(directory / DESCRIPTION, content[DESCRIPTION]), _tensors(directory / WEIGHTS, content[WEIGHTS])
+
+
+def _description(path: Path, content: bytes) -> _Description:
+    try:
+        return _ADAPTER.validate_json(content)
     except ValidationError as error:
         where = ".".join(map(str, error.errors()[0]["loc"])) or "the file"
         if where == "format":
@@ -146,14 +153,9 @@ def _description(directory: Path) -> _Description:
         raise CheckpointError(f"{path}: {said}") from None
 
 
-def _tensors(directory: Path) -> _Arrays:
-    path = directory / WEIGHTS
+def _tensors(path: Path, content: bytes) -> _Arrays:
     try:
-        tensors: _Arrays = load_bytes(path.read_bytes())
-    except FileNotFoundError:
-        raise CheckpointError(f"{path}: no saved model here; save one with model.save") from None
-    except OSError as error:
-        raise CheckpointError(f"{path}: cannot be read: {error.strerror}") from None
+        tensors: _Arrays = load_bytes(content)
     except (SafetensorError, KeyError, ValueError):
         raise CheckpointError(f"{path}: not a file of weights; it may be cut short: save the model again") from None
     wanted = {"weight", "weight at", "prior", "prior at", "held"}
@@ -173,8 +175,8 @@ def _check(described: _Description, learner: CommitFirst | WordPosterior, direct
     variant, where = described.variant, directory / DESCRIPTION
     if described.correspondences != (TERNARY if variant.ternary else BINARY):
         raise CheckpointError(f"{where}: its correspondences are not those of its variant")
-    if not 0.0 < variant.l2 < math.inf or not 1 <= variant.beam <= _MOST_BEAM:
-        raise CheckpointError(f"{where}: l2 must be positive and finite, beam from 1 to {_MOST_BEAM}")
+    if not _LEAST_L2 <= variant.l2 < math.inf or not 1 <= variant.beam <= _MOST_BEAM:
+        raise CheckpointError(f"{where}: l2 must be at least {_LEAST_L2:g} and finite, beam from 1 to {_MOST_BEAM}")
     for number, example in enumerate(learner.examples):
         ids = {thing.id for thing in example.world.things}
         if len(example.correspondences) > len(example.world.things):

@@ -16,6 +16,7 @@ from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.fit import FitResult
 from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
@@ -30,6 +31,7 @@ from dcg_torch.learning.landmarks import (
 )
 from dcg_torch.learning.learner import Experience, Learner
 from dcg_torch.learning.places import place_examples
+from dcg_torch.learning.readings import GroundAll, in_meant_readings
 from dcg_torch.learning.trainable import taught_mask
 from dcg_torch.model.variant import Variant
 from dcg_torch.names.weights import log_odds
@@ -108,14 +110,16 @@ def teach_corpus(
     progress: Progress | None,
 ) -> None:
     """Teach all that commands about objects tell; for the arguments see `GroundingModel.teach`."""
+    lessons, readings = in_meant_readings(lessons, _all_readings(model), model.learner.readings)
     parts = [part for lesson in lessons for part in parts_of(lesson)]
     said = said_of_words(parts, known_types, known_colors)
     model.learner = model.learner.taught(said)
     nouns = [Symbol(word, of) for word, types in said.nouns.items() for of in types]
-    model.grow(model.learner.columns(model.features).extended(nouns, said.colors, _phrases(parts)))
+    columns = model.learner.columns(model.features)
+    model.grow(columns.extended(nouns, said.colors, _phrases(parts), scenes=True))
     parts = _as_known(parts, model)
     parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
-    model.learner = model.learner.with_frames(frames)
+    model.learner = model.learner.with_frames(frames).with_readings(readings)
     # What was known before gives way to as much evidence as any.
     model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model)
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
@@ -124,6 +128,17 @@ def teach_corpus(
     model.held |= fired | firing(paths, model.features.shape)
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
     _hear(model, parts)
+
+
+def _all_readings(model: Teachable) -> GroundAll:
+    """What grounds all readings of a lesson as the model knows words before it."""
+
+    def ground(lesson: Lesson) -> list[Solution]:
+        world = with_known(lesson.world, model.known_types)
+        search = SharedSearch(WorldEncoder(model.features, world), model.factor, model.variant.beam)
+        return [search.ground(reading.tree) for reading in lesson.readings]
+
+    return ground
 
 
 def _fit(

@@ -73,12 +73,20 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
 def stated_values(words: Sequence[str]) -> tuple[str, ...]:
     """The phrases of several words among the words of a text that may state the value of an attribute.
 
-    >>> stated_values("a chair seen from behind".split())
-    ('from behind',)
+    Of those that share words the longest counts.
+
+    >>> stated_values("a chair seen from behind".split()), stated_values("with its back facing me".split())
+    (('from behind',), ('back facing me',))
     """
     meanings, _ = _meanings()
-    spans = (" ".join(words[k : k + n]) for n in (4, 3, 2) for k in range(len(words) - n + 1))
-    return tuple(dict.fromkeys(span for span in spans if span in meanings))
+    found, taken = [], [False] * len(words)
+    for n in (4, 3, 2):
+        for k in range(len(words) - n + 1):
+            span = " ".join(words[k : k + n])
+            if span in meanings and not any(taken[k : k + n]):
+                found.append(span)
+                taken[k : k + n] = [True] * n
+    return tuple(dict.fromkeys(found))
 
 
 @functools.lru_cache(maxsize=16384)

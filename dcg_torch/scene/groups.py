@@ -13,6 +13,7 @@ import numpy as np
 
 from dcg_torch.scene.layout import Floats
 from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
 from dcg_torch.types.geometry import to_robot_frame
 
@@ -54,6 +55,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         return ()
     position = np.array([o.position for o in there], dtype=np.float64).reshape(-1, 3)
     position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
+    position = laid_flat(position)
     position /= unit
     alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
     for j, o in enumerate(there):

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.scene.neighbours import Neighbours, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
+from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import to_robot_frame
 
@@ -141,6 +142,7 @@ def layout(world: WorldModel) -> Layout:
     position = np.array([_NOWHERE if o.position is None else o.position for o in things], dtype=np.float64)
     position = position.reshape(n, 3)
     position[:, :2] = to_robot_frame(viewer, position[:, :2])
+    position[:objects] = laid_flat(position[:objects])
     position /= world.unit
     half = np.zeros((n, 2))
     for j in range(placed, n):

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS
+from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
 from dcg_torch.types.geometry import from_robot_frame, to_robot_frame
 
@@ -19,8 +20,10 @@ Bounds = tuple[float, float, float, float]
 
 
 def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> Bounds:
-    """The bounding box of positions."""
-    points = to_robot_frame(robot or Pose(0.0, 0.0), np.array([p[:2] for p in positions], dtype=np.float64))
+    """The bounding box of the positions of a scene; of an upright picture as it is laid flat."""
+    points = np.array([(*p, 0.0)[:3] for p in positions], dtype=np.float64)
+    points[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), points[:, :2])
+    points = laid_flat(points)
     low, high = points.min(axis=0), points.max(axis=0)
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 

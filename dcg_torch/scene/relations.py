@@ -50,17 +50,21 @@ RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
 
 
-def relations(where: Layout, landmarks: Sequence[Sequence[int]], among: str) -> NDArray[np.int16]:
+def relations(
+    where: Layout, landmarks: Sequence[Sequence[int]], among: str, members: Bools | None = None
+) -> NDArray[np.int16]:
     """The relation features of every thing to every tuple of landmarks.
 
     Args:
         landmarks: c tuples of thing numbers; all but "between" is to the first of each.
         among: which of `SETS` "the closest" is one of.
+        members: (n,) the things that it is one of, instead of such a set.
 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
-    found = _families(where, [tuple(of) for of in landmarks], where.alike(among))
+    alike = where.alike(among) if members is None else Alike.by(np.where(members & ~where.place, 0, -1))
+    found = _families(where, [tuple(of) for of in landmarks], alike)
     out = np.full((len(RELATIONS), len(landmarks), len(where.things)), -1, dtype=np.int16)
     for of_family, family in zip(out, RELATIONS, strict=True):
         if family in found:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import contextlib
 import errno
+import glob
 import os
 import secrets
 import shutil
-from collections.abc import Callable, Mapping
+import time
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 _MARK = ".part"
@@ -55,7 +57,7 @@ def write_whole_files(directory: Path, contents: Mapping[str, bytes]) -> None:
 
     Args:
         directory: is made if need be; other files in it stay.
-        contents: name -> content; readers begin with the last.
+        contents: name -> content; `read_whole_files` reads them.
 
     Raises:
         OSError: they cannot be written; if there is no room for them, the old ones stay.
@@ -81,6 +83,44 @@ def write_whole_files(directory: Path, contents: Mapping[str, bytes]) -> None:
             with contextlib.suppress(OSError):
                 part.unlink()
         raise
+
+
+def read_whole_files(directory: Path, names: Sequence[str]) -> dict[str, bytes]:
+    """Read files that `write_whole_files` wrote, all of one writing, even while they are written anew.
+
+    Args:
+        names: in the order in which they were written.
+
+    Raises:
+        OSError: one cannot be read, or is missing for longer than a writing takes.
+    """
+    *others, last = names
+    until = time.monotonic() + _PATIENCE
+    while True:
+        try:
+            with (directory / last).open("rb") as file:
+                found = {name: (directory / name).read_bytes() for name in others} | {last: file.read()}
+                now = (directory / last).stat()
+                if _version(os.fstat(file.fileno())) == _version(now):  # so none was replaced before all were read
+                    return found
+        except FileNotFoundError:
+            if time.monotonic() > until or not _under_way(directory, others, last):
+                raise
+        time.sleep(0.01)
+
+
+_PATIENCE = 1.0  # seconds
+
+
+def _version(status: os.stat_result) -> tuple[int, int, int]:
+    return status.st_dev, status.st_ino, status.st_mtime_ns
+
+
+def _under_way(directory: Path, others: Sequence[str], last: str) -> bool:
+    """Whether a writing may be between taking away what is old and putting in place what is new."""
+    if directory.exists():
+        return not (directory / last).exists() and any((directory / name).exists() for name in others)
+    return any(directory.parent.glob(f".{glob.escape(directory.name)}.*{_MARK}"))
 
 
 def _part_of(path: Path) -> Path:

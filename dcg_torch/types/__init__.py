@@ -56,7 +56,8 @@ class Phrase:
     for a pronoun such as "one"), its stated colour in `color`, and its other adjectives and ordinals in
     `words` ("big", "second", "leftmost"). `context` says what the phrase stands in, as far as that tells something
     of its meaning ("object of take"), and `among` what "the closest" is the closest of: things of one "kind", "type"
-    or "color", or "all". `look` holds the words of the command, where the colours that objects show are known.
+    or "color", or "all". `look` holds the words of the command, where the colours that objects show are known, and
+    `scene` the kind of scene that it is said in.
     """
 
     kind: PhraseKind
@@ -69,6 +70,7 @@ class Phrase:
     context: tuple[str, ...] = ()
     among: str | None = None
     look: tuple[str, ...] = ()
+    scene: str = ""
 
     def __hash__(self) -> int:
         # Few phrases that are kept together share these, and phrases are looked up all the time.

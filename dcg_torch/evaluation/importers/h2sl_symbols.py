@@ -5,6 +5,7 @@ The examples are those of `lessons/initial.yaml`, said of these types and colour
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable, Mapping, Sequence
 from importlib.resources import files
@@ -67,7 +68,7 @@ def symbol_lists(root: Element) -> dict[str, list[str]] | None:
 
 def training(types: Sequence[str], colors: Sequence[str]) -> dict[str, Any]:
     """The content of a training file that teaches these types and colours."""
-    ours = yaml.safe_load(files("dcg_torch.lessons").joinpath("initial.yaml").read_text("utf-8"))
+    ours = _initial()
     old_types, old_colors = list(ours["symbols"]), ours["colors"]
     examples: list[Any] = []
     for k in range(0, max(len(types), len(colors)), len(old_types)):
@@ -75,6 +76,12 @@ def training(types: Sequence[str], colors: Sequence[str]) -> dict[str, Any]:
         names |= {old: colors[(k + n) % len(colors)] for n, old in enumerate(old_colors)}
         examples += [renamed(example, names) for example in ours["examples"] if _stay_apart(example, names)]
     return {"symbols": {t: t for t in types}, "colors": list(colors), "examples": examples}
+
+
+@functools.cache
+def _initial() -> Any:
+    """The content of `lessons/initial.yaml`, read once; it is not to be changed."""
+    return yaml.safe_load(files("dcg_torch.lessons").joinpath("initial.yaml").read_text("utf-8"))
 
 
 def _stay_apart(example: Any, names: Mapping[str, str]) -> bool:

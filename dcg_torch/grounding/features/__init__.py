@@ -26,6 +26,7 @@ from dcg_torch.grounding.features.names import (
     Group,
     Ranking,
     child_feature,
+    picked_from,
     ranking,
 )
 from dcg_torch.grounding.features.said import Said, look_codes
@@ -43,5 +44,6 @@ __all__ = [
     "give_odds",
     "look_codes",
     "padded",
+    "picked_from",
     "ranking",
 ]

@@ -20,6 +20,7 @@ from dcg_torch.grounding.features.names import (
     child_feature,
     fixed_groundings,
     fixed_languages,
+    scene_features,
     word_features,
 )
 from dcg_torch.grounding.features.said import Said, facts
@@ -67,8 +68,14 @@ class FeatureSet:
         start = cls(frozenset(groups))._with(fixed_languages(), fixed_groundings())
         return start.extended(symbols, colors, examples)
 
-    def extended(self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example]) -> FeatureSet:
-        """Columns for a labelled corpus: its nouns, types and colours, its other words, attributes of things."""
+    def extended(
+        self, symbols: Iterable[Symbol], colors: Sequence[str], examples: Iterable[Example], *, scenes: bool = False
+    ) -> FeatureSet:
+        """Columns for a labelled corpus: its nouns, types and colours, its other words, attributes of things.
+
+        Args:
+            scenes: words have columns for the kinds of scenes that they are said in, too.
+        """
         new = self
         for symbol in symbols:
             new = new.grow(symbol)
@@ -76,6 +83,7 @@ class FeatureSet:
             new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
         examples = list(examples)
         words = [f for example in examples for f in word_features(example.phrase)]
+        words += [f for example in examples for f in scene_features(example.phrase) if scenes]
         worlds = {id(example.world): example.world for example in examples}.values()
         met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
         further = [f"state: {attribute}" for attribute in sorted(met)]
@@ -137,7 +145,8 @@ class FeatureSet:
 
     def language_names(self, phrase: Phrase) -> list[str]:
         """Names of the language features that fire for a phrase."""
-        names = [f"kind: {phrase.kind}", *(name for _, name in word_features(phrase))]
+        said = (*word_features(phrase), *scene_features(phrase))
+        names = [f"kind: {phrase.kind}", *(name for _, name in said)]
         if phrase.noun is not None:
             if self.knows_noun(phrase.noun):
                 names += [f"noun: {phrase.noun}", "noun known: yes"]

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
-from dcg_torch.names.vocabulary import ORDINALS
+from dcg_torch.names.vocabulary import GROUP_WORDS, ORDINALS
 from dcg_torch.types import (
     LOOKED_ROUND,
     NOT,
@@ -43,7 +43,7 @@ PAIRS: dict[str, frozenset[str]] = {
     "landmark": frozenset({"kind"}),  # what states landmarks are in is chance, which a corpus has plenty of
     "noun": frozenset({"type", "part"}),
     "noun stated": frozenset({"said name", "said kind"}),
-    "noun known": frozenset({"known", "hypothetical"}),
+    "noun known": frozenset({"known", "hypothetical", "place"}),  # an unheard noun names a thing, hardly a place
     "color": frozenset({"color", "group color"}),
     "color stated": frozenset({"kind", "known", "hypothetical", "color", "said color"}),
     "words stated": frozenset({"said attribute"}),
@@ -87,6 +87,7 @@ def fixed_groundings() -> Iterator[Feature]:
     for name in said_features():
         yield Group.NAMES, name
     yield Group.RELATION, "kind: place"
+    yield Group.RELATION, "place: yes"
     yield Group.RELATION, "kind: group"
     yield Group.OPEN, f"hypothetical: {LOOKED_ROUND}"
     yield Group.OPEN, "type: (unmet)"
@@ -122,6 +123,24 @@ def ranking(phrase: Phrase) -> Ranking | None:
     return Ranking(phrase.among or "all", ordinal, phrase.count)
 
 
+def scene_features(phrase: Phrase) -> Iterator[Feature]:
+    """The language features of a phrase's plain words in the kind of scene that it is said in."""
+    if not phrase.scene:
+        return
+    of = "word" if phrase.kind is PhraseKind.NOUN else str(phrase.kind)
+    if phrase.kind in (PhraseKind.NOUN, PhraseKind.MODIFIER):
+        for word in phrase.words:
+            if word != NOT:
+                yield Group.RELATION, f"{of}: {word}, scene {phrase.scene}"
+
+
+def picked_from(phrase: Phrase) -> int | None:
+    """How many those are that a noun phrase picks from: "the middle one of the five"; None where it does not say."""
+    if not GROUP_WORDS.keys().isdisjoint({phrase.noun, *phrase.words}):
+        return None
+    return next((int(word[3:]) for word in phrase.words if word[:3] == "of " and word[3:].isdecimal()), None)
+
+
 def word_features(phrase: Phrase) -> Iterator[Feature]:
     """The language features of a phrase's plain words; a noun's and a colour's depend on what is known.
 
@@ -130,6 +149,8 @@ def word_features(phrase: Phrase) -> Iterator[Feature]:
     """
     is_noun = phrase.kind is PhraseKind.NOUN
     words = [word for word in phrase.words if word != NOT or phrase.kind is not PhraseKind.MODIFIER]
+    if is_noun and picked_from(phrase) is not None:
+        words = [word for word in words if not word.startswith("of ")]
     for word in words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
     if is_noun and len(words) > 1:

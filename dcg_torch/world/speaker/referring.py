@@ -104,13 +104,18 @@ SPOKEN = tuple(name for name in RELATIONS if name not in SETS | _SIZED)
 
 
 def generate(
-    around: Surroundings, relation: str, rng: np.random.Generator, named: Collection[str]
+    around: Surroundings,
+    relation: str,
+    rng: np.random.Generator,
+    named: Collection[str],
+    landmarks: Collection[str] | None = None,
 ) -> Description | None:
     """A description by one relation that is true of a world and says what is meant.
 
     Args:
         relation: one of `RELATIONS`.
         named: the types that the speaker calls by name, others are "thing" or "object".
+        landmarks: the types that are named as landmarks; None: those.
 
     Returns:
         None if the objects drawn don't admit of one; draw again.
@@ -122,14 +127,21 @@ def generate(
         raise ValueError(f"{relation!r} is no relation; choose from {', '.join(RELATIONS)}")
     if len(around.types) < 2:
         return None
-    return ReferringExpressionGenerator(around, rng, named).generate(relation)
+    return ReferringExpressionGenerator(around, rng, named, landmarks).generate(relation)
 
 
 class ReferringExpressionGenerator:
     """Draws descriptions of one world; the arguments are those of `generate`."""
 
-    def __init__(self, around: Surroundings, rng: np.random.Generator, named: Collection[str]) -> None:
+    def __init__(
+        self,
+        around: Surroundings,
+        rng: np.random.Generator,
+        named: Collection[str],
+        landmarks: Collection[str] | None = None,
+    ) -> None:
         self._around, self._rng, self._named = around, rng, named
+        self._landmarks = named if landmarks is None else landmarks
 
     def generate(self, relation: str) -> Description | None:
         """A description by this relation; None if the objects drawn don't admit of one."""
@@ -167,7 +179,7 @@ class ReferringExpressionGenerator:
         around = self._around
         j = int(self._rng.integers(len(around.types)))
         kind, color = around.types[j], around.colors[j] if self._rng.random() < 0.6 else None
-        if kind not in self._named or around.fitting(kind, color).sum() != 1:
+        if kind not in self._landmarks or around.fitting(kind, color).sum() != 1:
             return None
         return j, noun_phrase(kind, color)
 

@@ -1,0 +1,115 @@
+"""What describes a noun phrase's object: its modifiers' factors, and which things its ranks are among."""
+
+from __future__ import annotations
+
+import itertools
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import picked_from, ranking
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
+from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.vocabulary import RANKING
+from dcg_torch.types import NOT, Correspondence, ParseTree, PhraseKind
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_IN_THE_SET = math.log(0.5)
+_BEHIND = 6.0
+"""A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
+just the name and of another colour is still described well, but not where one of the colour is there."""
+
+_MOST_COUNTED = 3
+"""Landmarks up to which those of "behind the two cones" are told apart."""
+_LANDMARKS = 8
+"""Landmarks that are weighed where several are meant together."""
+
+
+def modifier_factor(
+    tree: ParseTree,
+    beams: Sequence[Sequence[Hypothesis]],
+    encoder: WorldEncoder,
+    tables: Tables,
+    compared: Bools | None = None,
+) -> ModifierFactor:
+    """The factor of a modifier, from its log Psi under every choice of landmarks.
+
+    Args:
+        beams: the hypotheses of each landmark.
+        compared: (things,) those among which it ranks; None: all of a kind.
+    """
+    number, several = encoder.number, _counted_landmark(tree)
+    combos = list(itertools.product(*beams))
+    landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
+    asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
+    table = tables.placed(encoder, tree.phrase, landmarks, compared)
+    log_psi = table[tables.factor.correspondences.index(asserted)]
+    of_each = several > 0 and len(combos) >= several
+    if of_each:
+        chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
+        combos = [tuple(beams[0][k] for k in of) for of in chosen]
+        log_psi = log_psi[np.array(chosen)].sum(axis=1)
+    scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+    share = scores - np.logaddexp.reduce(scores)
+    return ModifierFactor(tree, combos, log_psi + share[:, None], compared, of_each)
+
+
+def _counted_landmark(tree: ParseTree) -> int:
+    """How many landmarks a modifier is to, each by itself ("behind the two cones"); 0 for all others."""
+    count = tree.children[0].phrase.count if len(tree.children) == 1 else None
+    return count if count is not None and 2 <= count <= _MOST_COUNTED else 0
+
+
+def ranks_from(tree: ParseTree) -> bool:
+    """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
+    name = tree.phrase.words[0]
+    return name in RANKING or name.partition(" ")[2] in RANKING
+
+
+def is_to_a_place(tree: ParseTree) -> bool:
+    """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
+    return "to a thing" not in tree.phrase.context
+
+
+def comparison_set(
+    tree: ParseTree, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, tables: Tables
+) -> Bools:
+    """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best.
+
+    Or as many as it says that there are: "the middle one of the five on the left".
+    """
+    table = tables.unranked(encoder, replace(tree.phrase, words=()))
+    number = tables.factor.correspondences.index
+    fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
+    odds = fit - table[number(Correspondence.INACTIVE)]
+    for modifier in modifiers:
+        fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
+    several, objects = picked_from(tree.phrase), len(encoder.world.objects)
+    if several is not None and several <= objects:
+        found = np.zeros(len(fit), dtype=np.bool_)
+        found[highest(fit[:objects], several)] = True
+        return found
+    described: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
+    return described
+
+
+def highest(values: Floats, count: int) -> NDArray[np.int64]:
+    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
+    if count == 1:
+        return np.array([values.argmax()])
+    if len(values) <= max(512, 2 * count):
+        return np.argsort(-values, kind="stable")[:count]
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    among = np.flatnonzero(values >= least)
+    return among[np.argsort(-values[among], kind="stable")[:count]]
+
+
+def ranks(tree: ParseTree) -> bool:
+    """Is it a noun phrase with words that may rank?"""
+    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None

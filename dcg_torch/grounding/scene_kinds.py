@@ -1,0 +1,32 @@
+"""What kind of scene a command is said in: people use one word otherwise at a table, in a room and before a picture.
+
+A corpus teaches what a word for a relation means, and how it differs in scenes like its own. So several corpora that
+are taught together agree on what they share, and keep apart what they don't.
+"""
+
+from __future__ import annotations
+
+from dcg_torch.types import WorldModel
+
+_MANY = 25
+_TABLE, _YARD = 0.4, 2.0
+"""Metres between neighbours: less on tables and in pictures, more where one drives about."""
+_STEP = 0.2
+"""Share of a scene's unit by which heights differ where things lie on one another."""
+
+
+def scene_kind(world: WorldModel) -> str:
+    """By what anyone sees: how far things are apart, a speaker, more than one class, colours, many things, heights."""
+    seen = [o for o in world.objects if not o.hypothetical]
+    step = _STEP * world.unit
+    low = next((o.position[2] for o in seen if o.position is not None), 0.0)
+    told = {
+        "table": world.unit < _TABLE,
+        "yard": world.unit > _YARD,
+        "speaker": world.speaker is not None and world.speaker != world.robot,
+        "classes": any(o.type != seen[0].type for o in seen),
+        "colors": any(o.color is not None for o in seen),
+        "many": len(seen) > _MANY,
+        "heights": any(o.position is not None and abs(o.position[2] - low) > step for o in seen),
+    }
+    return " ".join(name for name, holds in told.items() if holds) or "bare"

@@ -1,0 +1,33 @@
+"""Pictures that stand upright: a page or a wall that who looks has before them, where what is higher is farther up.
+
+"Top", "above" and "the bottom row" are said of them as of a table that is seen from one side, so they are laid flat.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dcg_torch.scene.order import TIE, Floats
+
+_SPOT = 0.05
+"""Share of the picture's width within which one thing is straight over another."""
+
+
+def laid_flat(position: Floats) -> Floats:
+    """Positions (n, 3) in the viewer's frame; of an upright picture with what is higher farther away, all on a level.
+
+    A picture is what stands at one distance and at several heights, some of it over nothing: so it is no stack.
+    """
+    seen = position[np.isfinite(position).all(axis=1)]
+    if len(seen) < 3 or np.ptp(seen[:, 0]) > TIE or np.ptp(seen[:, 2]) <= TIE or np.ptp(seen[:, 1]) <= TIE:
+        return position
+    spot = _SPOT * np.ptp(seen[:, 1])
+    beside = np.abs(seen[:, None, 1] - seen[None, :, 1]) <= spot
+    below = seen[None, :, 2] < seen[:, None, 2] - TIE
+    lowest = seen[:, 2] <= seen[:, 2].min() + TIE
+    if (lowest | (beside & below).any(axis=1)).all():
+        return position
+    flat = position.copy()
+    flat[:, 0] += position[:, 2] - seen[:, 2].min()
+    flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
+    return flat
