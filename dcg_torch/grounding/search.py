@@ -171,10 +171,11 @@ class Search:
     def _modifier(self, tree: ParseTree, compared: Bools | None = None) -> ModifierFactor:
         """The factor of a modifier; what it ranks, it ranks among `compared`."""
         key = (tree, None if compared is None else compared.tobytes())
-        if key not in self._modifiers:
+        found = self._modifiers.get(key)
+        if found is None:
             beams = [self._beam_of(child, landmark=True) for child in tree.children]
-            self._modifiers[key] = modifier_factor(tree, beams, self.encoder, self._tables, compared)
-        return self._modifiers[key]
+            found = self._modifiers[key] = modifier_factor(tree, beams, self.encoder, self._tables, compared)
+        return found
 
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
