@@ -106,7 +106,7 @@ sys.meta_path.insert(0, Absent())
 import importlib.util
 real = importlib.util.find_spec
 importlib.util.find_spec = lambda name, package=None: None if name == "pybullet" else real(name, package)
-import dcg_torch, dcg_torch.evaluate
+import dcg_torch, dcg_torch.cli.evaluate
 from dcg_torch.cli.run import main
 sys.exit(main())
 """

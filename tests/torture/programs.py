@@ -16,8 +16,7 @@ from typing import Any
 import torch
 from hostile import EPISODE
 
-from dcg_torch import evaluate
-from dcg_torch.cli import pretrain, run, sweep  # noqa: F401  (imported once, before the forks)
+from dcg_torch.cli import evaluate, pretrain, run, sweep  # noqa: F401  (imported once, before the forks)
 from dcg_torch.experiment import outcome, worker  # noqa: F401
 from dcg_torch.language import default_parser
 
