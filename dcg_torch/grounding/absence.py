@@ -17,7 +17,6 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import color_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
@@ -30,9 +29,6 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
-_NEIGHBOUR = 5.0
-"""Bound of the colour's gap where a word that was never learned names a neighbour of the colour: what one calls blue
-another calls purple."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
@@ -97,14 +93,7 @@ def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     known = next((o.type for o in objects if o.known), None)
     best = tables.log_odds_of(color, [_like(None, phrase.color), _like(known, phrase.color, known=known is not None)])
     gap = best[[int(o.known) for o in objects]] - tables.log_odds(encoder, color)
-    if f"color: {phrase.color}" not in tables.features.language:
-        neighbour = np.array([o.color is not None and _is_near(phrase.color, o.color) for o in objects])
-        gap = np.where(neighbour, np.minimum(gap, _NEIGHBOUR), gap)
     return np.where([o.color is not None for o in objects], np.maximum(0.0, gap), 0.0)
-
-
-def _is_near(word: str, color: str) -> bool:
-    return "color: near" in color_evidence(word, color)
 
 
 def _like(type_: str | None, color: str | None, *, known: bool = False) -> Object:
