@@ -16,7 +16,7 @@ from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.spoken import ReadCommand
+from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import stated_values
 from dcg_torch.scene.workspace import with_groups
@@ -43,10 +43,15 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         world: what may be told by looking is added to their trees.
         learned: "rule=option" -> what is added to the log-weight of readings that took the option.
     """
-    weighed = [(r, r.log_weight + sum(learned.get(rule, 0.0) for rule in r.rules)) for r in command.readings]
+    weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
     return [Reading(looking(r.tree, command.text, world), weight, tuple(r.rules)) for r, weight in kept]
+
+
+def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
+    """Of a reading, with what was learned of the choices that led to it; see `worth_grounding`."""
+    return reading.log_weight + sum(learned.get(rule, 0.0) for rule in reading.rules)
 
 
 class SharedSearch:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.readings import Reading, sense
+from dcg_torch.grounding.readings import Reading, log_weight, sense
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.solvers import Point, lbfgs
 from dcg_torch.learning.landmarks import Lesson
@@ -100,5 +100,5 @@ def _fitted(told: Sequence[_Told], number: int) -> Floats:
 
 
 def _likeliest(readings: Sequence[Reading], learned: Mapping[str, float]) -> int:
-    weights = [r.log_weight + sum(learned.get(rule, 0.0) for rule in r.rules) for r in readings]
+    weights = [log_weight(r, learned) for r in readings]
     return max(range(len(weights)), key=weights.__getitem__, default=0)
