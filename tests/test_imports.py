@@ -19,7 +19,7 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 LAYERS = (
     {"types", "storage", "names"},
     {"language", "report", "scene", "world"},
-    {"grounding", "settings", "simulator"},
+    {"grounding", "settings", "simulator", "speech_acts"},
     {"learning"},
     {"agent", "lessons"},
     {"model"},
