@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.frames import from_the_other_side
@@ -46,7 +47,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
-    return [Reading(looking(r.tree, command.text, world), weight, tuple(r.rules)) for r, weight in kept]
+    told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
+    return [Reading(tree, weight, tuple(rules)) for tree, weight, rules in told]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
