@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.devices import device_of
+from dcg_torch.grounding.lifting import lift
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.on_device import minimise
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
@@ -37,7 +38,7 @@ class FitResult:
     """How a fit went.
 
     Attributes:
-        value: of the objective at the end.
+        value: of the objective at the end, without the penalty of weights that may not change, which is constant.
         gradient: max-norm of the gradient with respect to the free weights.
         steps, evaluations: of the solver.
         rows: distinct ones that the solver saw.
@@ -94,19 +95,19 @@ def fit(
     fixed = weight.copy()
     np.copyto(fixed, 0.0 if prior is None else prior, where=active)
     where = factor.weight.device if device is None else device_of(device)
-    problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
+        lifted = lift(designs, fixed, active, strength)
+        problem = Problem(lifted.designs, weight, fixed, active, strength, lifted.times)
         if where.type == "cpu":
             found, new, constant, rows = _on_processor(problem, tolerance, max_steps, solver)
         elif solver == "auto":
             found, new, constant, rows = _on_device(problem, where, tolerance, max_steps)
         else:
             raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
+    lifted.spread(new)
     factor.set_weight(new)
-    distance = fixed if prior is None else fixed - prior
-    squares = strength * np.einsum("plg,plg->lg", distance, distance)
-    return FitResult(  # of the active weights that don't move the prior is the optimum
-        value=found.point.value + constant + 0.5 * float(np.sum(squares, where=pairs & ~active)),
+    return FitResult(
+        value=found.point.value + constant,
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,
@@ -124,6 +125,7 @@ class Problem(NamedTuple):
     fixed: Floats
     active: NDArray[np.bool_]
     strength: Floats
+    times: Floats | None
 
 
 _Found = tuple[solvers.Minimum, Floats, float, int]
