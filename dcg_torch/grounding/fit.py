@@ -26,7 +26,7 @@ from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.on_device import minimise
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.rows import GridRows, SparseRows
+from dcg_torch.grounding.rows import ArrowheadRows, SparseRows
 from dcg_torch.grounding.threads import one_thread
 from dcg_torch.grounding.written import weight_at, write_out
 
@@ -151,14 +151,16 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
+    if solver in ("auto", "newton") and isinstance(objective.rows, ArrowheadRows):
+        function, step, guess = objective, objective.newton_step, objective.as_counted
+        return solvers.newton(function, step, start, tolerance=tolerance, max_steps=max_steps, guess=guess)
     sparse = isinstance(objective.rows, SparseRows)
     if solver == "lbfgs" and sparse:
         root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
     if solver != "lbfgs":
-        step = objective.newton_cg_step if sparse or isinstance(objective.rows, GridRows) else objective.newton_step
-        return solvers.newton(objective, step, start, tolerance=tolerance, max_steps=max_steps)
+        return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
     return solvers.lbfgs(objective, start, tolerance=tolerance, max_steps=max_steps)
 
 
