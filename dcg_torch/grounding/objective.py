@@ -70,7 +70,7 @@ class Objective:
         return Point(flat, value, gradient.reshape(-1), norm, chances)
 
     def as_counted(self, flat: Floats) -> Floats:
-        """With the rows' own variables such that labels are as probable as they were counted; for rows of the arrowhead.
+        """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
 
         That is nearly the optimum where the penalty is small beside what was counted. Labels that were never counted
         keep their scores.

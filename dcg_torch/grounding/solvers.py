@@ -80,8 +80,8 @@ def newton(
     """
     point, evaluations = function(start), 1
     if guess is not None and point.norm > tolerance:
-        other, evaluations = function(guess(start)), 2
-        point = other if other.value < point.value else point
+        guessed, evaluations = function(guess(start)), 2
+        point = guessed if guessed.value < point.value else point
     for step in range(max_steps + 1):
         if point.norm <= tolerance:
             return Minimum(point, step, evaluations, "converged")
