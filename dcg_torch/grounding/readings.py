@@ -21,7 +21,7 @@ from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.names.weights import log_odds
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
@@ -185,13 +185,21 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
     if not shown and not named and not valued:
         return tree
     words = _words(text)
-    nouns = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN]
-    several = sum(noun.noun not in (None, *PLACE_WORDS) or noun.color is not None for noun in nouns) > 1
+    several = shown and _speaks_of_others(tree, {o.type for o in world.objects if o.type is not None})
     values = stated_values(words) if valued else ()
-    if named or (shown and several):
+    if named or several:
         tree = _each_told(tree, compared=named)
         words = ()
     return _told(tree, words if shown else (), values)
+
+
+def _speaks_of_others(tree: ParseTree, types: set[str]) -> bool:
+    """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
+    _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
+    return any(
+        any(log_odds(noun.noun, type_) > 0.0 for type_ in types) if noun.noun else noun.text.endswith(" one")
+        for noun in others
+    )
 
 
 def _words(text: str) -> tuple[str, ...]:
