@@ -20,6 +20,7 @@ from dcg_torch.names.vocabulary import (
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
+    QUANTIFIERS,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -64,6 +65,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
@@ -40,6 +41,33 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.children += group.children
     else:
         one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
+
+
+def correct(clauses: Sequence[Clause]) -> None:
+    """ "Take the cube, no, the ball", "... no wait, the red one": a clause that takes back the one before replaces it."""
+    for k, clause in enumerate(clauses):
+        said = [other for other in clauses[:k] if other.refused is None and (other.objects or other.places)]
+        new = main_object(clause)
+        if not clause.corrects or not said or not (new or clause.places):
+            continue
+        old = said[-1]
+        goal = old.places[0] if old.places and main_object(old) is None else None
+        was = main_object(old) if goal is None else goal.children[0]
+        if new is not None and was is not None and new.noun is None:
+            new.noun, new.pronoun = was.noun, False
+        if clause.verb is None:
+            clause.verb = old.verb
+            if new is None:
+                clause.objects = old.objects
+            elif goal is not None:
+                clause.objects = [noun for noun in clause.objects if noun is not new]
+                clause.places = [replace(goal, children=[new]), *clause.places]
+            else:
+                clause.places = clause.places or old.places
+        old.refused = _TAKEN_BACK
+
+
+_TAKEN_BACK = "it takes a command back"
 
 
 def _in_the_middle(one: Item, several: Item) -> None:
@@ -121,16 +149,21 @@ def _may_be(node: Item, noun: Item) -> bool:
         return False
     if node.noun in SETS["groups"]:
         return noun.plural
-    same = node.noun is None or node.noun in SETS["anything"] or f" {noun.noun}".endswith(f" {node.noun}")
+    same = node.noun is None or node.noun in SETS["anything"] or _one_head(node.noun, noun.noun)
     if not same:
         return False
     return node.color in (None, noun.color) and (node.plural == noun.plural or node.noun is None)
 
 
+def _one_head(one: str, other: str) -> bool:
+    return f" {other}".endswith(f" {one}") or f" {one}".endswith(f" {other}")  # "my tape", "the measuring tape"
+
+
 def _take_over(node: Item, noun: Item) -> None:
     grouped = node.noun in SETS["groups"] and SETS["groups"].isdisjoint(noun.words)
     group = (node.noun, *((f"of {noun.count}",) if noun.count else ())) if grouped else ()
-    node.noun, node.color, node.count, node.plural = noun.noun, noun.color, noun.count, noun.plural
+    node.noun = node.noun if f" {node.noun}".endswith(f" {noun.noun}") else noun.noun
+    node.color, node.count, node.plural = noun.color, noun.count, noun.plural
     node.words = tuple(dict.fromkeys((*noun.words, *filter(None, group))))
     node.count, node.pronoun = None if grouped else noun.count, False
     node.children = node.children or [child.copy() for child in noun.children]

@@ -56,6 +56,8 @@ class NounPhrases:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
             self.merge(self.nouns[-1], item)
+        elif self.nouns and self.names_it(item):
+            self.merge(self.nouns[-1], item)
         elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
             self.side(item)  # but "on the left and right"
         elif self.nouns and self.is_bare_place(item):
@@ -68,6 +70,18 @@ class NounPhrases:
             self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)
+
+    def names_it(self, item: Item) -> bool:
+        """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
+        last, things = self.nouns[-1], SETS["anything"] | {None}
+        open_, named = last.noun in things and last in self.clause.objects, item.noun not in things
+        plain = item.noun not in SETS["places"] | SETS["someone"] | SETS["measures"] and item.color in {
+            None,
+            last.color,
+        }
+        return (
+            open_ and named and plain and self.joined and not self.and_joined and item.determined and last.text != "it"
+        )
 
     def is_bare_place(self, item: Item) -> bool:
         """ "(blue fan,) top row": where the thing is, without a preposition."""

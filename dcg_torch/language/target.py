@@ -35,7 +35,7 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            found.append(Mention(target, clause, _object_score(clause) + penalty))
+            found.append(Mention(target, clause, _object_score(clause, target) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -47,14 +47,14 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
     return found
 
 
-def _object_score(clause: Clause) -> float:
+def _object_score(clause: Clause, target: Item) -> float:
     verb = clause.action
     if clause.acting:
         return TARGETS["acting"]
     if verb in VERBS["shun"]:
         return TARGETS["shun"]
     if clause.statement or not verb:
-        return TARGETS["statement"]
+        return TARGETS["another" if clause.statement and "other" in target.words else "statement"]
     for name in ("look", "put", "take", "reach"):
         if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
             return TARGETS[name]
