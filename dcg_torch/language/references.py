@@ -13,17 +13,32 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
+    told = SETS["be"] | {""}
     for clause in clauses:
-        if clause is own or not clause.objects or clause.verb is not None:
+        there = exists(clause)
+        if clause is own or not clause.objects or clause.refused == TAKEN_BACK or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
-        stands = more.text in SETS["stands_for"]
-        if not (more.pronoun or stands) or not (clause.statement or len(clause.objects) == 1):
+        if there and about_it(more) and more.noun is not None and more.start > noun.start and own.action in told:
+            noun.children.append(Item(Kind.PREPOSITION, more.start, more.start, "", ("with",), children=[more]))
             continue
-        if stands or more.color is None or noun.color is None:
+        stands = more.text in SETS["stands_for"]
+        if not (more.pronoun or stands) or not (clause.statement or there or len(clause.objects) == 1):
+            continue
+        if "other" not in more.words and (stands or more.color is None or noun.color is None):
             noun.color = noun.color or more.color
             noun.words += more.words
             noun.children += [child for child in more.children if child not in noun.children]
+
+
+def exists(clause: Clause) -> bool:
+    """ "There is a cone by the door": a clause that says what is there."""
+    return clause.action in SETS["be"] and not clause.statement
+
+
+def about_it(noun: Item) -> bool:
+    """ "(There is) a blue pillow next to it"."""
+    return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
@@ -44,7 +59,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
 
 
 def correct(clauses: Sequence[Clause]) -> None:
-    """ "Take the cube, no, the ball", "... no wait, the red one": a clause that takes back the one before replaces it."""
+    """ "Take the cube, no, the ball", "... no wait, the red one": what takes back the clause before it replaces it."""
     for k, clause in enumerate(clauses):
         said = [other for other in clauses[:k] if other.refused is None and (other.objects or other.places)]
         new = main_object(clause)
@@ -64,10 +79,10 @@ def correct(clauses: Sequence[Clause]) -> None:
                 clause.places = [replace(goal, children=[new]), *clause.places]
             else:
                 clause.places = clause.places or old.places
-        old.refused = _TAKEN_BACK
+        old.refused = TAKEN_BACK
 
 
-_TAKEN_BACK = "it takes a command back"
+TAKEN_BACK = "it takes a command back"
 
 
 def _in_the_middle(one: Item, several: Item) -> None:

@@ -54,9 +54,7 @@ class NounPhrases:
             self.nouns.append(item)
             for pending in self.pending:
                 pending.nouns, pending.forced = [item], True
-        elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
-            self.merge(self.nouns[-1], item)
-        elif self.nouns and self.names_it(item):
+        elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
             self.merge(self.nouns[-1], item)
         elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
             self.side(item)  # but "on the left and right"
@@ -74,14 +72,10 @@ class NounPhrases:
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
         last, things = self.nouns[-1], SETS["anything"] | {None}
-        open_, named = last.noun in things and last in self.clause.objects, item.noun not in things
-        plain = item.noun not in SETS["places"] | SETS["someone"] | SETS["measures"] and item.color in {
-            None,
-            last.color,
-        }
-        return (
-            open_ and named and plain and self.joined and not self.and_joined and item.determined and last.text != "it"
-        )
+        if last.noun not in things or item.noun in things | SETS["places"] | SETS["someone"] | SETS["measures"]:
+            return False
+        told = last in self.clause.objects and last.text not in SETS["stands_for"] and item.color in {None, last.color}
+        return told and item.determined and self.joined and not self.and_joined
 
     def is_bare_place(self, item: Item) -> bool:
         """ "(blue fan,) top row": where the thing is, without a preposition."""

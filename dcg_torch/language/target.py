@@ -9,7 +9,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
-from dcg_torch.language.references import arrive, describe_later, one_of_several, refer
+from dcg_torch.language.references import about_it, arrive, describe_later, exists, one_of_several, refer
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _FIRST_ORDER = "earlier_goal"
@@ -53,8 +53,10 @@ def _object_score(clause: Clause, target: Item) -> float:
         return TARGETS["acting"]
     if verb in VERBS["shun"]:
         return TARGETS["shun"]
+    if exists(clause) and ("other" in target.words or about_it(target)):
+        return TARGETS["another"]
     if clause.statement or not verb:
-        return TARGETS["another" if clause.statement and "other" in target.words else "statement"]
+        return TARGETS["statement"]
     for name in ("look", "put", "take", "reach"):
         if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
             return TARGETS[name]
