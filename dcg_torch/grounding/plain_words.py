@@ -21,6 +21,7 @@ from dcg_torch.names.vocabulary import (
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
+    QUANTIFIERS,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -67,6 +68,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         )
     )
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
+    words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)

@@ -65,6 +65,8 @@ SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
+QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
+"""Words that say how many are meant, and nothing of which."""
 EITHER_END = frozenset({"back", "front"})
 """Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
