@@ -46,6 +46,7 @@ COMMANDS: Mapping[str, Command] = {
         ("rclpy",),
     ),
     "pretrain": Command("cli.pretrain", "make the shipped model anew"),
+    "scenes": Command("cli.scenes", "scenes with commands that a program made, to certify with"),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }

@@ -103,8 +103,12 @@ def swap_side(episode: Episode) -> Perturbed | None:
     word, rest = of.head[slice(*span)].lower(), of.head[span[1] :]
     if " " in word or word in ("behind", "above", "below") or (rest.startswith(" of") and not _WHOLE.match(rest)):
         return _turned_relation(of, span, other, word.replace("in front of", "front").replace("behind", "back"))
-    ends = [ranked(of.things, measure) for measure in measures(word.removesuffix("most"), episode)]
-    return _changed(of, span, other, _meant(of, [(order[0], order[-1]) for order in ends]), "no")
+    counted = {_PLACE[name] for name in _words_near(of) if name in _PLACE} or {0}
+    k = min(counted)
+    if len(counted) > 1 or k >= len(of.things):
+        return None
+    orders = [ranked(of.things, measure) for measure in measures(word.removesuffix("most"), episode)]
+    return _changed(of, span, other, _meant(of, [(order[k], order[-1 - k]) for order in orders]), "no")
 
 
 def swap_ordinal(episode: Episode) -> Perturbed | None:
@@ -112,9 +116,8 @@ def swap_ordinal(episode: Episode) -> Perturbed | None:
     of = _described(episode)
     if of is None or len(of.things) < 3:
         return None
-    hits, (begin, end) = _hits(_ORDINALS, of.head), of.said.noun
-    near = {*of.head[:begin].lower().split()[-3:], *of.head[end:].lower().split()[:1]}
-    if len(hits) != 1 or of.head[slice(*hits[0][0])].lower() not in near:
+    hits = _hits(_ORDINALS, of.head)
+    if len(hits) != 1 or of.head[slice(*hits[0][0])].lower() not in _words_near(of):
         return None
     span, other = hits[0]
     before, after = _PLACE[of.head[slice(*span)].lower()], _PLACE[other]
@@ -183,11 +186,20 @@ def _described(episode: Episode) -> _Described | None:
     head = episode.text[: gone.start()] if gone else episode.text
     if target is None or said is None or said.noun[1] > len(head) or _ELSEWHERE.search(head):
         return None
-    things = alike(episode, target)
+    named = said.color is None and any(same(word[0], target.color) for word in WORD.finditer(head))
+    things = (
+        alike(episode, target) if said.color or named else [o for o in episode.objects if same(o.type, target.type)]
+    )
     if _SIZED.search(head[: said.noun[0]]) and volume(target):
         things = [o for o in things if math.isclose(volume(o), volume(target), rel_tol=_SAME_SIZE)]
     left = _SAYS_WHERE.sub(" ", _CORNER.sub(" ", _TOWARDS.sub(" ", f"{head[: said.noun[0]]}  {head[said.noun[1] :]}")))
     return _Described(episode, target, head, said, tuple(things), RELATIONAL.search(left.lower()) is not None)
+
+
+def _words_near(of: _Described) -> set[str]:
+    """The three words before the name of the class, and the one after it: where an ordinal counts such things."""
+    begin, end = of.said.noun
+    return {*of.head[:begin].lower().split()[-3:], *of.head[end:].lower().split()[:1]}
 
 
 def _hits(pairs: Sequence[tuple[str, str]], text: str) -> list[tuple[tuple[int, int], str]]:
