@@ -15,7 +15,7 @@ from typing import Final
 import numpy as np
 
 from dcg_torch.evaluation.episodes import Episode, EpisodeObject, Place
-from dcg_torch.evaluation.measures import measures, ranked
+from dcg_torch.evaluation.measures import Measure, measures, ranked
 
 THINGS: Final = {
     **{"mug": 0.1, "vase": 0.3, "suitcase": 0.6, "bucket": 0.35, "helmet": 0.3, "backpack": 0.5, "kettle": 0.25},
@@ -65,6 +65,11 @@ _BESIDE: Final = 0.5  # of the way to a landmark that a thing is off its side at
 _DRAWS: Final = 1_000
 _OURS: Final = 0x5CE9E5  # keeps these scenes from being those of another generator with the same seed
 _ROBOT: Final = Place(x=0.0, y=0.0, yaw=0.0)
+_BEARINGS: Final[dict[str, Measure]] = {
+    "left": lambda o: math.atan2(o.position[1], o.position[0]),
+    "right": lambda o: -math.atan2(o.position[1], o.position[0]),
+}
+"""How far to a side the robot must turn for a thing: who says "on the left" may mean this as well."""
 Maker = Callable[[Episode, str, Sequence[EpisodeObject]], Iterator[tuple[str, str]]]
 """Of a scene, a name for some of its things and these things: commands, each with the id of the one that it means."""
 
@@ -114,7 +119,7 @@ def _things(rng: np.random.Generator) -> tuple[EpisodeObject, ...]:
 def _by_side(scene: Episode, head: str, described: Sequence[EpisodeObject]) -> Iterator[tuple[str, str]]:
     for word, text in _SIDES:
         first = ranked(described, measures(word, scene)[0])[0]
-        if first is not None:
+        if first is not None and (word not in _BEARINGS or ranked(described, _BEARINGS[word])[0] == first):
             yield text.format(head), first
 
 
