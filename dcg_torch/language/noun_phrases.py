@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.english.forms import is_plural, parts, singular
 from dcg_torch.language.colors import PLURALS
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
-from dcg_torch.language.morphology import is_plural, parts, singular
 from dcg_torch.language.selection import normal_words
 from dcg_torch.language.tagging import Reader, Token
 

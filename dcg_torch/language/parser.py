@@ -9,14 +9,15 @@ import math
 from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 
+from dcg_torch.english.dictionary import english
+from dcg_torch.english.forms import singular
 from dcg_torch.language.attachment import build
 from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import CHOICES, VERBS, english
-from dcg_torch.language.morphology import singular
+from dcg_torch.language.lexicon import CHOICES, VERBS
 from dcg_torch.language.phrases import items
 from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
 from dcg_torch.language.tagging import Path, paths

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.english.forms import verb
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, VERBS
-from dcg_torch.language.morphology import verb
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Reader, Token
 
