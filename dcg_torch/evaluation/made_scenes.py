@@ -61,7 +61,7 @@ _LANDMARKS: Final = (
     ("near", "in front of"),
 )
 _APART: Final = 0.45  # metres at least between two things
-_BESIDE: Final = 0.5  # of the way to a landmark that a thing is off its side at most
+_BESIDE: Final = 0.7  # of the way to a landmark that a thing is off its side at most
 _DRAWS: Final = 1_000
 _OURS: Final = 0x5CE9E5  # keeps these scenes from being those of another generator with the same seed
 _ROBOT: Final = Place(x=0.0, y=0.0, yaw=0.0)

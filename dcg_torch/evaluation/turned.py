@@ -50,8 +50,15 @@ _CORNER: Final = re.compile(r"\b(top|bottom|front|back) (left|right)(?: hand)? c
 _COUNTED: Final = re.compile(
     r"\b(left|right|top|bottom|front|back|nearest|closest|farthest|furthest|biggest|largest|smallest|tallest|shortest)"
 )
+_SUPERLATIVE: Final = re.compile(r" \w+(?:est|most)\b", re.IGNORECASE)
 _SIZED: Final = re.compile(r"\b(?:small|little|tiny|big|large|huge|tall|short)\b", re.IGNORECASE)
 _SAME_SIZE: Final = 0.01
+_CLEARLY: Final = 0.7  # of the way from a landmark to what is on a side of it leads to that side, or more
+_SPLIT: Final = re.compile(
+    r"\b(?:nearest|closest|f[au]rthest) (?!away|to|from)(?:\w+ ){1,3}(?:to|from) (?!the left|the right|left|right)",
+    re.IGNORECASE,
+)
+"""A superlative and what it counts from with the thing between: "the closest cone to you"."""
 _SAYS_WHERE: Final = re.compile(
     r"(?<!\w)(?:(?:on|in|at|to|from|of|by|the|your|its|away|most|far|hand|side|edge|end|first|second|third|fourth|last|"
     r"left|right|leftmost|rightmost|top|bottom|front|back|nearest|closest|farthest|furthest|biggest|largest|smallest|"
@@ -88,7 +95,7 @@ class _Described:
 def swap_side(episode: Episode) -> Perturbed | None:
     """The side is turned round, where several things have the class and colour: what is at the other end is meant."""
     of = _described(episode)
-    if of is None or len(of.things) < 2:
+    if of is None or len(of.things) < 2 or _SPLIT.search(f"{of.head} "):
         return None
     corner = _CORNER.search(of.head)
     if corner is not None:
@@ -120,6 +127,8 @@ def swap_ordinal(episode: Episode) -> Perturbed | None:
     if len(hits) != 1 or of.head[slice(*hits[0][0])].lower() not in _words_near(of):
         return None
     span, other = hits[0]
+    if other == "first" and _SUPERLATIVE.match(of.head[span[1] :]):
+        other = "second"  # nobody says "the first biggest"
     before, after = _PLACE[of.head[slice(*span)].lower()], _PLACE[other]
     counted = list(dict.fromkeys(_COUNTED.findall(of.head.lower()))) or ["left", "right", "near"]
     if max(before, after) >= len(of.things):
@@ -146,12 +155,13 @@ def _turned_relation(of: _Described, span: tuple[int, int], other: str, word: st
     found = measures(word, of.episode)
     if mark is None or not found or of.says_more:
         return _changed(of, span, other, None, "may")
-    there = [
-        frozenset(o.id for o in of.things if measure(o) < measure(mark))
-        for measure in found
-        if measure(of.target) > measure(mark)
-    ]
-    return _changed(of, span, other, frozenset[str]().union(*there), "may")
+    there: set[str] = set()
+    for measure in found:
+        off = {o.id: measure(o) - measure(mark) for o in of.things}
+        clear = {o.id: abs(off[o.id]) >= _CLEARLY * math.dist(o.position, mark.position) for o in of.things}
+        if off[of.target.id] > 0.0 and clear[of.target.id] and any(off[i] < 0.0 and clear[i] for i in off):
+            there |= {i for i in off if off[i] < 0.0}
+    return _changed(of, span, other, frozenset(there), "may")
 
 
 def _meant(of: _Described, frames: Sequence[tuple[str | None, str | None]]) -> frozenset[str] | None:
