@@ -25,7 +25,11 @@ def scattered_scene(rng: np.random.Generator) -> Scene:
     kind, other = map(str, rng.permutation(KINDS)[:2])
     points = _points(rng, int(rng.integers(3, 8)) + int(rng.integers(0, 4)))
     number = max(3, len(points) - int(rng.integers(0, 4)))
-    things = [thing(f"o{k}", kind if k < number else other, rng, at) for k, at in enumerate(points)]
+    sized = bool(rng.random() < 0.5)  # some recognisers say how large a thing is
+    things = [
+        thing(f"o{k}", kind if k < number else other, rng, at, float(rng.uniform(0.1, 1.0)) if sized else None)
+        for k, at in enumerate(points)
+    ]
     alike = things[:number]
     verb = str(rng.choice(_VERBS))
     said: list[Told] = [
@@ -51,6 +55,9 @@ def _on_sides(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | 
                 yield text, by_place[0]
         if by_place[1] == by_turn[1]:
             yield f"second {kind} on the {side}", by_place[1]
+        for k, ordinal in enumerate(ORDINALS[: len(alike)]):
+            yield f"{ordinal} {kind} from the {side}", by_place[k]
+            yield f"{kind} {ordinal} from the {side}", by_place[k]
 
 
 def _by_way(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:

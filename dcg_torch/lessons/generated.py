@@ -18,8 +18,7 @@ from dcg_torch.lessons.selections import half_scene, size_scene
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
     """So many lessons on relations, and a third as many in each other kind of scene; the same for the same arguments.
 
-    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone, and of scattered things,
-    one of which lies at an end.
+    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone.
 
     Args:
         parse: reads commands.
@@ -28,6 +27,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
-    scattered = arranged_lessons(parse, count // 6, makers=(scattered_scene,))
+    scattered = arranged_lessons(parse, third, makers=(scattered_scene,))
     tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *scattered)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))
