@@ -2,8 +2,9 @@
 
 The target says in which frame a word is meant: "the left cube" that is the leftmost as its speaker sees it becomes
 "the right cube", and that is the other end of the same line. A text whose target is not where its words say that it is
-proves nothing, and is left out. Where the coordinates do not decide, as with a second relation in the text, all that
-can be asked is that another thing of the description is answered, or none.
+proves nothing, and is left out, and so is one that says a second relation: what it means after the change, and if it
+means anything, nobody can say. Where nobody knows where the robot stands, all that can be asked is that another thing
+of the description is answered, or none.
 """
 
 from __future__ import annotations
@@ -146,14 +147,18 @@ def _turned_relation(of: _Described, span: tuple[int, int], other: str, word: st
     people = _PEOPLE.match(of.head[span[1] :]) is not None
     if word.split(" ")[0] in NEAR | FAR:
         found = measures(word.split(" ")[0], of.episode) if people else []
-        if not people and (mark := _landmark(of, span[1])) is not None:
+        if not people:
+            mark = _landmark(of, span[1])
+            if mark is None:
+                return None
             away = distance(mark.position[:2])
             found = [away if word.split(" ")[0] in FAR else lambda o: -away(o)]
         orders = [ranked(of.things, measure) for measure in found]
         return _changed(of, span, other, _meant(of, [(order[0], order[-1]) for order in orders]), "no")
-    mark = None if people else _landmark(of, span[1])
-    found = measures(word, of.episode)
-    if mark is None or not found or of.says_more:
+    mark, found = None if people else _landmark(of, span[1]), measures(word, of.episode)
+    if mark is None or of.says_more:
+        return None
+    if not found:
         return _changed(of, span, other, None, "may")
     there: set[str] = set()
     for measure in found:
@@ -165,12 +170,16 @@ def _turned_relation(of: _Described, span: tuple[int, int], other: str, word: st
 
 
 def _meant(of: _Described, frames: Sequence[tuple[str | None, str | None]]) -> frozenset[str] | None:
-    """What is meant after the change in the frames in which the target was meant before; None: nobody can know.
+    """What is meant after the change in the frames in which the target was meant before; none where the text says more.
+
+    None: nobody can know, for the coordinates say nothing of such a side.
 
     Args:
         frames: for each, the id that is meant before and after; None where two can hardly be told apart.
     """
-    if not frames or of.says_more:
+    if of.says_more:
+        return frozenset()
+    if not frames:
         return None
     return frozenset(after or "" for before, after in frames if before == of.target.id)
 
