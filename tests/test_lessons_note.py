@@ -23,7 +23,7 @@ OPEN_WORLD = ModelSettings(
 
 @pytest.mark.parametrize(
     "model",
-    [OPEN_WORLD, *(replace(OPEN_WORLD, **{key: value}) for key, value in (("l2", 0.1), ("beam", 8), ("lessons", 30)))],
+    [OPEN_WORLD, replace(OPEN_WORLD, l2=0.1), replace(OPEN_WORLD, beam=8), replace(OPEN_WORLD, lessons=30)],
 )
 def test_it_is_said_where_the_shipped_model_is_not_taken(model: ModelSettings) -> None:
     chosen = factory.variant(model)
