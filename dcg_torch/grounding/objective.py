@@ -69,6 +69,25 @@ class Objective:
         norm = max_norm(gradient * self.scale)
         return Point(flat, value, gradient.reshape(-1), norm, chances)
 
+    def as_counted(self, flat: Floats) -> Floats:
+        """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
+
+        That is nearly the optimum where the penalty is small beside what was counted. Labels that were never counted
+        keep their scores.
+        """
+        assert isinstance(self.rows, ArrowheadRows)
+        rows, r = self.rows, len(self.rows.entry)
+        d = flat.reshape(len(self.count) - 1, -1).copy()
+        own = rows.scores(d)[:, :r] + (0.0 if self.offset is None else self.offset[:, :r])
+        scores = np.concatenate([np.zeros((1, r)), own])
+        count = self.count[:, :r]
+        seen = count > 0.0
+        gap = np.log(count, out=np.zeros_like(count), where=seen) - scores
+        gap -= (gap * seen).sum(axis=0) / np.maximum(seen.sum(axis=0), 1)
+        gap *= seen
+        d[:, rows.patterns.shape[1] :] += (gap[1:] - gap[0]) / rows.entry
+        return d.reshape(-1)
+
     def newton_step(self, point: Point) -> Floats:
         """Minus the inverse Hessian times the gradient; for rows of the arrowhead.
 

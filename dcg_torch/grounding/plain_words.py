@@ -12,6 +12,7 @@ from dcg_torch.names.vocabulary import (
     BY_COMPASS,
     COMPASS,
     DEGREES,
+    FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
     INSIDE,
@@ -43,14 +44,15 @@ def heads(types: Iterable[str]) -> frozenset[str]:
     return frozenset(map(_head, set(types)))
 
 
-def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False) -> ParseTree:
     """A parse tree in plain words.
 
     Args:
         there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
+        flat: does all stand on one level?
     """
     tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
-    phrase, below = tree.phrase, tuple(in_plain_words(child, there) for child in tree.children)
+    phrase, below = tree.phrase, tuple(in_plain_words(child, there, flat=flat) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
@@ -65,6 +67,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)

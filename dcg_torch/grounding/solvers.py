@@ -67,6 +67,7 @@ def newton(
     *,
     tolerance: float,
     max_steps: int,
+    guess: Callable[[Floats], Floats] | None = None,
 ) -> Minimum:
     """Newton's method with halved steps where a whole one goes too far.
 
@@ -75,8 +76,12 @@ def newton(
         start: the variables at first.
         tolerance: stop at this `norm`.
         max_steps: at the most.
+        guess: variables that may be better than those at first.
     """
     point, evaluations = function(start), 1
+    if guess is not None and point.norm > tolerance:
+        guessed, evaluations = function(guess(start)), 2
+        point = guessed if guessed.value < point.value else point
     for step in range(max_steps + 1):
         if point.norm <= tolerance:
             return Minimum(point, step, evaluations, "converged")

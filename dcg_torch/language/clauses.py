@@ -121,6 +121,14 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     return items[k].noun in SETS["someone"] and items[k - 1].noun not in SETS["robot"]
 
 
+def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
+    """ "(The blonde,) not wearing glasses", "(no hair,) has a beard": more of what a noun phrase by itself is like."""
+    kinds = {other.kind for other in clause}
+    if Kind.NOUN not in kinds or Kind.VERB in kinds:
+        return False
+    return item.participle if before.kind is Kind.NEGATION else item.finite and item.words[0] in SETS["possessing"]
+
+
 def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
     """Whether a clause begins with the verb at `k`."""
     item = items[k]
@@ -128,6 +136,8 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         return False
     before = items[k - 1] if k else None
     lemma = item.words[0].split()[0]
+    if before is not None and before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
+        return False
     if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
         # "the block being held", "the cube is placed on ...", but "you are looking for"
         subject = items[k - 2]

@@ -84,7 +84,7 @@ class _Phrases(Reader):
         token = self.tokens[i]
         base = verb(token.text) if token.tag != "HAVE" else "have"
         item = self.add(Kind.VERB, i, i + 1, (base,))
-        item.finite = token.tag == "VG" and token.text.endswith("s")
+        item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
         after = self.text(i + 1)
         stop = i + 1

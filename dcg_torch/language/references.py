@@ -16,6 +16,9 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
         if clause is own or not clause.objects or clause.verb is not None:
             continue
         more = clause.objects[0]
+        if _only_places(more) and len(clause.objects) == 1:
+            noun.children += more.children  # "Top left? The big black one."
+            continue
         stands = more.text in SETS["stands_for"]
         if not (more.pronoun or stands) or not (clause.statement or len(clause.objects) == 1):
             continue
@@ -23,6 +26,12 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
             noun.color = noun.color or more.color
             noun.words += more.words
             noun.children += [child for child in more.children if child not in noun.children]
+
+
+def _only_places(noun: Item) -> bool:
+    """Whether a noun phrase says but where something is: "in the corner", "top left"."""
+    named = noun.noun or noun.color or noun.words or noun.plural or noun.count
+    return noun.pronoun and not named and not noun.text and bool(noun.children)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:

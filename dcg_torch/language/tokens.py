@@ -107,7 +107,9 @@ def _speller(known: frozenset[str]) -> Speller:
 
 @functools.cache
 def _command_words() -> frozenset[str]:
-    words = SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"]
+    words = (
+        SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"] | SETS["ordinals"]
+    )
     single = {name for names in PLACING.values() for name in names if " " not in name}
     colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
     return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors

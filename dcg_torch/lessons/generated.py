@@ -10,6 +10,7 @@ from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.ends import scattered_scene
 from dcg_torch.lessons.formations import formation_scene
 from dcg_torch.lessons.handling import stack_scene
+from dcg_torch.lessons.looks import height_scene, lonely_scene, shelf_scene
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.lessons.rooms import room_lessons
 from dcg_torch.lessons.selections import half_scene, size_scene
@@ -18,7 +19,8 @@ from dcg_torch.lessons.selections import half_scene, size_scene
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
     """So many lessons on relations, and a third as many in each other kind of scene; the same for the same arguments.
 
-    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone.
+    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone, and as many on how tall
+    and how high things are and on what stands by itself.
 
     Args:
         parse: reads commands.
@@ -28,5 +30,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
     scattered = arranged_lessons(parse, third, makers=(scattered_scene,))
-    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *scattered)
+    looks = arranged_lessons(parse, count // 6, makers=(height_scene, shelf_scene, lonely_scene))
+    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *scattered)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

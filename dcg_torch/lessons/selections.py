@@ -131,6 +131,8 @@ def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterat
     for big, small in (("biggest", "smallest"), ("largest", "smallest"), ("big", "small"), ("large", "little")):
         yield f"go to the {big} {head}", frozenset({order[0].id})
         yield f"go to the {small} {head}", frozenset({order[-1].id})
+    if len(order) == 3:
+        yield from ((f"go to the {word} {head}", frozenset({order[1].id})) for word in ("medium", "medium sized"))
     for k, ordinal in enumerate(ORDINALS[1 : len(order) - 1], start=1):
         for big, small in (("biggest", "smallest"), ("largest", "smallest")):
             yield f"go to the {ordinal} {big} {head}", frozenset({order[k].id})

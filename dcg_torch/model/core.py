@@ -30,6 +30,7 @@ from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.followed import Followed
 from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.teacher import Told, interpret
@@ -61,6 +62,7 @@ class GroundingModel:
         self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
         self.fitted: FitResult | None = None
         self._statistics = Statistics(features.groups)
+        self._follows: Followed | None = None
 
     @classmethod
     def trained(
@@ -247,13 +249,14 @@ class GroundingModel:
         free = self.learner.trainable(self.features)
         if free is not None and self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
-        designs = self._statistics.designs(
-            self.learner.training_examples(self.features),
-            self.learner.soft_labels(self.features),
-            self.features,
-            self.factor.correspondences,
-        )
-        return self.fit_weights(designs, free=free, l2=self.variant.l2)
+        examples, soft = self.learner.training_examples(self.features), self.learner.soft_labels(self.features)
+        follows = Followed(self.features, self.factor.weight, self.prior, examples, soft, free)
+        if self._follows is not None and self.fitted is not None and self._follows.same(follows):
+            return self.fitted
+        designs = self._statistics.designs(examples, soft, self.features, self.factor.correspondences)
+        fitted = self.fit_weights(designs, free=free, l2=self.variant.l2)
+        self._follows = replace(follows, weight=self.factor.weight)
+        return fitted
 
     def teach(
         self,

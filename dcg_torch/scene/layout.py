@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.neighbours import Neighbours, neighbours
+from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
@@ -95,6 +95,12 @@ class Layout:
         """Of the objects, which come first: who is near whom."""
         n = int(self.solid.sum())
         return neighbours(self.position[:n], self.color[:n])
+
+    @functools.cached_property
+    def apart(self) -> Floats:
+        """(n,) how far the nearest other object is; NaN for what is none."""
+        n = int(self.solid.sum())
+        return np.concatenate([nearest_other(self.position[:n]), np.full(len(self.things) - n, math.nan)])
 
     @functools.cached_property
     def resting(self) -> Bools:

@@ -107,3 +107,21 @@ def _close(points: Floats, i: Ints, j: Ints, bound: float) -> tuple[Ints, Ints, 
     apart = np.hypot(offset[:, 0], offset[:, 1])
     near = apart < bound
     return i[near], j[near], apart[near]
+
+
+def nearest_other(position: Floats) -> Floats:
+    """(n,) how far the nearest other thing is from each of (n, 3) positions; NaN where there is none."""
+    found = np.full(len(position), np.nan)
+    there = np.flatnonzero(np.isfinite(position).all(axis=1))
+    if len(there) < 2:
+        return found
+    points = position[there]
+    if len(there) <= _FEW:
+        apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        found[there] = apart.min(axis=1)
+        return found
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    found[there] = cKDTree(points).query(points, k=2)[0][:, 1]
+    return found
