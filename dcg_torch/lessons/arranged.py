@@ -193,6 +193,11 @@ def _at_edges(one: Percept, alike: Sequence[Percept], head: str) -> Iterator[Tol
                 yield f"take the {side}most {head}", only
             if reach[one.id] == 3.5:
                 yield f"take the {head} at the {side} edge", only
+    inside = {i: 3.5 - float(np.abs(p).max()) for i, p in place.items()}  # how far from the nearest edge
+    if inside[one.id] == 0.0 and first(lambda i: inside[i], margin=2.0):
+        yield from (
+            (f"take the {head} {where} the {edge}", only) for where in ("at", "on") for edge in ("edge", "border")
+        )
     for depth in ("top", "bottom"):
         for side in ("left", "right"):
             corner = 3.5 * (np.array(ways[depth]) + np.array(ways[side]))
