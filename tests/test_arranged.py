@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -29,7 +30,7 @@ def test_everything_said_of_a_table_is_said_of_one_object(seed: int) -> None:
             assert depth[one.id] == 0.0
             assert all(d >= 2.0 for i, d in depth.items() if i != one.id)
         if text.endswith((" in the corner", " in a corner", " in the corner of the board")):
-            depth = {o.id: np.hypot(*(min(v, 7.0 - v) for v in o.position[:2])) for o in alike}
+            depth = {o.id: math.hypot(*(min(v, 7.0 - v) for v in o.position[:2])) for o in alike}
             assert depth[one.id] == 0.0
             assert all(d >= 2.0 for i, d in depth.items() if i != one.id)
         if " single " in text:
