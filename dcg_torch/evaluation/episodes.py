@@ -33,7 +33,9 @@ _Shade = Annotated[float, Field(ge=0.0, le=255.0)]
 _Name = Annotated[str, Field(min_length=1, max_length=200, pattern=r"\S")]
 
 
-class _Place(_Record):
+class Place(_Record):
+    """Where somebody stands: metres, and radians from x towards y."""
+
     x: _Coordinate
     y: _Coordinate
     yaw: _Coordinate = 0.0
@@ -90,8 +92,8 @@ class Episode(_Record):
     text: Annotated[str, Field(max_length=10_000)]
     objects: tuple[EpisodeObject, ...] = Field(min_length=1)
     target: tuple[str, ...]
-    robot: _Place | None = None
-    speaker: _Place | None = None
+    robot: Place | None = None
+    speaker: Place | None = None
     holding: str | None = None
     group: str | None = None
 
@@ -215,7 +217,7 @@ def _check_keys(line: Any, where: str) -> None:
         return
     things = line.get("objects")
     records: list[tuple[str, Any, type[BaseModel]]] = [("", line, Episode)]
-    records += [(f"{name}.", line.get(name), _Place) for name in ("robot", "speaker")]
+    records += [(f"{name}.", line.get(name), Place) for name in ("robot", "speaker")]
     records += [(f"objects.{k}.", o, EpisodeObject) for k, o in enumerate(things if isinstance(things, list) else [])]
     for prefix, record, model in records:
         if not isinstance(record, dict) or len(record) > _MOST_KEYS:
