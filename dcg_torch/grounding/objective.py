@@ -69,19 +69,21 @@ class Objective:
         norm = max_norm(gradient * self.scale)
         return Point(flat, value, gradient.reshape(-1), norm, chances)
 
-    def as_counted(self, flat: Floats) -> Floats:
+    def as_counted(self, flat: Floats) -> Floats | None:
         """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
 
         That is nearly the optimum where the penalty is small beside what was counted. Labels that were never counted
-        keep their scores.
+        keep their scores. None where each row was counted with one label alone, which says nothing.
         """
         assert isinstance(self.rows, ArrowheadRows)
         rows, r = self.rows, len(self.rows.entry)
+        seen = self.count[:, :r] > 0.0
+        if not (np.count_nonzero(seen, axis=0) > 1).any():
+            return None
         d = flat.reshape(len(self.count) - 1, -1).copy()
         own = rows.scores(d)[:, :r] + (0.0 if self.offset is None else self.offset[:, :r])
         scores = np.concatenate([np.zeros((1, r)), own])
         count = self.count[:, :r]
-        seen = count > 0.0
         gap = np.log(count, out=np.zeros_like(count), where=seen) - scores
         gap -= (gap * seen).sum(axis=0) / np.maximum(seen.sum(axis=0), 1)
         gap *= seen
