@@ -27,6 +27,8 @@ from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows, Rows
 from dcg_torch.grounding.solvers import Function, Point
 
+_SETTLED = 1e-10
+"""Variables of a block whose gradient is less stay where they are."""
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
 
@@ -116,9 +118,11 @@ class Objective:
     def _shared_step(self, curvature: Floats, downhill: Floats) -> Floats:
         """(Q, S) the step of the shared variables, from the curvature (Q, Q, N) of each row."""
         assert isinstance(self.rows, ArrowheadRows)
-        q, step = len(downhill), np.empty_like(downhill)
+        q, step = len(downhill), np.zeros_like(downhill)
         curvature = self.rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
         for rows, columns, matrix in self.rows.blocks:
+            if np.abs(downhill[:, columns]).max() < _SETTLED:
+                continue
             own, k = curvature[:, :, rows], len(columns)
             hessian = np.empty((q, k, q, k))
             for a in range(q):
