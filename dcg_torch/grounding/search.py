@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import log_odds_of_absence
+from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
 from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
@@ -132,14 +132,13 @@ class Search:
     def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
         """The best configuration about another object; None if there is none."""
         meant = best.meant.id
-        other = np.ones(root.scores.shape[:2], dtype=np.bool_)
-        own = self.encoder.number[meant]
-        for c, combo in enumerate(root.combos):
-            if root.tree.phrase.kind is PhraseKind.NOUN or not combo:
-                other[c, own : own + 1] = False
-            else:
-                other[c] = combo[0].meant.id != meant
-        scores = np.where(other[:, :, None], root.scores, -np.inf)
+        if root.tree.phrase.kind is PhraseKind.NOUN or not root.combos[0]:
+            scores = root.scores.copy()
+            own = self.encoder.number[meant]
+            scores[:, own : own + 1] = -np.inf
+        else:
+            same = np.array([combo[0].meant.id == meant for combo in root.combos])
+            scores = np.where(same[:, None, None], -np.inf, root.scores)
         if not np.isfinite(scores).any():
             return None
         return self._best(replace(root, scores=scores), 1)[0]
@@ -277,6 +276,8 @@ class Search:
 
     def _or_absent(self, tree: ParseTree, found: _Scored) -> _Scored:
         """With as much for what is not there as `absence` says, where it says something."""
+        if not judges_absence(self.encoder):
+            return found
         bare = replace(
             tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
         )
@@ -294,13 +295,15 @@ class Search:
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
-        kind = GROUNDING_OF[scored.tree.phrase.kind]
-        found = []
+        kind, things = GROUNDING_OF[scored.tree.phrase.kind], self.encoder.all
+        found, scores = [], scored.scores.reshape(-1)
         _, n, m = scored.scores.shape
-        for flat in highest(scored.scores.reshape(-1), beam).tolist():
+        best = highest(scores, beam)
+        for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
             (c, j), p = divmod(flat // m, n), flat % m
-            thing = self.encoder.all[j]
-            child = Child(Grounding(kind, thing), scored.meant[p])
-            below = (*scored.combos[c], *(modifier.hypothesis(j, thing) for modifier in scored.modifiers))
-            found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
+            child = Child(Grounding(kind, things[j]), scored.meant[p])
+            below = scored.combos[c]
+            if scored.modifiers:
+                below = (*below, *(modifier.hypothesis(j, things[j]) for modifier in scored.modifiers))
+            found.append(Hypothesis(scored.tree, child, below, score))
         return found

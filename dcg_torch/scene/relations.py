@@ -22,8 +22,8 @@ VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "abo
 SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
 FRAMES = ("side", "side seen", "side spoken")
 """Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = {"closest": NEAREST, "farthest": NEAREST}
-"""Order by distance -> how many ranks of it are features."""
+_ORDERS = ("closest", "farthest")
+"""Orders by distance, of which `NEAREST` ranks each are features."""
 
 
 def _names() -> dict[str, list[str]]:
@@ -31,8 +31,8 @@ def _names() -> dict[str, list[str]]:
     bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for order, named in _ORDERS.items():
-        families[order] = [f"{order} {k}" for k in range(1, named + 1)]
+    for order in _ORDERS:
+        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
     families["itself"] = ["itself"]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
@@ -174,13 +174,10 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
     ahead = -(offset * heading[:, None, :]).sum(axis=2)
     value = np.where(where.direction[first][:, None], ahead, distance)
-    found = {}
-    for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
-        signed = np.where(exists, sign * value, math.inf)
-        before = lower(signed, alike, named)
-        compared = exists & (alike.code >= 0) & (before < named)
-        found[order] = np.where(compared, before, -1)
-    return found
+    signed = np.concatenate([np.where(exists, value, math.inf), np.where(exists, -value, math.inf)])
+    before = lower(signed, alike, NEAREST).reshape(2, *value.shape)
+    compared = exists & (alike.code >= 0) & (before < NEAREST)
+    return dict(zip(_ORDERS, np.where(compared, before, -1), strict=True))
 
 
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Hashable, Iterable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -227,10 +227,10 @@ class FeatureSet:
         rows = []
         for thing, own in zip(things, states, strict=True):
             key = thing.known, thing.hypothetical, thing.color, thing.attributes, own
+            column = self.grounding.get(f"type: {thing.type}") if thing.known else None
             common = alike.get(key)
             if common is None:
-                common = alike[key] = self.thing_columns(replace(thing, type=""), own)
-            column = self.grounding.get(f"type: {thing.type}") if thing.known else None
+                common = alike[key] = [c for c in self.thing_columns(thing, own) if c != column]
             rows.append(common if column is None else sorted((*common, column)))
         return rows
 
