@@ -17,6 +17,7 @@ from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 _APART = 0.4  # metres at least between two things
+_ASIDE = 0.4  # metres from straight ahead from which a thing lies on a side
 _VERBS = ("take", "get", "go to", "pick up")
 
 
@@ -37,7 +38,7 @@ def scattered_scene(rng: np.random.Generator) -> Scene:
         for text, meant in (*_on_sides(kind, alike), *_by_way(kind, alike))
         if meant is not None
     ]
-    said += [(f"{verb} the {text}", ids) for text, ids in _several(kind, alike)]
+    said += [(f"{verb} the {text}", ids) for text, ids in (*_several(kind, alike), *_of_one_side(kind, alike))]
     return Scene(tuple(things), Pose(0.0, 0.0), Workspace(None, _unit(points)), tuple(said))
 
 
@@ -67,6 +68,23 @@ def _by_way(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | No
         for word in words:
             yield f"{word} {kind}", of[0]
             yield from ((f"{ORDINALS[k]} {word} {kind}", of[k]) for k in range(1, min(len(of), 4)))
+
+
+def _of_one_side(kind: str, alike: Sequence[Percept]) -> Iterator[Told]:
+    """The side as a part of the scene: all that lie there, and the nearest and the farthest of these."""
+    if any(abs(o.position[1]) < _ASIDE for o in alike):
+        return
+    for side, sign in (("left", 1.0), ("right", -1.0)):
+        there = [o for o in alike if sign * o.position[1] > 0.0]
+        if not 2 <= len(there) < len(alike):
+            continue
+        yield f"{kind}s on your {side}", frozenset(o.id for o in there)
+        near = ranked(there, lambda o: math.hypot(*o.position[:2]))
+        for end, text in ((0, "nearest"), (0, "closest"), (-1, "farthest")):
+            if (meant := near[end]) is not None:
+                yield from ((f"{text} {kind} on {whose} {side}", frozenset({meant})) for whose in ("the", "your"))
+        if near[0] is not None:
+            yield f"{kind} closest to you on your {side}", frozenset({near[0]})
 
 
 def _several(kind: str, alike: Sequence[Percept]) -> Iterator[Told]:
