@@ -55,7 +55,7 @@ def _object_score(clause: Clause, target: Item) -> float:
         return TARGETS["shun"]
     if exists(clause) and ("other" in target.words or about_it(target)):
         return TARGETS["another"]
-    if clause.statement or not verb:
+    if clause.statement or not verb or exists(clause):
         return TARGETS["statement"]
     for name in ("look", "put", "take", "reach"):
         if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
