@@ -142,6 +142,10 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
             return handled[-1]
         if earlier:
             return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+        later = (
+            other for other in found[found.index(chosen) :] if other.clause.verb is None and not other.noun.pronoun
+        )
+        return next(later, chosen)  # "Bring it to me. The mug."
     return chosen
 
 
