@@ -8,12 +8,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.names.vocabulary import OWNERS
-from dcg_torch.scene.frames import seen_by_speaker
-from dcg_torch.types import ParseTree, WorldModel
+from dcg_torch.scene.frames import seen_by_speaker, seen_facing
+from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _SIDE = r"(?:\w+[ -]+){0,2}?(?:left|right|front|back|side|perspective|point of view|view|viewpoint)\b"
 _CUES = ((re.compile(rf"\bmy {_SIDE}"), 4.0), (re.compile(rf"\byour? {_SIDE}"), -4.0), (re.compile(r"\byour?\b"), -1.0))
@@ -33,6 +34,24 @@ def views(text: str, world: WorldModel, speakers: float | None) -> Sequence[tupl
     said = text.lower()
     log_odds = math.log(speakers) - math.log1p(-speakers) + sum(by for cue, by in _CUES if cue.search(said))
     return [(world, -math.log1p(math.exp(log_odds))), (other, -math.log1p(math.exp(-log_odds)))]
+
+
+def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
+    """The world as who faces what a command says they face sees it: "facing the bed, the nightstand on the left".
+
+    Args:
+        tree: of the likeliest reading.
+        solve: grounds a tree in the world as the robot sees it.
+    """
+    place = next((child for child in tree.children if child.phrase.words[:1] == (FACING,) and child.children), None)
+    if place is None or len(tree.children) < 2 or place.children[0].phrase.noun is None:
+        return None
+    found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), place.children[:1]))
+    thing = found.object
+    return None if thing is None or thing.hypothetical else seen_facing(found.world, thing)
+
+
+FACING = "facing"
 
 
 def from_the_other_side(tree: ParseTree) -> ParseTree:

@@ -13,7 +13,7 @@ from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import last_thing, settle_each_other, settle_nothing, settle_row
+from dcg_torch.language.predicates import last_thing, settle_each_other, settle_nothing, settle_part, settle_row
 from dcg_torch.language.saying import NounPhrases
 from dcg_torch.language.selection import is_superlative
 
@@ -36,6 +36,7 @@ class _Builder(NounPhrases):
             settle_nothing(noun)
             settle_each_other(noun)
             settle_row(noun)
+            settle_part(noun)
             noun.noun = "thing" if noun.noun in SETS["nothing"] else noun.noun
         return self.clause
 

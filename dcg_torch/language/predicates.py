@@ -47,6 +47,15 @@ def settle_nothing(noun: Item) -> None:
             noun.children.remove(without)
 
 
+def settle_part(noun: Item) -> None:
+    """ "The screwdriver with the red handle": of what has a coloured part people and recognisers say the colour."""
+    for place in [child for child in noun.children if child.words == ("with",) and len(child.children) == 1]:
+        part = place.children[0]
+        if part.noun in SETS["parts"] and part.color is not None and noun.color is None and not part.children:
+            noun.color, part.said = part.color, True
+            noun.children.remove(place)
+
+
 def settle_each_other(noun: Item) -> None:
     """ "side by side" becomes the preposition "next to" with another such thing."""
     if "each other" in noun.words[1:]:

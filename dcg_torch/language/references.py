@@ -54,6 +54,10 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     several = [noun for noun in _mentions(clauses) if noun.noun is not None and noun.start < one.start]
     several = [noun for noun in several if noun.plural or ("other" in one.words and noun.noun not in SETS["someone"])]
+    if (
+        not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses)
+    ):  # "The sofa. The bigger one."
+        several = [noun for noun in map(main_object, clauses) if noun and noun.noun and noun.start < one.start]
     several = [noun for noun in several if all(node is not one for node in noun.walk())]
     several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
     if not several:

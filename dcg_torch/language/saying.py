@@ -58,8 +58,9 @@ class NounPhrases:
             self.merge(self.nouns[-1], item)
         elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
             self.side(item)  # but "on the left and right"
-        elif self.nouns and self.is_bare_place(item):
-            where = Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("in",), children=[item])
+        elif self.nouns and (self.is_bare_place(item) or self.is_bare_part(item)):
+            name = "with" if item.noun in SETS["parts"] else "in"
+            where = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,), children=[item])
             last_thing(self.nouns).children.append(where)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
@@ -81,6 +82,11 @@ class NounPhrases:
         """ "(blue fan,) top row": where the thing is, without a preposition."""
         somewhere = item.noun in SETS["place_nouns"] and bool(item.words) and not item.color
         return somewhere and not self.and_joined and self.clause.verb is None and not item.determined
+
+    def is_bare_part(self, item: Item) -> bool:
+        """ "(screwdriver,) red handle": what it has, without a preposition."""
+        part = item.noun in SETS["parts"] and item.color is not None
+        return part and self.joined and not self.and_joined and not item.determined
 
     def is_about_color(self, item: Item, place: Item | None) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""

@@ -55,7 +55,7 @@ def _object_score(clause: Clause, target: Item) -> float:
         return TARGETS["shun"]
     if exists(clause) and ("other" in target.words or about_it(target)):
         return TARGETS["another"]
-    if clause.statement or not verb:
+    if clause.statement or not verb or exists(clause):
         return TARGETS["statement"]
     for name in ("look", "put", "take", "reach"):
         if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
@@ -142,6 +142,10 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
             return handled[-1]
         if earlier:
             return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+        later = (
+            other for other in found[found.index(chosen) :] if other.clause.verb is None and not other.noun.pronoun
+        )
+        return next(later, chosen)  # "Bring it to me. The mug."
     return chosen
 
 

@@ -37,6 +37,7 @@ _SMALL = {
 _BEGIN = ("take the", "pick up the", "the", "find the", "bring me the", "choose the", "go to the", "get the")
 _BY = ("next to", "beside", "by", "near", "close to")
 _NUMBERS = {2: "two", 3: "three", 4: "four"}
+_HIGH = (("tallest", "shortest"), ("tall", "short"))
 _CLOSE, _APART = 0.45, 1.0
 """Metres between the sides of things that are beside each other in a room, and of those that are not."""
 _TRIES = 40
@@ -75,6 +76,7 @@ def furnished_scene(rng: np.random.Generator) -> Scene:
             if all(found[0].gap(other) > 0.0 or found[2] != how for other, _, how in placed):
                 placed.append(found)
     said = [*_on(placed, rng), *_under(placed, rng), *_beside(placed, pieces, rng)]
+    said += [told for told in _by_size([thing for thing, _, _ in placed]) if rng.random() < 0.3]
     return _scene([*pieces, *(thing for thing, _, _ in placed)], said, rng)
 
 
@@ -122,8 +124,8 @@ def _pieces(rng: np.random.Generator) -> list[_Body]:
 
 
 def _scaled(size: Sequence[float], rng: np.random.Generator) -> tuple[float, float, float]:
-    by = rng.uniform(0.85, 1.15)
-    return (by * size[0], by * size[1], by * size[2])
+    by, high = rng.uniform(0.85, 1.15), rng.uniform(0.85, 1.15)
+    return (by * size[0], by * size[1], by * high * size[2])
 
 
 def _placed(kind: str, piece: _Body, rng: np.random.Generator) -> tuple[_Body, _Body | None, str]:
@@ -166,6 +168,18 @@ def _on(
             ranked = sorted(there, key=lambda thing: math.prod(thing.size))
             if math.prod(ranked[-1].size) > 1.1 * math.prod(ranked[-2].size):
                 yield f"{rng.choice(('biggest', 'largest'))} {kind} {where}", ranked[-1:]
+
+
+def _by_size(things: Sequence[_Body]) -> Iterator[tuple[str, list[_Body]]]:
+    """The tallest of a kind, and the shortest, where they are so by a tenth."""
+    for kind in sorted({thing.kind for thing in things}):
+        alike = sorted((thing for thing in things if thing.kind == kind), key=lambda thing: thing.size[2])
+        words = _HIGH if len(alike) > 1 else ()
+        for most, least in words:
+            if alike[-1].size[2] > 1.1 * alike[-2].size[2]:
+                yield f"{most} {kind}", alike[-1:]
+            if alike[1].size[2] > 1.1 * alike[0].size[2]:
+                yield f"{least} {kind}", alike[:1]
 
 
 def _under(

@@ -17,7 +17,7 @@ from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
-from dcg_torch.grounding.frames import views
+from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
@@ -170,8 +170,9 @@ class GroundingModel:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
         frames = self.learner.frames if self._related else None
+        facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)
-        searches = [(self._search(view), frame) for view, frame in seen]
+        searches = [(self._search(view), frame) for view, frame in ([(facing, 0.0)] if facing is not None else seen)]
         return sum_over_frames(searches, readings if self._related else readings[:1])
 
     @property

@@ -10,6 +10,8 @@ import functools
 from dataclasses import dataclass
 from typing import Final
 
+from rapidfuzz.distance import OSA
+
 from dcg_torch.names.normal import head_index, normalise, read_data, singular
 from dcg_torch.names.wordnet import nouns
 
@@ -120,6 +122,8 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
         class_name: as the recogniser writes it.
     """
     said, named = _name(noun), _name(class_name)
+    if unheard_of(noun):
+        said = next((other for other in (named, _name(named.head)) if _misspells(said.text, other.text)), said)
     form = _form(said, named)
     if form == "name: generic":
         return (form,)
@@ -144,6 +148,15 @@ def _form(said: _Name, named: _Name) -> str:
     if named.head in one:
         return "name: class is word"
     return "name: shared word" if one & other else "name: none"
+
+
+def _misspells(word: str, name: str) -> bool:
+    """Whether a word that nobody knows is a name but for a letter, of long ones two: "screwdrver"."""
+    shorter = min(len(word), len(name))
+    return shorter >= _SPELT and OSA.distance(word, name, score_cutoff=2) <= 1 + (shorter >= _LONG)
+
+
+_SPELT, _LONG = 5, 8
 
 
 def _share_a_name(noun: str, name: str) -> bool:

@@ -55,7 +55,8 @@ class Bodies:
         reach = one + other - _COVERED * 2.0 * np.minimum(one, other)
         known = np.isfinite(reach).all(axis=2)
         with np.errstate(invalid="ignore"):
-            covers: Bools = np.asarray(known & (np.abs(offset[..., :2]) < reach).all(axis=2))
+            near: Bools = np.abs(offset[..., :2]) < reach
+        covers: Bools = known & near[..., 0] & near[..., 1]
         return covers, known & ~covers
 
     def steps(self, first: Ints, covers: Bools) -> Ints:

@@ -24,17 +24,46 @@ def seen_by_speaker(world: WorldModel) -> WorldModel | None:
     The speaker is taken to look at the middle of the objects, and changes places with the robot: what was the robot's
     left is the speaker's. So "your" and "my" change places too, in what is grounded there (`grounding.frames`).
     """
-    there = [o.position[:2] for o in world.objects if o.position is not None]
-    if world.speaker is None or world.robot is None or not there:
+    middle = _middle(world)
+    if world.speaker is None or world.robot is None or middle is None:
         return None
-    x, y = np.mean(there, axis=0).tolist()
+    x, y = middle
     if math.hypot(x - world.speaker.x, y - world.speaker.y) < 1e-9:
         return None
     viewer = Pose(world.speaker.x, world.speaker.y, math.atan2(y - world.speaker.y, x - world.speaker.x))
     turned = wrap_angle(world.robot.yaw - viewer.yaw)
     if abs(turned) < _ALIKE:
         return None
-    quarters = round(turned / (math.pi / 2)) % 4
+    return _turned(world, viewer)
+
+
+def seen_facing(world: WorldModel, thing: Object) -> WorldModel | None:
+    """The world as who stands in the middle of it and faces a thing sees it; None where that can't be told."""
+    middle = _middle(world)
+    if middle is None or thing.position is None:
+        return None
+    x, y = middle if world.robot is None or not _is_among(world.robot, world) else (world.robot.x, world.robot.y)
+    ahead = (thing.position[0] - x, thing.position[1] - y)
+    return None if math.hypot(*ahead) < world.unit else _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0])))
+
+
+def _middle(world: WorldModel) -> tuple[float, float] | None:
+    there = [o.position[:2] for o in world.objects if o.position is not None]
+    if not there:
+        return None
+    x, y = np.mean(there, axis=0).tolist()
+    return x, y
+
+
+def _is_among(robot: Pose, world: WorldModel) -> bool:
+    """Whether a robot stands in the room, with things on all sides of it."""
+    there = np.array([o.position[:2] for o in world.objects if o.position is not None]) - (robot.x, robot.y)
+    return bool((there.min(axis=0) < -world.unit).all() and (there.max(axis=0) > world.unit).all())
+
+
+def _turned(world: WorldModel, viewer: Pose) -> WorldModel:
+    yaw = 0.0 if world.robot is None else world.robot.yaw
+    quarters = round(wrap_angle(yaw - viewer.yaw) / (math.pi / 2)) % 4
     return replace(world, viewer=viewer, places=tuple(_named(place, quarters) for place in world.places))
 
 
