@@ -173,6 +173,9 @@ def _nearest(place: Pending, decisions: Decisions) -> Item:
     if place.name == "of":
         return candidates[-1]
     solid = [noun for noun in candidates if noun.noun not in SETS["places"] | SETS["groups"]] or candidates
+    last = candidates[-1]
+    if last.noun in SETS["groups"] and last is not solid[-1]:  # "the cube above the tower on the left"
+        return last if decisions.choose("group_owner", CHOICES["group_owner"]) == "group" else solid[-1]
     if len(solid) > 1 and solid[0].children + solid[-1].children != []:
         far = decisions.choose("owner", CHOICES["owner"]) == "far"
         return solid[0] if far else solid[-1]

@@ -81,7 +81,8 @@ DEGREES = frozenset({"far", "very", "extreme", "utmost", "farthest", "outer"})
 SYNONYMS = {
     **{"smaller": "smallest", "littler": "smallest", "littlest": "smallest", "tiniest": "smallest"},
     **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
-    **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "lone": "alone"},
+    **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "centric": "middle"},
+    **dict.fromkeys(("lone", "single", "freestanding", "solitary", "lonely", "standalone"), "alone"),
     **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
