@@ -158,11 +158,24 @@ def _near_side(sides: tuple[str, ...]) -> ParseTree:
     return ParseTree(Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (place,))
 
 
+def _of_all(tree: ParseTree) -> ParseTree:
+    """ "The corner of the board" is the corner: of all that is there."""
+    if tree.phrase.noun not in PLACE_WORDS:
+        return tree
+    kept = [c for c in tree.children if not (c.phrase.words[0] in _WITHIN and _is_all(c))]
+    return replace(tree, children=tuple(kept))
+
+
+def _is_all(place: ParseTree) -> bool:
+    """Is it of the ground, or of what everything stands on?"""
+    return len(place.children) == 1 and place.children[0].phrase.noun == GROUND_WORD
+
+
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
         return (tree,)
-    landmark, name = tree.children[0], tree.phrase.words[0]
+    landmark, name = _of_all(tree.children[0]), tree.phrase.words[0]
     if name in BY_COMPASS:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
