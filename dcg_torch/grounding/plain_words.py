@@ -4,7 +4,7 @@ right is "closest to the right", the middle of a table that is no object of its 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.normal import normalise
@@ -17,9 +17,13 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     LIKE_RELATION,
+    LINE_FROM,
+    LINE_OF,
+    ORDINALS,
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
+    READ_FROM,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -66,6 +70,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
     )
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
+    words = _read_along(words, children)
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)
@@ -79,10 +84,9 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    side = next((word for word in phrase.words if word in _SIDES_OF.get(phrase.noun or "", ())), None)
-    if side is not None and name in _WITHIN and not (phrase.plural or landmark.children):
-        place = ParseTree(replace(phrase, noun=SYNONYMS.get(side, side), words=()))
-        return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (place,))
+    line = _line_of_all(phrase)
+    if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
+        return replace(tree, children=(ParseTree(line),))
     owner = next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
     sided = not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()) or name not in _AT_SIDE
     if owner is None or sided or phrase.noun not in ("side", "end", "edge"):
@@ -91,11 +95,33 @@ def _sided(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
 
 
-_SIDES_OF = dict.fromkeys(("row", "line"), frozenset({"top", "bottom", "upper", "lower"}))
-_SIDES_OF["column"] = frozenset({"left", "right", "leftmost", "rightmost"})
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
+
+
+def _line_of_all(phrase: Phrase) -> Phrase | None:
+    """ "The third row", "the bottom row" is one of the lines of the whole scene; None for a row by itself."""
+    line = LINE_OF.get(phrase.noun or "")
+    if line is None or phrase.plural or phrase.color is not None:
+        return None
+    ends, (start, _) = LINE_FROM[line], READ_FROM[line]
+    ordinal = next((word for word in phrase.words if word in ORDINALS), None)
+    sides = [ends[w] for w in phrase.words if w in ends] + [w for w in phrase.words if w in ends.values()]
+    if ordinal is None and not sides:
+        return replace(phrase, noun=line, words=("middle",)) if "middle" in phrase.words else None
+    counted = (ordinal or "first", sides[0] if sides else start)
+    return replace(phrase, noun=line, words=counted)
+
+
+def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[str, ...]:
+    """ "The second cube in the third row" is the second from the left."""
+    lines = (c.children[0].phrase.noun for c in children if len(c.children) == 1 and c.phrase.words[0] in INSIDE)
+    line = next((noun for noun in lines if noun in READ_FROM), None)
+    counted = any(word in ORDINALS for word in words) and not any(word.startswith("from ") for word in words)
+    if line is None or not counted or len(words) > 1:
+        return words
+    return (*words, READ_FROM[line][1])
 
 
 def _middle_of_set(tree: ParseTree) -> ParseTree:
@@ -144,7 +170,7 @@ def in_group(phrase: Phrase) -> bool:
 
 def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:
     """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
-    lateral = next((word for word in words if word in LATERAL), None)
+    lateral = next((word for word in words if word.removesuffix("most") in LATERAL), None)
     vertical = next((word for word in words if word in VERTICAL), None)
     grouped = any(child.phrase.words[0] in INSIDE for child in children)
     if vertical is None or (grouped and lateral is None):
@@ -153,6 +179,7 @@ def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str
 
 
 def _near_side(sides: tuple[str, ...]) -> ParseTree:
+    sides = tuple(side.removesuffix("most") for side in sides)
     noun = sides[0] if len(sides) == 1 else "corner"
     place = ParseTree(Phrase(PhraseKind.NOUN, noun, sides if noun == "corner" else (), noun))
     return ParseTree(Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (place,))
@@ -168,7 +195,8 @@ def _of_all(tree: ParseTree) -> ParseTree:
 
 def _is_all(place: ParseTree) -> bool:
     """Is it of the ground, or of what everything stands on?"""
-    return len(place.children) == 1 and place.children[0].phrase.noun == GROUND_WORD
+    noun = place.children[0].phrase.noun if len(place.children) == 1 else None
+    return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 
 
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import DIRECTIONS, EITHER_END, GROUP_WORDS, OWNERS, PLACE_WORDS, SIDE_WORDS
+from dcg_torch.names.vocabulary import DIRECTIONS, EITHER_END, GROUP_WORDS, LINE_OF, OWNERS, PLACE_WORDS, SIDE_WORDS
 from dcg_torch.scene.groups import groups
 from dcg_torch.scene.places import places
 from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Pose, Symbol, WorldModel
@@ -61,7 +61,8 @@ def _group_examples() -> list[Example]:
     heap = [Object(f"heap {k}", "cube", known=True, position=(14.0 + k % 2, 1.0 * (k // 2), 0.0)) for k in range(4)]
     objects = (*rows, *stack, *heap)
     kept = [g for g in groups(objects) if {m.split()[0] for m in g.members} in ({"row"}, {"stack"}, {"heap"})]
-    found = tuple(g for g in kept if ("row" in g.attributes) == g.members[0].startswith("row"))
+    lines = frozenset(LINE_OF.values())
+    found = tuple(g for g in kept if lines & g.attributes or ("row" in g.attributes) == g.members[0].startswith("row"))
     world = WorldModel(objects, Pose(0.0, 0.0), groups=found)
 
     def labels(kinds: tuple[str, ...]) -> tuple[Correspondence, ...]:

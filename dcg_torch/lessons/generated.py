@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection
 
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
+from dcg_torch.lessons.boards import board_scene
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.formations import formation_scene
 from dcg_torch.lessons.handling import stack_scene
@@ -26,5 +27,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
-    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered)
+    boards = arranged_lessons(parse, third, makers=(board_scene,))
+    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *boards)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

@@ -45,8 +45,20 @@ GROUP_WORDS = {
     "bunch": ("cluster",),
     "cluster": ("cluster",),
     "collection": ("cluster",),
+    "line across": ("line across",),
+    "line along": ("line along",),
 }
-"""What people call groups."""
+"""What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
+LINE_OF = {"row": "line across", "line": "line across", "column": "line along"}
+_FIRST, _LAST = ("top", "upper", "back", "far"), ("bottom", "lower", "front", "near", "last")
+LINE_FROM: dict[str, dict[str, str]] = {
+    "line across": dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
+    "line along": dict.fromkeys(("left", "leftmost"), "from the left")
+    | dict.fromkeys(("right", "rightmost", "last"), "from the right"),
+}
+"""Line of a scene -> word for one of its ends -> from where it is the first."""
+READ_FROM = {"line across": ("from the top", "from the left"), "line along": ("from the left", "from the top")}
+"""Line -> from where such lines are counted, and from where the things in one are, as one reads a page."""
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
 RANKING = frozenset({"closest to", "farthest from", "farthest to"})
@@ -90,6 +102,7 @@ SYNONYMS = {
 COMPASS: dict[str, tuple[str, ...]] = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
 COMPASS |= {f"{up}{side}": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 COMPASS |= {f"{name}ern": sides for name, sides in COMPASS.items()}
+COMPASS |= {f"{up}{side}ernmost": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 """Of a picture or a map north is up."""
 _BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
 BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}

@@ -1,7 +1,8 @@
-"""Groups of objects that people speak of as one: rows, stacks, and what lies close together.
+"""Groups of objects that people speak of as one: rows, stacks, what lies close together, the lines of a whole scene.
 
 A row is evenly spaced, or it is a group of neighbours that lie along a line. Groups of neighbours are the clusters of
-single linkage, at every distance at which one ends: what is closer to one another than to anything else alike.
+single linkage, at every distance at which one ends: what is closer to one another than to anything else alike. "The
+third row" counts through all that is there, as one reads a page: a thing is in one such line across and in one along.
 """
 
 from __future__ import annotations
@@ -11,7 +12,7 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from dcg_torch.scene.layout import Floats
+from dcg_torch.scene.layout import LINE_ACROSS, LINE_ALONG, Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
@@ -32,6 +33,7 @@ _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
 _SPREAD = 2.4
 """The farthest neighbours in a group are at most so many times as far apart as the nearest."""
+_MOST_LINES = 40
 _CHUNK = 1024
 """Steps that are looked at together."""
 _APART = 1.25
@@ -68,10 +70,14 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         found[ROW] |= dict.fromkeys(members for members in near if _in_line(position[sorted(members)]))
         found[CLUSTER] |= dict.fromkeys(near)
     found[STACK] = dict.fromkeys(_stacks(position))
+    top = _uncovered(position)
+    found |= {kind: dict.fromkeys(_lines(position[:, axis], top)) for kind, axis in _LINES.items()}
     return tuple(
         _group(kind, [there[j] for j in sorted(members)], position[sorted(members)])
         for kind, of_kind in found.items()
-        for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
+        for members in itertools.islice(
+            sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST_LINES if kind in _LINES else _MOST
+        )
     )
 
 
@@ -150,6 +156,28 @@ def _in_line(points: Floats) -> bool:
     flat = points[:, :2] - points[:, :2].mean(axis=0)
     along, aside = np.abs(flat @ np.linalg.svd(flat, full_matrices=False)[2].T).max(axis=0)
     return bool(aside <= _ASIDE * along)
+
+
+_LINES = {LINE_ACROSS: 0, LINE_ALONG: 1}
+"""Lines -> the axis on which their things have about one value."""
+
+
+def _lines(value: Floats, kept: Ints) -> Iterable[frozenset[int]]:
+    """Those that are kept, parted where one's value is too far from the mean of those before it."""
+    line: list[int] = []
+    for k in kept[np.argsort(value[kept], kind="stable")].tolist():
+        if line and value[k] - value[line].mean() > SAME_SPOT:
+            yield frozenset(line)
+            line = []
+        line.append(k)
+    yield frozenset(line)
+
+
+def _uncovered(position: Floats) -> Ints:
+    """The numbers of things with none over them: of a stack one counts."""
+    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
+    higher = position[None, :, 2] > position[:, None, 2] + 0.01
+    return np.flatnonzero(~(over & higher).any(axis=1))
 
 
 def _stacks(position: Floats) -> Iterable[frozenset[int]]:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
-from dcg_torch.scene.layout import HEADINGS, NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import HEADINGS, LINES, NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.order import Alike, signatures
 from dcg_torch.scene.order import before as lower
 
@@ -19,11 +19,13 @@ STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
     *(f"state: {s}" for s in ("beside something", "held", "in a row")),
     *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", ROW, STACK, CLUSTER, ACROSS, ALONG)),
+    *(f"part: {s}" for s in LINES),
     *(f"part: of {n}" for n in range(2, 11)),
 ]
 """The states of objects, and what places and groups are, that are always features; further attributes of objects become
 features as they are met."""
 
+_LEVEL = 0.01
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
 RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "first")]
 """By number, and by what the phrase asks for: the nth of a row, one of the first few."""
@@ -41,8 +43,8 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     count = int(solid.sum())
     there = np.isfinite(where.position[:count]).all(axis=1)
     in_row = np.zeros(len(things), dtype=np.bool_)
-    for members in where.members.values():
-        in_row[members] = True
+    for group, members in where.members.items():
+        in_row[members] |= things[group].attributes.isdisjoint(LINES)
     beside = np.where(near.stacked, 1, np.where(near.beside, 2, 0))
     code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
     code = np.where(there, code, 0)  # what is nowhere has attributes alone
@@ -108,6 +110,9 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
+    heights = z[where.solid & np.isfinite(z)]
+    if len(heights) and np.ptp(heights) <= _LEVEL:
+        z = x  # where all is on one level, "the highest" is farthest away
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
     volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
