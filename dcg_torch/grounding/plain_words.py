@@ -19,6 +19,7 @@ from dcg_torch.names.vocabulary import (
     LIKE_RELATION,
     LINE_FROM,
     LINE_OF,
+    MIDDLE_LINE,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -86,7 +87,8 @@ def _sided(tree: ParseTree) -> ParseTree:
     phrase, name = landmark.phrase, tree.phrase.words[0]
     line = _line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
-        return replace(tree, children=(ParseTree(line),))
+        words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
+        return ParseTree(replace(tree.phrase, words=words), (ParseTree(line),))
     owner = next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
     sided = not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()) or name not in _AT_SIDE
     if owner is None or sided or phrase.noun not in ("side", "end", "edge"):
@@ -109,9 +111,9 @@ def _line_of_all(phrase: Phrase) -> Phrase | None:
     ordinal = next((word for word in phrase.words if word in ORDINALS), None)
     sides = [ends[w] for w in phrase.words if w in ends] + [w for w in phrase.words if w in ends.values()]
     if ordinal is None and not sides:
-        return replace(phrase, noun=line, words=("middle",)) if "middle" in phrase.words else None
-    counted = (ordinal or "first", sides[0] if sides else start)
-    return replace(phrase, noun=line, words=counted)
+        return replace(phrase, noun=line, words=(MIDDLE_LINE,)) if "middle" in phrase.words else None
+    number = ORDINALS.get(ordinal or "", 1)
+    return replace(phrase, noun=line, words=(f"{number} {sides[0] if sides else start}",))
 
 
 def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[str, ...]:

@@ -132,7 +132,7 @@ def _in_one(kind: str, line: Sequence[Spot], axis: int) -> Iterator[tuple[str, s
         yield f"middle {kind}", order[1]
 
 
-_DEPTHS = {1.0: ("top", "upper", "back"), -1.0: ("bottom", "lower", "front")}
+_DEPTHS = {1.0: ("top", "upper"), -1.0: ("bottom", "lower")}
 _COMPASS = {(1.0, 1.0): "northwest", (1.0, -1.0): "northeast", (-1.0, 1.0): "southwest", (-1.0, -1.0): "southeast"}
 
 
@@ -179,7 +179,7 @@ def _ranks(kind: str, spots: Sequence[Spot]) -> Iterator[Told]:
                 only, ordinal = frozenset({spot[-1].id}), ORDINALS[k]
                 yield f"go to the {ordinal} {kind} from the {way}{where}", only
                 yield f"go to the {kind}{where} that is {ordinal} from the {way}", only
-                for word in superlative[way]:
+                for word in () if where else superlative[way]:
                     yield f"go to the {'' if k == 0 else ordinal + ' '}{word} {kind}{where}", only
     middle = _least(spots, lambda spot: math.dist(spot[0].position[:2], (_DEEP / 2, 0.0)), 0.8)
     if middle is not None:
@@ -190,6 +190,11 @@ def _ranks(kind: str, spots: Sequence[Spot]) -> Iterator[Told]:
 def _stacks(kind: str, spots: Sequence[Spot], rng: np.random.Generator) -> Iterator[Told]:
     """The top of a stack, and what stands before, behind and beside one."""
     stacks = [spot for spot in spots if len(spot) > 1]
+    centre: Spot = (Percept("centre", kind, None, (_DEEP / 2, 0.0, 0.0)),)
+    if all(_apart(spot, centre) > _BESIDE for spot in spots):
+        yield from _beside(
+            kind, str(rng.choice(("the middle", "the center", "the center of the board"))), centre, spots
+        )
     for stack in stacks:
         word = str(rng.choice(("stack", "tower", "pile")))
         names = [f"the {word}"] if len(stacks) == 1 else []
@@ -218,7 +223,7 @@ _WAYS = {
     "in front of": (-1.0, 0.0),
     "to the left of": (0.0, 1.0),
     "to the right of": (0.0, -1.0),
-}
+} | {f"{name} of": (depth, side) for (depth, side), name in _COMPASS.items()}
 
 
 def _beside(kind: str, name: str, stack: Spot, spots: Sequence[Spot]) -> Iterator[Told]:
@@ -227,7 +232,8 @@ def _beside(kind: str, name: str, stack: Spot, spots: Sequence[Spot]) -> Iterato
 
         def off(spot: Spot, x: float = x, y: float = y) -> float:
             dx, dy = (a - b for a, b in zip(spot[0].position[:2], stack[0].position[:2], strict=True))
-            return math.degrees(math.acos(max(-1.0, min(1.0, (x * dx + y * dy) / max(math.hypot(dx, dy), 1e-9)))))
+            along = (x * dx + y * dy) / max(math.hypot(dx, dy) * math.hypot(x, y), 1e-9)
+            return math.degrees(math.acos(max(-1.0, min(1.0, along))))
 
         there = [s for s in spots if s is not stack and off(s) < 65.0]
         meant = _least(there, lambda s: _apart(s, stack), 0.5)

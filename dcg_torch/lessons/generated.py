@@ -27,6 +27,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
-    boards = arranged_lessons(parse, third, makers=(board_scene,))
+    boards = arranged_lessons(parse, count // 4, makers=(board_scene,))
     tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *boards)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

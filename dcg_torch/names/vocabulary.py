@@ -33,6 +33,7 @@ DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "
 """Nouns for the sides of somebody: "on your left"."""
 PLACE_TYPES = frozenset(kind for kind, _ in PLACE_WORDS.values())
 OWNERS = {"your": "of robot", "my": "of speaker"}
+LINE_ACROSS, LINE_ALONG, MIDDLE_LINE = "line across", "line along", "middle line"
 GROUP_WORDS = {
     "row": ("row",),
     "line": ("row",),
@@ -45,19 +46,19 @@ GROUP_WORDS = {
     "bunch": ("cluster",),
     "cluster": ("cluster",),
     "collection": ("cluster",),
-    "line across": ("line across",),
-    "line along": ("line along",),
+    LINE_ACROSS: (LINE_ACROSS,),
+    LINE_ALONG: (LINE_ALONG,),
 }
 """What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
-LINE_OF = {"row": "line across", "line": "line across", "column": "line along"}
+LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}
 _FIRST, _LAST = ("top", "upper", "back", "far"), ("bottom", "lower", "front", "near", "last")
 LINE_FROM: dict[str, dict[str, str]] = {
-    "line across": dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
-    "line along": dict.fromkeys(("left", "leftmost"), "from the left")
+    LINE_ACROSS: dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
+    LINE_ALONG: dict.fromkeys(("left", "leftmost"), "from the left")
     | dict.fromkeys(("right", "rightmost", "last"), "from the right"),
 }
 """Line of a scene -> word for one of its ends -> from where it is the first."""
-READ_FROM = {"line across": ("from the top", "from the left"), "line along": ("from the left", "from the top")}
+READ_FROM = {LINE_ACROSS: ("from the top", "from the left"), LINE_ALONG: ("from the left", "from the top")}
 """Line -> from where such lines are counted, and from where the things in one are, as one reads a page."""
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""

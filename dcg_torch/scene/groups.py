@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.scene.layout import LINE_ACROSS, LINE_ALONG, Floats, Ints
+from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
+from dcg_torch.scene.layout import Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
@@ -33,7 +35,6 @@ _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
 _SPREAD = 2.4
 """The farthest neighbours in a group are at most so many times as far apart as the nearest."""
-_MOST_LINES = 40
 _CHUNK = 1024
 """Steps that are looked at together."""
 _APART = 1.25
@@ -55,10 +56,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     there = [o for o in objects if o.position is not None]
     if len(there) < 2:
         return ()
-    position = np.array([o.position for o in there], dtype=np.float64).reshape(-1, 3)
-    position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
-    position = laid_flat(position)
-    position /= unit
+    position = _seen(there, unit, robot)
     alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
     for j, o in enumerate(there):
         alike.setdefault((o.type,), []).append(j)
@@ -70,15 +68,39 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         found[ROW] |= dict.fromkeys(members for members in near if _in_line(position[sorted(members)]))
         found[CLUSTER] |= dict.fromkeys(near)
     found[STACK] = dict.fromkeys(_stacks(position))
-    top = _uncovered(position)
-    found |= {kind: dict.fromkeys(_lines(position[:, axis], top)) for kind, axis in _LINES.items()}
     return tuple(
         _group(kind, [there[j] for j in sorted(members)], position[sorted(members)])
         for kind, of_kind in found.items()
-        for members in itertools.islice(
-            sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST_LINES if kind in _LINES else _MOST
-        )
+        for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
     )
+
+
+def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
+    """The rows and the columns of a whole scene, each with its number from either end in its attributes.
+
+    Of a stack the top alone is counted.
+    """
+    there = [o for o in objects if o.position is not None]
+    if not there:
+        return ()
+    position = _seen(there, unit, robot)
+    top, found = _uncovered(position), []
+    for kind, (axis, first, last) in _LINES.items():
+        lines = list(_parted(-position[:, axis], top))
+        for k, members in enumerate(lines):
+            line = _group(kind, [there[j] for j in members], position[members])
+            counted = {f"{k + 1} from the {first}", f"{len(lines) - k} from the {last}"}
+            counted |= {MIDDLE_LINE} if 2 * k + 1 == len(lines) else set()
+            found.append(replace(line, attributes=line.attributes | counted))
+    return tuple(found)
+
+
+def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
+    """(n, 3) positions in units, as the robot sees them."""
+    position = np.array([o.position for o in objects], dtype=np.float64).reshape(-1, 3)
+    position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
+    seen: Floats = laid_flat(position) / unit
+    return seen
 
 
 def _group(kind: str, members: Sequence[Object], position: Floats) -> Object:
@@ -158,19 +180,19 @@ def _in_line(points: Floats) -> bool:
     return bool(aside <= _ASIDE * along)
 
 
-_LINES = {LINE_ACROSS: 0, LINE_ALONG: 1}
-"""Lines -> the axis on which their things have about one value."""
+_LINES = {LINE_ACROSS: (0, "top", "bottom"), LINE_ALONG: (1, "left", "right")}
+"""Lines -> the axis on which their things have about one value, and from which ends they are counted."""
 
 
-def _lines(value: Floats, kept: Ints) -> Iterable[frozenset[int]]:
+def _parted(value: Floats, kept: Ints) -> Iterable[list[int]]:
     """Those that are kept, parted where one's value is too far from the mean of those before it."""
     line: list[int] = []
     for k in kept[np.argsort(value[kept], kind="stable")].tolist():
         if line and value[k] - value[line].mean() > SAME_SPOT:
-            yield frozenset(line)
+            yield line
             line = []
         line.append(k)
-    yield frozenset(line)
+    yield line
 
 
 def _uncovered(position: Floats) -> Ints:

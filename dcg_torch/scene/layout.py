@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG
 from dcg_torch.scene.neighbours import Neighbours, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.scene.upright import laid_flat
@@ -31,8 +32,10 @@ SETS = ("kind", "type", "color", "all", "row")
 """What a thing may be compared with: those of its type and colour, of its type, of its colour, all, or those in its row
 or stack. Which, depends on what the phrase says of it."""
 
-LINES = LINE_ACROSS, LINE_ALONG = "line across", "line along"
+LINES = (LINE_ACROSS, LINE_ALONG)
 """Groups that are the rows and the columns of a whole scene, see `groups`; one may have a single thing."""
+LINE_NUMBERS = tuple(f"{k} from the {end}" for end in ("top", "bottom", "left", "right") for k in range(1, 11))
+"""Their attributes: which one it is."""
 
 DIRECTION = "direction"
 """Type of the places that are no point but a way to look: "on your left"."""
