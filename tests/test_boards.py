@@ -66,13 +66,6 @@ def _rank(objects: tuple[Object, ...], axis: str) -> str:
     return " ".join(o.id for o, row in zip(objects, found.tolist(), strict=True) if first in row)
 
 
-def test_the_highest_is_the_farthest_where_all_is_on_one_level() -> None:
-    flat = _board((1.0, 0.0, 0.0), (3.0, 0.0, 0.0), (2.0, 1.0, 0.0))
-    assert (_rank(flat, "high"), _rank(flat, "low")) == ("o1", "o0")
-    stacked = _board((1.0, 0.0, 0.0), (3.0, 0.0, 0.0), (1.0, 0.0, 1.0))
-    assert _rank(stacked, "high") == "o2"
-
-
 def test_the_middle_of_all_is_that_of_the_box_around_it() -> None:
     crowded = _board(
         (0.0, 0.0, 0.0), (0.5, 0.5, 0.0), (0.0, 1.0, 0.0), (0.5, -0.6, 0.0), (5.0, 0.0, 0.0), (10.0, 0.0, 0.0)

@@ -124,6 +124,20 @@ class TestTraining:
         model.train()
         assert model.factor.weight.numpy() == pytest.approx(warm.numpy(), abs=0.02)
 
+    def test_it_fits_again_only_where_something_has_changed(self, pupil: Callable[[], GroundingModel]) -> None:
+        model = pupil()
+        model.learn(model.ground(command_tree("drill"), saw(model, *SEEN)))
+        learned = model.fitted
+        assert learned is not None
+        weight = model.factor.weight.clone()
+        assert model.train() is learned
+        assert torch.equal(model.factor.weight, weight)
+        model.factor.set_weight(torch.zeros_like(weight))
+        assert model.train() is not learned
+        assert model.factor.weight.abs().max() > 1.0
+        model.learn(model.ground(command_tree("mug"), saw(model, "red mug", *SEEN)))
+        assert model.fitted is not learned
+
     def test_table_rows_are_the_labelled_factors(self, trained: GroundingModel) -> None:
         tables = encode(memory(trained).examples, trained.features, TERNARY)
         labelled = sum(e.weight for e in memory(trained).examples for c in e.correspondences if c is not None)

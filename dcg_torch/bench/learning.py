@@ -1,17 +1,22 @@
-"""Learning by the number of words that are known: `python -m dcg_torch.bench.learning`.
+"""Learning by the number of words that are known: `python -m dcg_torch.bench.learning [--words N ...] [--life N]`.
 
 A model is given words without being taught: as many as are asked for, each with a type of its own, either told by a
 teacher or heard three times among random others. What is timed is `learn` after a command about one of eight objects:
 the posterior, the soft labels, and the fit to a gradient of 1e-7.
+
+A life is one robot that hears many commands in many worlds: what one of them costs must not grow with their number.
 """
 
 from __future__ import annotations
 
+import argparse
+import itertools
 import sys
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
+import torch
 
 from dcg_torch.bench.result import Result, cpu_milliseconds, result
 from dcg_torch.experiment.plan import trial_commands
@@ -28,7 +33,8 @@ from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind, Pose
 
 _GOALS = {100: 10.0, 1_000: 60.0}
-_WINDOW = 100
+_WINDOW, _WINDOWS = 100, 10
+"""Commands of a life whose times are taken together, at the least, and points of its curve, at the most."""
 
 
 def knowing(count: int, rng: np.random.Generator, *, told: bool) -> GroundingModel:
@@ -96,8 +102,9 @@ def bench_life(commands: int = 600) -> Iterator[Result]:
     rows = run_trial(
         0, trial_commands(settings, 0), model, default_parser().parse, FakeRobot(), np.random.default_rng(0)
     )
-    for start in range(0, commands, _WINDOW):
-        times = [cpu_milliseconds(next, rows) for _ in range(min(_WINDOW, commands - start))]
+    window = max(_WINDOW, -(-commands // _WINDOWS))
+    for start in range(0, commands, window):
+        times = [cpu_milliseconds(next, rows) for _ in range(min(window, commands - start))]
         end = start + len(times)
         curve = "A long life, ms a command by commands lived: parse, ground, learn"
         yield result(f"a command, {start + 1:,} to {end:,} of a life", times, "ms CPU", curve=curve, at=end)
@@ -115,9 +122,14 @@ def bench_teaching(lessons: int = 300) -> Iterator[Result]:
     yield result(f"teaching {lessons} generated lessons", [cpu_milliseconds(teach)], "ms CPU")
 
 
-def main() -> int:
+def main(arguments: Sequence[str] | None = None) -> int:
     """Print the results as they come; returns the exit status."""
-    for found in (*bench_learn(), *bench_life()):
+    parser = argparse.ArgumentParser(prog="python -m dcg_torch.bench.learning", description="Time the learning.")
+    parser.add_argument("--words", type=int, nargs="*", default=[10, 100, 300, 1_000], help="how many are known")
+    parser.add_argument("--life", type=int, default=600, help="commands that one robot hears; 0: none")
+    torch.set_num_threads(1)
+    asked = parser.parse_args(arguments)
+    for found in itertools.chain(bench_learn(asked.words), bench_life(asked.life)):
         print(f"{found.name:62} {found.median:10.4g} {found.unit}", flush=True)
     return 0
 

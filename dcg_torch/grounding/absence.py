@@ -33,6 +33,11 @@ _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
 
+def judges_absence(encoder: WorldEncoder) -> bool:
+    """Is there anything to judge by?"""
+    return encoder.features.groups >= {Group.NAMES, Group.RELATION}
+
+
 def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> float | None:
     """The log-odds that nothing there is meant; None where that is not judged by names.
 
@@ -40,8 +45,8 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     are judged by looking, for then any noun may be a colour ("coffee"). What the speaker has ruled out counts for
     nothing.
     """
-    features, objects = encoder.features, encoder.world.objects
-    if not features.groups >= {Group.NAMES, Group.RELATION} or phrase.look:
+    objects = encoder.world.objects
+    if not judges_absence(encoder) or phrase.look:
         return None
     if in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None

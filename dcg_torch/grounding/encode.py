@@ -100,17 +100,17 @@ class WorldEncoder:
                 state[: len(objects)],
             )
         code = np.concatenate([code, np.arange(len(first), len(first) + n - len(objects))])
+        which = state.tolist()
+        rows = self.features.object_columns([objects[j] for j in first], [names[which[j]] for j in first])
+        rows += [self._group_or_place(self.all[j], names[which[j]]) for j in range(len(objects), n)]
         first += range(len(objects), n)
-        states = state.tolist()
-        rows = [self._thing(j, names[states[j]]) for j in first]
         return Coded(padded(rows), code), first
 
-    def _thing(self, j: int, states: tuple[str, ...]) -> list[int]:
-        thing, objects = self.all[j], len(self.world.objects)
+    def _group_or_place(self, thing: Object, states: tuple[str, ...]) -> list[int]:
         colors: list[str] = []
         if thing.members:
             colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
-        if self.related and j >= objects:
+        if self.related:
             states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
         return self.features.thing_columns(thing, states, colors)
 

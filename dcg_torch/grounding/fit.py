@@ -21,11 +21,12 @@ from numpy.typing import NDArray
 from dcg_torch.grounding import solvers
 from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.devices import device_of
+from dcg_torch.grounding.lifting import lift
 from dcg_torch.grounding.objective import likelihood, max_norm
 from dcg_torch.grounding.on_device import minimise
 from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
 from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.rows import GridRows, SparseRows
+from dcg_torch.grounding.rows import ArrowheadRows, SparseRows
 from dcg_torch.grounding.threads import one_thread
 from dcg_torch.grounding.written import weight_at, write_out
 
@@ -37,7 +38,7 @@ class FitResult:
     """How a fit went.
 
     Attributes:
-        value: of the objective at the end.
+        value: of the objective at the end, without the penalty of weights that may not change, which is constant.
         gradient: max-norm of the gradient with respect to the free weights.
         steps, evaluations: of the solver.
         rows: distinct ones that the solver saw.
@@ -94,19 +95,19 @@ def fit(
     fixed = weight.copy()
     np.copyto(fixed, 0.0 if prior is None else prior, where=active)
     where = factor.weight.device if device is None else device_of(device)
-    problem = Problem(designs, weight, fixed, active, strength)
     with one_thread():
+        lifted = lift(designs, fixed, active, strength)
+        problem = Problem(lifted.designs, weight, fixed, active, strength, lifted.times)
         if where.type == "cpu":
             found, new, constant, rows = _on_processor(problem, tolerance, max_steps, solver)
         elif solver == "auto":
             found, new, constant, rows = _on_device(problem, where, tolerance, max_steps)
         else:
             raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
+    lifted.spread(new)
     factor.set_weight(new)
-    distance = fixed if prior is None else fixed - prior
-    squares = strength * np.einsum("plg,plg->lg", distance, distance)
-    return FitResult(  # of the active weights that don't move the prior is the optimum
-        value=found.point.value + constant + 0.5 * float(np.sum(squares, where=pairs & ~active)),
+    return FitResult(
+        value=found.point.value + constant,
         gradient=found.point.norm,
         steps=found.steps,
         evaluations=found.evaluations,
@@ -124,6 +125,7 @@ class Problem(NamedTuple):
     fixed: Floats
     active: NDArray[np.bool_]
     strength: Floats
+    times: Floats | None
 
 
 _Found = tuple[solvers.Minimum, Floats, float, int]
@@ -149,14 +151,16 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
     objective, start = reduced.objective, reduced.start
     if solver == "lbfgs-torch":
         return solvers.lbfgs_of_torch(objective, start, tolerance=tolerance, max_steps=max_steps)
+    if solver in ("auto", "newton") and isinstance(objective.rows, ArrowheadRows):
+        function, step, guess = objective, objective.newton_step, objective.as_counted
+        return solvers.newton(function, step, start, tolerance=tolerance, max_steps=max_steps, guess=guess)
     sparse = isinstance(objective.rows, SparseRows)
     if solver == "lbfgs" and sparse:
         root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
     if solver != "lbfgs":
-        step = objective.newton_cg_step if sparse or isinstance(objective.rows, GridRows) else objective.newton_step
-        return solvers.newton(objective, step, start, tolerance=tolerance, max_steps=max_steps)
+        return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
     return solvers.lbfgs(objective, start, tolerance=tolerance, max_steps=max_steps)
 
 

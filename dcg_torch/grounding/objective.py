@@ -27,6 +27,8 @@ from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows, Rows
 from dcg_torch.grounding.solvers import Function, Point
 
+_SETTLED = 1e-10
+"""Variables of a block whose gradient is less stay where they are."""
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
 
@@ -69,6 +71,27 @@ class Objective:
         norm = max_norm(gradient * self.scale)
         return Point(flat, value, gradient.reshape(-1), norm, chances)
 
+    def as_counted(self, flat: Floats) -> Floats | None:
+        """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
+
+        That is nearly the optimum where the penalty is small beside what was counted. Labels that were never counted
+        keep their scores. None where each row was counted with one label alone, which says nothing.
+        """
+        assert isinstance(self.rows, ArrowheadRows)
+        rows, r = self.rows, len(self.rows.entry)
+        seen = self.count[:, :r] > 0.0
+        if not (np.count_nonzero(seen, axis=0) > 1).any():
+            return None
+        d = flat.reshape(len(self.count) - 1, -1).copy()
+        own = rows.scores(d)[:, :r] + (0.0 if self.offset is None else self.offset[:, :r])
+        scores = np.concatenate([np.zeros((1, r)), own])
+        count = self.count[:, :r]
+        gap = np.log(count, out=np.zeros_like(count), where=seen) - scores
+        gap -= (gap * seen).sum(axis=0) / np.maximum(seen.sum(axis=0), 1)
+        gap *= seen
+        d[:, rows.patterns.shape[1] :] += (gap[1:] - gap[0]) / rows.entry
+        return d.reshape(-1)
+
     def newton_step(self, point: Point) -> Floats:
         """Minus the inverse Hessian times the gradient; for rows of the arrowhead.
 
@@ -95,9 +118,11 @@ class Objective:
     def _shared_step(self, curvature: Floats, downhill: Floats) -> Floats:
         """(Q, S) the step of the shared variables, from the curvature (Q, Q, N) of each row."""
         assert isinstance(self.rows, ArrowheadRows)
-        q, step = len(downhill), np.empty_like(downhill)
+        q, step = len(downhill), np.zeros_like(downhill)
         curvature = self.rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
         for rows, columns, matrix in self.rows.blocks:
+            if np.abs(downhill[:, columns]).max() < _SETTLED:
+                continue
             own, k = curvature[:, :, rows], len(columns)
             hessian = np.empty((q, k, q, k))
             for a in range(q):

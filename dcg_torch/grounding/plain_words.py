@@ -12,6 +12,7 @@ from dcg_torch.names.vocabulary import (
     BY_COMPASS,
     COMPASS,
     DEGREES,
+    FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
     INSIDE,
@@ -24,6 +25,7 @@ from dcg_torch.names.vocabulary import (
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
+    QUANTIFIERS,
     READ_FROM,
     SAME_RELATION,
     SIDE_OF,
@@ -47,14 +49,15 @@ def heads(types: Iterable[str]) -> frozenset[str]:
     return frozenset(map(_head, set(types)))
 
 
-def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False) -> ParseTree:
     """A parse tree in plain words.
 
     Args:
         there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
+        flat: does all stand on one level?
     """
-    tree = _middle_of_set(_sided(tree))
-    phrase, below = tree.phrase, tuple(in_plain_words(child, there) for child in tree.children)
+    tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
+    phrase, below = tree.phrase, tuple(in_plain_words(child, there, flat=flat) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
@@ -69,14 +72,31 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    words = _read_along(words, children)
+    words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
+    words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
-    words = _read_along(words, children)
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
     return ParseTree(replace(phrase, words=words), children)
+
+
+def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
+    """ "The second farthest cube to the left" is the second from the left; without an ordinal, the leftmost."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return tree
+    ends = [c for c in tree.children if c.phrase.words[:1] == ("farthest to",) and len(c.children) == 1]
+    sides = [c.children[0] for c in ends if c.children[0].phrase.noun in LATERAL]
+    if len(sides) != 1 or sides[0].phrase.words or sides[0].children:
+        return tree
+    side = sides[0].phrase.noun
+    word = f"from the {side}" if not ORDINALS.keys().isdisjoint(phrase.words) else f"{side}most"
+    kept = tuple(c for c in tree.children if c.children != (sides[0],))
+    return ParseTree(replace(phrase, words=(*phrase.words, word)), kept)
 
 
 def _sided(tree: ParseTree) -> ParseTree:
@@ -102,6 +122,9 @@ _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
 
 
+_SAME_END = {"from the back": "from the top", "from the front": "from the bottom"}
+
+
 def _line_of_all(phrase: Phrase) -> Phrase | None:
     """ "The third row", "the bottom row" is one of the lines of the whole scene; None for a row by itself."""
     line = LINE_OF.get(phrase.noun or "")
@@ -109,7 +132,8 @@ def _line_of_all(phrase: Phrase) -> Phrase | None:
         return None
     ends, (start, _) = LINE_FROM[line], READ_FROM[line]
     ordinal = next((word for word in phrase.words if word in ORDINALS), None)
-    sides = [ends[w] for w in phrase.words if w in ends] + [w for w in phrase.words if w in ends.values()]
+    plain = [_SAME_END.get(word, word) for word in phrase.words]
+    sides = [ends[w] for w in plain if w in ends] + [w for w in plain if w in ends.values()]
     if ordinal is None and not sides:
         return replace(phrase, noun=line, words=(MIDDLE_LINE,)) if "middle" in phrase.words else None
     number = ORDINALS.get(ordinal or "", 1)

@@ -23,6 +23,8 @@ from dcg_torch.grounding.rows import ArrowheadRows, GridRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
 from dcg_torch.grounding.written import (
     Mask,
+    Written,
+    at_cells,
     constant_of,
     count_firing,
     differences,
@@ -61,7 +63,7 @@ class Reduced:
     tied: tuple[Ints, Floats] | None
 
     def weight(self, at: Floats) -> Floats:
-        """(P, L, G) at the solver's variables."""
+        """(P, L, G) at the solver's variables; written into `fixed`, so it is to be asked for once."""
         d = at.reshape(len(self.fixed) - 1, -1)
         if self.tied is not None:
             d = d[:, self.tied[0]] * self.tied[1]
@@ -74,6 +76,7 @@ def reduce(
     fixed: Floats,
     active: Mask,
     strength: Floats,
+    times: Floats | None = None,
     *,
     prefer: str = "auto",
 ) -> Reduced:
@@ -85,6 +88,7 @@ def reduce(
         fixed: (P, L, G) the weights that do not move, and the prior of those that do.
         active: (L, G) which may move.
         strength: (L, G) l2.
+        times: (L,) as how many each language column counts; None: one.
         prefer: the solver that was asked for.
     """
     if not designs:
@@ -93,27 +97,18 @@ def reduce(
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
     few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
     if prefer == "newton" or (prefer == "auto" and few):
-        found = _written(designs, weight, fixed, active, strength, always=prefer == "newton")
+        found = _written(write_out(designs, weight, fixed, active, strength, times), fixed, always=prefer == "newton")
         if found is not None:
             return found
-    return _factored(designs, weight, fixed, active, strength)
+    return _factored(designs, weight, fixed, active, strength, times)
 
 
-def _written(
-    designs: Sequence[DesignMatrix],
-    weight: Floats,
-    fixed: Floats,
-    active: Mask,
-    strength: Floats,
-    *,
-    always: bool,
-) -> Reduced | None:
+def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None:
     """Rows written out and made few by symmetry; None if too much stays for Newton's method.
 
     Args:
         always: Newton's method it is to be.
     """
-    written = write_out(designs, weight, fixed, active, strength)
     incidence, columns, constant = written.incidence, written.columns, written.constant
     count, offset, start, own = written.count, written.offset, written.start, written.strength
     if not incidence.rows:
@@ -163,7 +158,12 @@ def _crowded(designs: Sequence[DesignMatrix], active: Mask, entries: int) -> boo
 
 
 def _factored(
-    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
+    designs: Sequence[DesignMatrix],
+    weight: Floats,
+    fixed: Floats,
+    active: Mask,
+    strength: Floats,
+    times: Floats | None,
 ) -> Reduced:
     """Rows as cells of the phrases' side times the weights."""
     design = stack(designs)
@@ -193,7 +193,8 @@ def _factored(
     elif rows.active is not None:
         columns = columns[rows.active]
     start = differences(weight, fixed, columns).reshape(-1)
-    return Reduced(Objective(rows, count, offset, strength.reshape(-1)[columns]), start, constant, fixed, columns, None)
+    objective = Objective(rows, count, offset, at_cells(strength, columns, times))
+    return Reduced(objective, start, constant, fixed, columns, None)
 
 
 def _kept(columns: Ints, size: int) -> Ints:

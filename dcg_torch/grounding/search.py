@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import log_odds_of_absence
+from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
 from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
@@ -25,6 +25,8 @@ Bools = NDArray[np.bool_]
 
 _FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
+_NAMES_ONE = math.log(0.5)
+"""Log Psi from which a noun phrase names a thing that is there."""
 
 
 @dataclass(frozen=True)
@@ -130,14 +132,13 @@ class Search:
     def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
         """The best configuration about another object; None if there is none."""
         meant = best.meant.id
-        other = np.ones(root.scores.shape[:2], dtype=np.bool_)
-        own = self.encoder.number[meant]
-        for c, combo in enumerate(root.combos):
-            if root.tree.phrase.kind is PhraseKind.NOUN or not combo:
-                other[c, own : own + 1] = False
-            else:
-                other[c] = combo[0].meant.id != meant
-        scores = np.where(other[:, :, None], root.scores, -np.inf)
+        if root.tree.phrase.kind is PhraseKind.NOUN or not root.combos[0]:
+            scores = root.scores.copy()
+            own = self.encoder.number[meant]
+            scores[:, own : own + 1] = -np.inf
+        else:
+            same = np.array([combo[0].meant.id == meant for combo in root.combos])
+            scores = np.where(same[:, None, None], -np.inf, root.scores)
         if not np.isfinite(scores).any():
             return None
         return self._best(replace(root, scores=scores), 1)[0]
@@ -155,7 +156,9 @@ class Search:
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
             found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            if not landmark:
+            if landmark:
+                found = self._no_group(tree, found) if is_noun else found
+            else:
                 found = self._only_objects(tree, found)
                 found = self._or_absent(tree, found) if is_noun else found
             self._nouns[key] = found
@@ -240,6 +243,18 @@ class Search:
             known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
         return [known[key] for key in keys]
 
+    def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
+        """Without groups, where a landmark in the singular names a thing: "the green block" is no cluster of them."""
+        phrase, named = tree.phrase, found.named
+        if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
+            return found
+        world = self.encoder.world
+        seen = named[: len(world.objects)][self.encoder.perceived[: len(world.objects)]]
+        if not world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
+            return found
+        group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
+        return replace(found, scores=np.where(group[None, :, None], -np.inf, found.scores))
+
     def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
@@ -261,6 +276,8 @@ class Search:
 
     def _or_absent(self, tree: ParseTree, found: _Scored) -> _Scored:
         """With as much for what is not there as `absence` says, where it says something."""
+        if not judges_absence(self.encoder):
+            return found
         bare = replace(
             tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
         )
@@ -278,13 +295,15 @@ class Search:
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
-        kind = GROUNDING_OF[scored.tree.phrase.kind]
-        found = []
+        kind, things = GROUNDING_OF[scored.tree.phrase.kind], self.encoder.all
+        found, scores = [], scored.scores.reshape(-1)
         _, n, m = scored.scores.shape
-        for flat in highest(scored.scores.reshape(-1), beam).tolist():
+        best = highest(scores, beam)
+        for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
             (c, j), p = divmod(flat // m, n), flat % m
-            thing = self.encoder.all[j]
-            child = Child(Grounding(kind, thing), scored.meant[p])
-            below = (*scored.combos[c], *(modifier.hypothesis(j, thing) for modifier in scored.modifiers))
-            found.append(Hypothesis(scored.tree, child, below, float(scored.scores[c, j, p])))
+            child = Child(Grounding(kind, things[j]), scored.meant[p])
+            below = scored.combos[c]
+            if scored.modifiers:
+                below = (*below, *(modifier.hypothesis(j, things[j]) for modifier in scored.modifiers))
+            found.append(Hypothesis(scored.tree, child, below, score))
         return found

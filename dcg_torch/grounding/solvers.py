@@ -67,6 +67,7 @@ def newton(
     *,
     tolerance: float,
     max_steps: int,
+    guess: Callable[[Floats], Floats | None] | None = None,
 ) -> Minimum:
     """Newton's method with halved steps where a whole one goes too far.
 
@@ -75,19 +76,23 @@ def newton(
         start: the variables at first.
         tolerance: stop at this `norm`.
         max_steps: at the most.
+        guess: variables that may be better than those at first; None where there are none.
     """
     point, evaluations = function(start), 1
+    if guess is not None and point.norm > tolerance and (other := guess(start)) is not None:
+        guessed, evaluations = function(other), 2
+        point = guessed if guessed.value < point.value else point
     for step in range(max_steps + 1):
         if point.norm <= tolerance:
             return Minimum(point, step, evaluations, "converged")
         if step == max_steps:
             break
         towards = direction(point)
-        other, tried = _along(function, point, towards)
+        better, tried = _along(function, point, towards)
         evaluations += tried
-        if other is None:
+        if better is None:
             return Minimum(point, step, evaluations, "stalled")
-        point = other
+        point = better
     return Minimum(point, max_steps, evaluations, "step limit")
 
 

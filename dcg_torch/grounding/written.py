@@ -15,6 +15,9 @@ from dcg_torch.grounding.symmetry import Incidence, bits_of, row_keys
 
 Mask = NDArray[np.bool_]
 
+_SCATTERED = 8
+"""By how much longer it takes to look at a weight here and there than at all in a row."""
+
 
 @dataclass(frozen=True)
 class Written:
@@ -40,16 +43,21 @@ class Written:
 
 
 def write_out(
-    designs: Sequence[DesignMatrix], weight: Floats, fixed: Floats, active: Mask, strength: Floats
+    designs: Sequence[DesignMatrix],
+    weight: Floats,
+    fixed: Floats,
+    active: Mask,
+    strength: Floats,
+    times: Floats | None = None,
 ) -> Written:
     """The rows of designs, of which there is at least one; for the arguments see `reduction.reduce`."""
     codes = [_codes(design, active.shape) for design in designs]
     incidence, rows, columns = _written_out(codes, active)
-    offset, count = _offset(codes, fixed), np.concatenate([design.count for design in designs], axis=1)
+    offset, count = _offset(designs, codes, fixed), np.concatenate([design.count for design in designs], axis=1)
     unmoved = np.ones(count.shape[1], dtype=np.bool_)
     unmoved[rows] = False
     constant = constant_of(count, offset, unmoved)
-    start, own = differences(weight, fixed, columns), strength.reshape(-1)[columns]
+    start, own = differences(weight, fixed, columns), at_cells(strength, columns, times)
     count, offset = count[:, rows], None if offset is None else offset[:, rows]
     if len(rows):
         incidence, count, offset = _merged(incidence, count, offset)
@@ -64,14 +72,20 @@ def count_firing(designs: Sequence[DesignMatrix], active: Mask) -> int:
     return int(np.count_nonzero(seen & _one_more(active).reshape(-1)))
 
 
+def at_cells(strength: Floats, cells: Ints, times: Floats | None = None) -> Floats:
+    """(K,) of l2 (L, G) at some cells, each as often as its language column counts."""
+    alike = not any(strength.strides)  # one number for all
+    own = np.full(len(cells), strength.flat[0]) if alike else strength.reshape(-1)[cells]
+    return own if times is None else own * times[cells // strength.shape[1]]
+
+
 def weight_at(d: Floats, fixed: Floats, columns: Ints) -> Floats:
-    """(P, L, G) weights at variables (Q, K) of some cells, beside those that do not move."""
+    """(P, L, G) weights at variables (Q, K) of some cells, beside those that do not move; written into `fixed`."""
     mean = d.sum(axis=0) / len(fixed)
-    weight = fixed.copy()
-    flat = weight.reshape(len(fixed), -1)
+    flat = fixed.reshape(len(fixed), -1)
     flat[0, columns] -= mean
     flat[1:, columns] += d - mean
-    return weight
+    return fixed
 
 
 def offset_of(designs: Sequence[DesignMatrix], fixed: Floats) -> Floats | None:
@@ -126,14 +140,12 @@ def _one_more(mask: Mask) -> Mask:
     return found
 
 
-def _offset(codes: Sequence[Ints], fixed: Floats) -> Floats | None:
+def _offset(designs: Sequence[DesignMatrix], codes: Sequence[Ints], fixed: Floats) -> Floats | None:
     """(Q, N) score differences by weights that do not move; few of those that fire are not zero."""
-    some = fixed[0] != 0.0
-    for own in fixed[1:]:
-        some |= own != 0.0
+    some = _not_zero(designs, fixed)
     if not some.any():
         return None
-    flat, width, totals = _one_more(some).reshape(-1), fixed.shape[2], []
+    flat, width, totals = some.reshape(-1), fixed.shape[2], []
     for code in codes:
         fires = flat[code]
         rows = np.repeat(np.arange(len(code)), np.count_nonzero(fires, axis=(1, 2)))
@@ -141,6 +153,17 @@ def _offset(codes: Sequence[Ints], fixed: Floats) -> Floats | None:
         values = fixed[:, left, right]
         totals.append(summed(values[1:] - values[0], rows, len(code)))
     return np.concatenate(totals, axis=1)
+
+
+def _not_zero(designs: Sequence[DesignMatrix], weight: Floats) -> Mask:
+    """(L + 1, G + 1) which of the pairs that may fire have a weight; of others it may say anything."""
+    firing = [tuple(_compact(bag)[0] for bag in (design.language, design.grounding)) for design in designs]
+    if sum(len(left) * len(right) for left, right in firing) * _SCATTERED > weight[0].size:
+        return _one_more((weight != 0.0).any(axis=0))
+    some = np.zeros((weight.shape[1] + 1, weight.shape[2] + 1), dtype=np.bool_)
+    for left, right in firing:
+        some[np.ix_(left, right)] = (weight[:, left[:, None], right] != 0.0).any(axis=0)
+    return some
 
 
 def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, Ints]:

@@ -18,6 +18,7 @@ yet" is no single type).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +29,12 @@ Vector = NDArray[np.float64]
 
 EXACT_COST = 300_000
 """Words times types times sets of types, up to which the sum is exact (a few milliseconds)."""
+_BLOCK = 1 << 16
+"""Entries that propagation works out together."""
+_DAMPED = 0.5
+"""The part of a change that is a step as long as, or since, nothing better is known."""
+_ACCELERATED = 100
+"""Sweeps up to which the last two changes say how large a part is taken."""
 _LINKED = 0.005  # probability from which on a word and a type belong to one cluster
 
 
@@ -132,52 +139,85 @@ def propagate(
 
     With odds[w, t] the message "w names t" of a word to a type and P the product of (1 + repeat * odds) over the
     other words, the type answers with the ratio repeat P / (repeat + P - 1), or 1 / (1 + sum of odds) at repeat 0.
+
+    A step is a part of the change of the answers: a whole one can swing where words are many and repel weakly. How
+    large a part is told by the last two changes (dynamic relaxation: Irons and Tuck, "A version of the Aitken
+    accelerator for computer iteration", Int. J. Numer. Methods Eng. 1, 1969).
     """
     _check(psi, repeat, free)
     psi, held = _scaled(psi), np.flatnonzero(~free)
-    answer, odds, work = np.ones(psi.shape), np.zeros(psi.shape), np.empty(psi.shape)
-    sweeps = 0
-    while sweeps < most:
+    answer, work, before = np.ones(psi.shape), np.empty(psi.shape), np.zeros(psi.shape)
+    blocks = _blocks(*psi.shape)
+    total, part = np.ones(psi.shape[1]), _DAMPED
+    sweeps, change = 0, np.inf
+    while sweeps < most and change >= tolerance:
         sweeps += 1
-        np.multiply(psi, answer, out=odds)
-        np.subtract(odds.sum(axis=1, keepdims=True), odds, out=work)
-        odds /= np.maximum(work, 1e-300, out=work)
-        np.minimum(odds, 1e12, out=odds)
-        renewed = _answers(odds, repeat, work)
-        renewed[:, held] = 1.0
-        # half a step in the logarithm: the undamped recursion can swing where words are many and repel weakly
-        np.sqrt(np.multiply(renewed, answer, out=renewed), out=renewed)
-        answer -= renewed
-        change = max(answer.max(initial=0.0), -answer.min(initial=0.0))
-        answer, work = renewed, answer
-        if change < tolerance:
-            break
+        total = _totals(psi, answer, repeat, blocks, work)
+        along, size = 0.0, 0.0
+        for rows in blocks:
+            own, old = _changes(total, repeat, held, answer[rows], work[rows]), before[rows]
+            old -= own  # how the change has turned
+            size += float(np.vdot(old, old))
+            along += float(np.vdot(old, own))
+        if 1 < sweeps < _ACCELERATED and size > 0.0:
+            part = min(max(part * (1.0 + along / size), 0.2), 1.5)
+        elif sweeps >= _ACCELERATED:
+            part = _DAMPED
+        change = 0.0
+        for rows in blocks:
+            step = np.multiply(work[rows], part, out=before[rows])
+            np.maximum(step, -0.9 * answer[rows], out=step)  # answers stay positive
+            answer[rows] += step
+            change = max(change, step.max(initial=0.0), -step.min(initial=0.0))
+        work, before = before, work
     pull = psi * answer
     word = pull / pull.sum(axis=1, keepdims=True)
     # Of each type the belief about "no word at all", from the same messages.
-    some = odds.sum(axis=0) if repeat == 0.0 else (_product(1.0 + repeat * odds) - 1.0) / repeat
+    some = total if repeat == 0.0 else (total - 1.0) / repeat
     return Marginals(word, np.where(free, some / (1.0 + some), 0.0), sweeps)
 
 
-def _answers(odds: Matrix, repeat: float, out: Matrix) -> Matrix:
-    """Of every type to every word: weight of "w too names t" over that of "w does not"; written into `out`."""
-    if repeat == 0.0:
-        np.subtract(1.0 + odds.sum(axis=0), odds, out=out)
-        return np.divide(1.0, out, out=out)
-    np.multiply(odds, repeat, out=out)
-    out += 1.0
-    others = np.divide(_product(out), out, out=out)  # P
-    under = others + (repeat - 1.0)
-    others *= repeat
-    others /= under
-    return others
+def _blocks(words: int, types: int) -> list[slice]:
+    """Rows that are worked through together: what is worked out of them stays in the processor's cache."""
+    step = max(1, _BLOCK // max(1, types))
+    return [slice(start, start + step) for start in range(0, words, step)]
 
 
-def _product(factors: Matrix) -> Vector:
-    """(T,) of the factors of each type; there is no telling beyond 1e300."""
+def _totals(psi: Matrix, answer: Matrix, repeat: float, blocks: Sequence[slice], odds: Matrix) -> Vector:
+    """(T,) of each type the product of (1 + repeat * odds) over all words, or the sum of odds at repeat 0.
+
+    The odds are written into `odds`; there is no telling beyond 1e300.
+    """
+    total = np.full(psi.shape[1], 0.0 if repeat == 0.0 else 1.0)
     with np.errstate(over="ignore"):
-        product: Vector = np.minimum(factors.prod(axis=0), 1e300)
-    return product
+        for rows in blocks:
+            own = np.multiply(psi[rows], answer[rows], out=odds[rows])
+            others = own.sum(axis=1, keepdims=True) - own
+            own /= np.maximum(others, 1e-300, out=others)
+            np.minimum(own, 1e12, out=own)
+            if repeat == 0.0:
+                total += own.sum(axis=0)
+            else:
+                total *= (repeat * own + 1.0).prod(axis=0)
+    np.minimum(total, 1e300, out=total)
+    return total
+
+
+def _changes(total: Vector, repeat: float, held: NDArray[np.int64], answer: Matrix, odds: Matrix) -> Matrix:
+    """The types' answers to some words less those before; written over the odds."""
+    if repeat == 0.0:
+        np.subtract(1.0 + total, odds, out=odds)
+        renewed = np.divide(1.0, odds, out=odds)
+    else:
+        odds *= repeat
+        odds += 1.0
+        others = np.divide(total, odds, out=odds)  # P
+        under = others + (repeat - 1.0)
+        others *= repeat
+        renewed = np.divide(others, under, out=odds)
+    renewed -= answer
+    renewed[:, held] = 0.0
+    return renewed
 
 
 def _scaled(psi: Matrix) -> Matrix:

@@ -116,6 +116,8 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
     shown[:, :_MANY] = shown[:, -1] = True
     place = {k: at for at, k in enumerate(kept)}
     for k, ((_, word), of) in enumerate(zip(words, heard, strict=True)):
+        if not of:
+            continue
         among = [place[t] for t in of]
         shown[k, among] = True
         if nouns.prior.names:

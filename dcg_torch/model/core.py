@@ -30,6 +30,8 @@ from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.followed import Followed
+from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.teacher import Told, interpret
@@ -61,6 +63,7 @@ class GroundingModel:
         self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
         self.fitted: FitResult | None = None
         self._statistics = Statistics(features.groups)
+        self._follows: Followed | None = None
 
     @classmethod
     def trained(
@@ -211,12 +214,9 @@ class GroundingModel:
         """
         found = interpret(sentence, world, pointing_at, self)
         if found.word is not None and found.type is not None:
-            self._told(found.word, found.type)
+            self.learner = self.learner.told(found.word, found.type)
+            self.train()
         return found
-
-    def _told(self, word: str, type_: str) -> None:
-        self.learner = self.learner.told(word, type_)
-        self.train()
 
     def correct(self, word: str, type_: str) -> None:
         """Settle a noun on a type, by someone who knows, and retrain.
@@ -228,7 +228,8 @@ class GroundingModel:
             raise ValueError("a word is text that is not empty")
         if type_ not in self.known_types:
             raise ValueError(f"{type_!r}: nothing of this type was ever met; types are {', '.join(self.known_types)}")
-        self._told(word, type_)
+        self.learner = self.learner.told(word, type_)
+        self.train()
 
     def forget(self, word: str) -> None:
         """Forget all that was heard of a noun, and retrain.
@@ -243,17 +244,21 @@ class GroundingModel:
 
     def train(self) -> FitResult:
         """M.train (lines 6 and 25): columns for all that was learned, and a fit from the present weights."""
+        before = self.features.shape
         self.grow(self.learner.columns(self.features))
         free = self.learner.trainable(self.features)
+        if free is None:
+            start_as_the_last(self.factor, self.features, before, self.symbols.values())
         if free is not None and self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
-        designs = self._statistics.designs(
-            self.learner.training_examples(self.features),
-            self.learner.soft_labels(self.features),
-            self.features,
-            self.factor.correspondences,
-        )
-        return self.fit_weights(designs, free=free, l2=self.variant.l2)
+        examples, soft = self.learner.training_examples(self.features), self.learner.soft_labels(self.features)
+        follows = Followed(self.features, self.factor.weight, self.prior, examples, soft, free)
+        if self._follows is not None and self.fitted is not None and self._follows.same(follows):
+            return self.fitted
+        designs = self._statistics.designs(examples, soft, self.features, self.factor.correspondences)
+        fitted = self.fit_weights(designs, free=free, l2=self.variant.l2)
+        self._follows = replace(follows, weight=self.factor.weight)
+        return fitted
 
     def teach(
         self,
@@ -305,11 +310,9 @@ class GroundingModel:
         """Columns of zero weight for what is new."""
         if features.shape == self.features.shape:
             return
-        more = [new - old for new, old in zip(features.shape, self.features.shape, strict=True)]
         self.features = features
         self.factor.grow(features.pairs)
-        self.held = np.pad(self.held, [(0, more[0]), (0, more[1])])
-        self.prior = np.pad(self.prior, [(0, 0), (0, more[0]), (0, more[1])])
+        self.held, self.prior = widened(self.held, features.shape), widened(self.prior, features.shape)
 
     def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place: see `fit`."""

@@ -35,6 +35,8 @@ _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
 _SPREAD = 2.4
 """The farthest neighbours in a group are at most so many times as far apart as the nearest."""
+_FEW = 40
+"""Points up to which all distances are sorted."""
 _CHUNK = 1024
 """Steps that are looked at together."""
 _APART = 1.25
@@ -152,9 +154,7 @@ def _clusters(points: Floats) -> Iterable[list[int]]:
     n = len(points)
     if n < _LEAST:
         return
-    from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
-
-    merges = linkage(points[:, :2], "single").tolist()
+    merges = _single_linkage(points[:, :2])
     members: list[list[int]] = [[k] for k in range(n)]
     spots = [1] * n  # how many places seen from above a cluster is at
     first = [np.inf] * n  # the distance at which the first two of a cluster come together
@@ -169,6 +169,32 @@ def _clusters(points: Floats) -> Iterable[list[int]]:
         last = max(merges[k - n][2], SAME_SPOT)
         if last <= _SPREAD * first[k] and ends[k] >= _APART * last and spots[k] >= _LEAST:
             yield members[k]
+
+
+def _single_linkage(points: Floats) -> list[list[float]]:
+    """Which two clusters come together at which distance, the n points being the first ones, as scipy tells it."""
+    n = len(points)
+    if n > _FEW:
+        from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
+
+        merges: list[list[float]] = linkage(points, "single").tolist()
+        return merges
+    i, j = np.triu_indices(n, 1)
+    offset = points[i] - points[j]
+    apart = np.sqrt((offset * offset).sum(axis=1))
+    order = np.argsort(apart, kind="stable")
+    cluster, members, found = list(range(n)), [[k] for k in range(n)], []
+    for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
+        left, right = cluster[one], cluster[other]
+        if left == right:
+            continue
+        members.append(members[left] + members[right])
+        for k in members[-1]:
+            cluster[k] = len(members) - 1
+        found.append([float(left), float(right), distance, float(len(members[-1]))])
+        if len(found) == n - 1:
+            break
+    return found
 
 
 def _in_line(points: Floats) -> bool:

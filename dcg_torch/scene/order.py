@@ -65,9 +65,10 @@ class Alike:
 
 
 def numbered(values: Iterable[Hashable]) -> Ints:
-    """Equal values get equal numbers, from 0."""
-    number: dict[Hashable, int] = {}
-    return np.array([number.setdefault(value, len(number)) for value in values], dtype=np.int64)
+    """Equal values get equal numbers, from 0, in the order in which they come first."""
+    every = list(values)
+    number = {value: k for k, value in enumerate(dict.fromkeys(every))}
+    return np.fromiter(map(number.__getitem__, every), dtype=np.int64, count=len(every))
 
 
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:

@@ -14,7 +14,7 @@ from dcg_torch.scene.order import before as lower
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
-    *("middle", "robot", "remote", "speaker"),
+    *("middle", "robot", "remote", "speaker", "apart"),
 )
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
@@ -26,7 +26,6 @@ STATES = [
 """The states of objects, and what places and groups are, that are always features; further attributes of objects become
 features as they are met."""
 
-_LEVEL = 0.01
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
 RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "first")]
 """By number, and by what the phrase asks for: the nth of a row, one of the first few."""
@@ -111,9 +110,6 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
-    heights = z[where.solid & np.isfinite(z)]
-    if len(heights) and np.ptp(heights) <= _LEVEL:
-        z = x  # where all is on one level, "the highest" is farthest away
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
     volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
@@ -122,7 +118,7 @@ def _values(where: Layout) -> Floats:
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
-    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker])
+    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart])
 
 
 def _from_middle(where: Layout, alike: Alike) -> Floats:

@@ -22,8 +22,8 @@ VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "abo
 SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
 FRAMES = ("side", "side seen", "side spoken")
 """Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = {"closest": NEAREST, "farthest": NEAREST}
-"""Order by distance -> how many ranks of it are features."""
+_ORDERS = ("closest", "farthest")
+"""Orders by distance, of which `NEAREST` ranks each are features."""
 
 
 def _names() -> dict[str, list[str]]:
@@ -31,8 +31,8 @@ def _names() -> dict[str, list[str]]:
     bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
     families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
     families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for order, named in _ORDERS.items():
-        families[order] = [f"{order} {k}" for k in range(1, named + 1)]
+    for order in _ORDERS:
+        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
     families["itself"] = ["itself"]
     families["between"] = ["between", "not between"]
     families["line"] = ["in line across", "in line along"]
@@ -80,6 +80,9 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     offset = position[None, :, :] - position[first][:, None, :]  # (c, n, 3)
     flat = offset[..., :2]
     half = where.half[first][:, None, :]
+    if where.bodies is not None:
+        wide = where.bodies.wide
+        half = half + wide[first][:, None, :] + wide[None]
     with np.errstate(invalid="ignore"):
         if half.any():
             flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
@@ -89,15 +92,20 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     alone = exists & ~np.array([not where.things[j].attributes.isdisjoint(LINES) for j in first.tolist()])[:, None]
     solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
     of_place = exists & ~solid & point
-    steps = np.searchsorted(DISTANCES, np.where(exists, distance, 0.0), side="left")
+    covers, apart = None, exists & False
+    if where.bodies is not None:
+        covers, apart = where.bodies.over(first, offset)
+    near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
+    near = near if covers is None else np.where(covers, np.minimum(near, 0.0), near)
+    steps = np.searchsorted(DISTANCES, np.where(exists, near, 0.0), side="left")
     found = {
         "distance": np.where(alone & solid, steps, -1),
         "place distance": np.where(of_place, steps, -1),
-        "vertical": _vertical(where, first, distance, offset[..., 2], exists),
+        "vertical": _vertical(where, first, near, offset[..., 2], exists, covers, apart),
     }
     itself = first[:, None] == np.arange(len(position))[None, :]
     found["itself"] = np.where(itself & solid, 0, -1)
-    found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
+    found |= _sides(where, first, flat, exists & point & (near >= SAME_SPOT))
     found |= _orders(where, first, distance, alone, alike)
     if where.place[first].any():
         found |= _headed(where, first, exists)
@@ -118,9 +126,17 @@ _OVER, _BESIDE = (
 """Values of "vertical" for what is on the landmark's spot and what is not; an index below 0 counts from the end."""
 
 
-def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
+_BESIDE_IT = 0.7
+"""Units at least between things that are known to cover no part of one another."""
+
+
+def _vertical(
+    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools
+) -> Ints:
     # From -2, far below, to 2, far above; 0 is on a level.
     step = (up > 0.01).astype(np.int64) + (up > ONE_LEVEL) - (up < -0.01) - (up < -ONE_LEVEL)
+    if where.bodies is not None and covers is not None:
+        step = np.where(covers | apart, where.bodies.steps(first, covers), step)
     value = np.where(distance < SAME_SPOT, _OVER[step], _BESIDE[step])
     if where.ground[first].any():
         on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
@@ -160,13 +176,10 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
     ahead = -(offset * heading[:, None, :]).sum(axis=2)
     value = np.where(where.direction[first][:, None], ahead, distance)
-    found = {}
-    for (order, named), sign in zip(_ORDERS.items(), (1.0, -1.0), strict=True):
-        signed = np.where(exists, sign * value, math.inf)
-        before = lower(signed, alike, named)
-        compared = exists & (alike.code >= 0) & (before < named)
-        found[order] = np.where(compared, before, -1)
-    return found
+    signed = np.concatenate([np.where(exists, value, math.inf), np.where(exists, -value, math.inf)])
+    before = lower(signed, alike, NEAREST).reshape(2, *value.shape)
+    compared = exists & (alike.code >= 0) & (before < NEAREST)
+    return dict(zip(_ORDERS, np.where(compared, before, -1), strict=True))
 
 
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:

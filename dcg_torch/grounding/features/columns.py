@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -216,6 +216,23 @@ class FeatureSet:
         """
         names = (f"kind: {GroundingKind.OBJECT}", *self.object_names(thing, colors), *states)
         return self._columns(names)
+
+    def object_columns(self, things: Sequence[Object], states: Sequence[tuple[str, ...]]) -> list[list[int]]:
+        """The same of several objects: what has nothing to do with their types is looked up once for those alike.
+
+        Args:
+            states: of each, names of what else is true of it.
+        """
+        alike: dict[Hashable, list[int]] = {}
+        rows = []
+        for thing, own in zip(things, states, strict=True):
+            key = thing.known, thing.hypothetical, thing.color, thing.attributes, own
+            column = self.grounding.get(f"type: {thing.type}") if thing.known else None
+            common = alike.get(key)
+            if common is None:
+                common = alike[key] = [c for c in self.thing_columns(thing, own) if c != column]
+            rows.append(common if column is None else sorted((*common, column)))
+        return rows
 
     def said_columns(self, said: Said, things: Sequence[Object], looks: Sequence[int]) -> list[list[int]]:
         """Columns of what the names of things say about a phrase.

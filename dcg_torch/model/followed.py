@@ -1,0 +1,58 @@
+"""What the weights of a model follow from, so that it is not fitted again where nothing has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.statistics import SoftLabels
+from dcg_torch.types import Example
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class Followed:
+    """The inputs of a fit.
+
+    Attributes:
+        features: the columns.
+        weight: what the fit has made of them; another one, if someone else has set the weights meanwhile.
+        prior: what they are pulled towards.
+        examples, soft: what they follow.
+        free: (L, G) those that do; None: all.
+    """
+
+    features: FeatureSet
+    weight: object
+    prior: Floats
+    examples: Sequence[Example]
+    soft: Sequence[SoftLabels]
+    free: Mask | None
+
+    def same(self, other: Followed) -> bool:
+        """Would a fit find the same weights again? Examples are the same only if they are the same objects."""
+        if self.features is not other.features or self.weight is not other.weight or self.prior is not other.prior:
+            return False
+        if len(self.examples) != len(other.examples) or len(self.soft) != len(other.soft):
+            return False
+        return (
+            all(one is another for one, another in zip(self.examples, other.examples, strict=True))
+            and all(_equal(one, another) for one, another in zip(self.soft, other.soft, strict=True))
+            and _same_mask(self.free, other.free)
+        )
+
+
+def _equal(one: SoftLabels, other: SoftLabels) -> bool:
+    if one.phrases != other.phrases or one.objects != other.objects or not _same_mask(one.shown, other.shown):
+        return False
+    return np.array_equal(one.active, other.active) and np.array_equal(one.inactive, other.inactive)
+
+
+def _same_mask(one: Mask | None, other: Mask | None) -> bool:
+    return one is other if one is None or other is None else np.array_equal(one, other)
