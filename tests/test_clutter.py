@@ -107,8 +107,8 @@ def test_the_closest_on_a_side_is_one_of_that_side(parser: Parser, shipped: Grou
 @pytest.mark.parametrize(
     ("text", "place"),
     [
-        ("take the cube in the top row", ("closest to", "top")),
-        ("take the cube in the left column", ("closest to", "left")),
+        ("take the cube in the top row", ("in", "line across")),
+        ("take the cube in the left column", ("in", "line along")),
         ("take the cube on your side of the table", ("closest to", "you")),
         ("take the cube closer to my end", ("closest to", "me")),
     ],

@@ -27,6 +27,9 @@ just the name and of another colour is still described well, but not where one o
 
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
+_APART, _FARTHEST = 0.5, 8.0
+"""By how much two landmarks are the less likely meant, for each unit that they are farther apart than others: people
+speak of two things at once that stand together."""
 _LANDMARKS = 8
 """Landmarks that are weighed where several are meant together."""
 
@@ -56,8 +59,21 @@ def modifier_factor(
         combos = [tuple(beams[0][k] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+    if of_each or len(beams) > 1:
+        scores = scores - _APART * _spread(combos, encoder)
     share = scores - np.logaddexp.reduce(scores)
-    return ModifierFactor(tree, combos, log_psi + share[:, None], compared, of_each)
+    return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _spread(combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units."""
+    number, place = encoder.number, encoder.layout.position[:, :2]
+    at = np.array([[place[number[h.child.grounding.object.id]] for h in combo] for combo in combos])
+    apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
+    once = np.array([len({h.child.grounding.object.id for h in combo}) < len(combo) for combo in combos])
+    apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
+    near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
+    return near
 
 
 def _counted_landmark(tree: ParseTree) -> int:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
-from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING
+from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
@@ -20,6 +20,11 @@ _LEVEL = 0.02
 def speaks_of_groups(tree: ParseTree) -> bool:
     """Does some noun phrase of the command speak of a group of objects?"""
     return any(in_group(node.phrase) for node in tree.walk())
+
+
+def speaks_of_lines(tree: ParseTree) -> bool:
+    """Does a tree of factors count rows or columns through the whole scene?"""
+    return any(node.phrase.noun in READ_FROM for node in tree.walk())
 
 
 def path_to_object(tree: ParseTree) -> ParseTree:

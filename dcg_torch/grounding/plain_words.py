@@ -4,7 +4,7 @@ right is "closest to the right", the middle of a table that is no object of its 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.normal import normalise
@@ -18,11 +18,15 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     LIKE_RELATION,
+    LINE_FROM,
+    LINE_OF,
+    MIDDLE_LINE,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
     QUANTIFIERS,
+    READ_FROM,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -68,6 +72,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    words = _read_along(words, children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -100,10 +105,10 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    side = next((word for word in phrase.words if word in _SIDES_OF.get(phrase.noun or "", ())), None)
-    if side is not None and name in _WITHIN and not (phrase.plural or landmark.children):
-        place = ParseTree(replace(phrase, noun=SYNONYMS.get(side, side), words=()))
-        return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (place,))
+    line = _line_of_all(phrase)
+    if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
+        words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
+        return ParseTree(replace(tree.phrase, words=words), (ParseTree(line),))
     owner = next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
     sided = not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()) or name not in _AT_SIDE
     if owner is None or sided or phrase.noun not in ("side", "end", "edge"):
@@ -112,11 +117,37 @@ def _sided(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
 
 
-_SIDES_OF = dict.fromkeys(("row", "line"), frozenset({"top", "bottom", "upper", "lower"}))
-_SIDES_OF["column"] = frozenset({"left", "right", "leftmost", "rightmost"})
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
+
+
+_SAME_END = {"from the back": "from the top", "from the front": "from the bottom"}
+
+
+def _line_of_all(phrase: Phrase) -> Phrase | None:
+    """ "The third row", "the bottom row" is one of the lines of the whole scene; None for a row by itself."""
+    line = LINE_OF.get(phrase.noun or "")
+    if line is None or phrase.plural or phrase.color is not None:
+        return None
+    ends, (start, _) = LINE_FROM[line], READ_FROM[line]
+    ordinal = next((word for word in phrase.words if word in ORDINALS), None)
+    plain = [_SAME_END.get(word, word) for word in phrase.words]
+    sides = [ends[w] for w in plain if w in ends] + [w for w in plain if w in ends.values()]
+    if ordinal is None and not sides:
+        return replace(phrase, noun=line, words=(MIDDLE_LINE,)) if "middle" in phrase.words else None
+    number = ORDINALS.get(ordinal or "", 1)
+    return replace(phrase, noun=line, words=(f"{number} {sides[0] if sides else start}",))
+
+
+def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[str, ...]:
+    """ "The second cube in the third row" is the second from the left."""
+    lines = (c.children[0].phrase.noun for c in children if len(c.children) == 1 and c.phrase.words[0] in INSIDE)
+    line = next((noun for noun in lines if noun in READ_FROM), None)
+    counted = any(word in ORDINALS for word in words) and not any(word.startswith("from ") for word in words)
+    if line is None or not counted or len(words) > 1:
+        return words
+    return (*words, READ_FROM[line][1])
 
 
 def _middle_of_set(tree: ParseTree) -> ParseTree:
@@ -165,7 +196,7 @@ def in_group(phrase: Phrase) -> bool:
 
 def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:
     """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
-    lateral = next((word for word in words if word in LATERAL), None)
+    lateral = next((word for word in words if word.removesuffix("most") in LATERAL), None)
     vertical = next((word for word in words if word in VERTICAL), None)
     grouped = any(child.phrase.words[0] in INSIDE for child in children)
     if vertical is None or (grouped and lateral is None):
@@ -174,16 +205,31 @@ def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str
 
 
 def _near_side(sides: tuple[str, ...]) -> ParseTree:
+    sides = tuple(side.removesuffix("most") for side in sides)
     noun = sides[0] if len(sides) == 1 else "corner"
     place = ParseTree(Phrase(PhraseKind.NOUN, noun, sides if noun == "corner" else (), noun))
     return ParseTree(Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (place,))
+
+
+def _of_all(tree: ParseTree) -> ParseTree:
+    """ "The corner of the board" is the corner: of all that is there."""
+    if tree.phrase.noun not in PLACE_WORDS:
+        return tree
+    kept = [c for c in tree.children if not (c.phrase.words[0] in _WITHIN and _is_all(c))]
+    return replace(tree, children=tuple(kept))
+
+
+def _is_all(place: ParseTree) -> bool:
+    """Is it of the ground, or of what everything stands on?"""
+    noun = place.children[0].phrase.noun if len(place.children) == 1 else None
+    return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 
 
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
         return (tree,)
-    landmark, name = tree.children[0], tree.phrase.words[0]
+    landmark, name = _of_all(tree.children[0]), tree.phrase.words[0]
     if name in BY_COMPASS:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)

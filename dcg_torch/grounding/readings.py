@@ -12,7 +12,13 @@ import numpy as np
 
 from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.factor_tree import (
+    coordinated,
+    path_to_object,
+    speaks_of_groups,
+    speaks_of_lines,
+    to_factor_tree,
+)
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
@@ -73,7 +79,7 @@ class SharedSearch:
         self._tables = Tables(encoder.features, factor)
         self._beam = beam
         self._search = Search(encoder, self._tables, beam)
-        self._grouped: Search | None = None
+        self._grouped: dict[bool, Search] = {}
         self._solved: dict[tuple[ParseTree, bool], Solution] = {}
 
     @property
@@ -98,15 +104,15 @@ class SharedSearch:
         """
         key = (tree, groups)
         if key not in self._solved:
-            self._solved[key] = (self._of_groups() if groups else self._search).solve(tree)
+            self._solved[key] = (self._of_groups(speaks_of_lines(tree)) if groups else self._search).solve(tree)
         return self._solved[key]
 
-    def _of_groups(self) -> Search:
-        if self._grouped is None:
+    def _of_groups(self, lines: bool) -> Search:
+        if lines not in self._grouped:
             encoder = self._search.encoder
-            world = with_groups(encoder.world)
-            self._grouped = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
-        return self._grouped
+            world = with_groups(encoder.world, lines=lines)
+            self._grouped[lines] = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
+        return self._grouped[lines]
 
 
 def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:

@@ -62,6 +62,7 @@ class ModifierFactor:
     Attributes:
         combos: hypotheses of the landmarks; one for each child.
         mixture: (combos, things) the logarithm of the summands.
+        log_prior: (combos,) log p(landmarks).
         compared: (things,) those among which it ranks; None: all of a kind.
         of_each: is it to each of a combo's landmarks ("behind the two cones"), not to both at once ("between")?
     """
@@ -69,6 +70,7 @@ class ModifierFactor:
     tree: ParseTree
     combos: Sequence[tuple[Hypothesis, ...]]
     mixture: NDArray[np.float64]
+    log_prior: NDArray[np.float64]
     compared: NDArray[np.bool_] | None = None
     of_each: bool = False
 

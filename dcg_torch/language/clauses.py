@@ -9,6 +9,7 @@ from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import SETS
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
+_JOINTS = frozenset({Kind.AND, Kind.COMMA})
 _CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 
 
@@ -67,7 +68,8 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = False
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
-            while clauses[-1] and clauses[-1][-1].kind in _BEFORE_VERB:
+            # Not so the "leftmost" of "the one that is leftmost and put it ...".
+            while clauses[-1] and clauses[-1][-1].kind in (_BEFORE_VERB if not _joins(tail) else _JOINTS):
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
@@ -75,6 +77,10 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = True  # "the block you are holding"
         clauses[-1].append(item)
     return [clause for clause in clauses if clause]
+
+
+def _joins(items: Sequence[Item]) -> bool:
+    return bool(items) and items[0].kind in _JOINTS
 
 
 def _is_fragment(after: Sequence[Item]) -> bool:

@@ -129,6 +129,11 @@ def _is_path(place: Pending) -> bool:
 
 def _belongs_to_verb(place: Pending, clause: Clause, target: Item | None, full: list[Pending]) -> bool:
     """Whether a phrase after a noun phrase still says where the motion goes."""
+    if target is not None and clause.verb is not None and not place.forced:
+        moved = clause.acting and place.nouns[-1].start < clause.verb.start <= place.item.start
+        sideways = place.name in PLACING["toward"] and place.item.children[0].noun in SETS["about_sides"]
+        if moved or (sideways and place.joined and clause.action in VERBS["put"]):
+            return True  # "the top box moves left and ...", "move the cube down and to the left"
     if target is not None or clause.verb is None or place.forced:
         return False
     goals = any(other.name in PLACING["goals"] for other in full[: full.index(place)])
@@ -174,6 +179,9 @@ def _nearest(place: Pending, decisions: Decisions) -> Item:
     if place.name == "of":
         return candidates[-1]
     solid = [noun for noun in candidates if noun.noun not in SETS["places"] | SETS["groups"]] or candidates
+    last = candidates[-1]
+    if last.noun in SETS["groups"] and last is not solid[-1]:  # "the cube above the tower on the left"
+        return last if decisions.choose("group_owner", CHOICES["group_owner"]) == "group" else solid[-1]
     if len(solid) > 1 and solid[0].children + solid[-1].children != []:
         far = decisions.choose("owner", CHOICES["owner"]) == "far"
         return solid[0] if far else solid[-1]

@@ -79,11 +79,19 @@ def settle_row(noun: Item) -> None:
             return
 
 
+def _is_end(word: str) -> bool:
+    return is_superlative(word) and word not in SETS["ordinals"]
+
+
 def is_edge_of(noun: Item, edge: Item, place: Item) -> bool:
     """Whether the edge says from where something is counted: "the second from the left", "the third on the left"."""
     ordered = any(
         word in SETS["ordinals"] or (is_superlative(word) and place.words == ("from",)) for word in noun.words
     )
-    if place.words != ("from",) and ("last" in noun.words or edge.noun not in SETS["left_right"] or edge.words):
-        return False
+    if place.words != (
+        "from",
+    ):  # "the third on the left", but "the third from the top, the second highest on the left"
+        along = any(word[:5] == "from " or word == "last" or _is_end(word) for word in noun.words)
+        if along or edge.noun not in SETS["left_right"] or edge.words:
+            return False
     return ordered and edge.noun in SETS["ends"] | SETS["someone"]

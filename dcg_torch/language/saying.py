@@ -55,7 +55,8 @@ class NounPhrases:
             for pending in self.pending:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
-            self.merge(self.nouns[-1], item)
+            counts = item.pronoun and not SETS["ordinals"].isdisjoint(item.words)
+            self.merge(last_thing(self.nouns) if counts else self.nouns[-1], item)  # "... on the left that is second"
         elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
             self.side(item)  # but "on the left and right"
         elif self.nouns and (self.is_bare_place(item) or self.is_bare_part(item)):
@@ -109,9 +110,9 @@ class NounPhrases:
             place.words = ("without",) if place.words[0] == "with" else place.words
         if place.children:
             share_noun(place.children[-1], item)
-        elif place.words[0] in PLACING["ranks_from"] and self.nouns and is_edge_of(self.nouns[-1], item, place):
+        elif place.words[0] in PLACING["ranks_from"] and (counted := self.counted(item, place)) is not None:
             article = "the " if item.noun in SETS["sides"] else ""
-            self.nouns[-1].words += (f"from {article}{item.noun}",)  # "the second from the left"
+            counted.words += (f"from {article}{item.noun}",)  # "the second from the left"
             self.pending.pop()
             self.preposition = None
             item.said = True
@@ -127,6 +128,11 @@ class NounPhrases:
         place.children.append(item)
         if place.words != ("of",) or item.determined or not self.nouns:
             self.nouns.append(item)  # what follows "a pallet of tires" is said of the pallet
+
+    def counted(self, edge: Item, place: Item) -> Item | None:
+        """What is counted from an edge: the noun phrase before, or the thing that it describes."""
+        several = (self.nouns[-1], last_thing(self.nouns)) if self.nouns else ()
+        return next((noun for noun in several if is_edge_of(noun, edge, place)), None)
 
     def is_inverted(self, item: Item) -> bool:
         """The cone of "behind the cube is a cone"."""

@@ -154,8 +154,7 @@ def _beside(chosen: Mention) -> list[Item]:
     objects = chosen.clause.objects
     at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
     later = objects[at + 1 :]
-    if chosen.clause.verb is None:
-        later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
+    later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
     named = [noun for noun in later if not noun.pronoun or noun.color is not None or noun.words]
     return [noun for noun in named if noun.noun not in SETS["directions"] or noun.children]
 

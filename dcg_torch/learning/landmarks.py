@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, Modified
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, to_factor_tree
+from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, speaks_of_lines, to_factor_tree
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.readings import Reading
@@ -112,7 +112,7 @@ def parts_of(lesson: Lesson) -> list[Part]:
     for tree in trees:
         noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
-            world = with_groups(seen) if speaks_of_groups(tree) else seen
+            world = with_groups(seen, lines=speaks_of_lines(noun)) if speaks_of_groups(tree) else seen
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
 
@@ -213,8 +213,7 @@ def _meant(part: Part, solution: Solution) -> list[int] | None:
 
 def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> Modified:
     """A modifier's factors to the landmarks that are not too improbable."""
-    prior = np.array([sum(h.log_score for h in combo) for combo in modifier.combos])
-    prior -= np.logaddexp.reduce(prior)
+    prior = modifier.log_prior
     combos = np.flatnonzero(prior >= prior.max() + math.log(_NEGLIGIBLE))
     most = 1 if modifier.of_each else None
     landmarks = [modifier.landmarks(c, encoder.number)[:most] for c in combos.tolist()]

@@ -4,8 +4,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import DIRECTIONS, EITHER_END, GROUP_WORDS, OWNERS, PLACE_WORDS, SIDE_WORDS
-from dcg_torch.scene.groups import groups
+from dcg_torch.names.vocabulary import (
+    DIRECTIONS,
+    EITHER_END,
+    GROUP_WORDS,
+    MIDDLE_LINE,
+    OWNERS,
+    PLACE_WORDS,
+    READ_FROM,
+    SIDE_WORDS,
+)
+from dcg_torch.scene.groups import groups, lines_of_all
+from dcg_torch.scene.layout import LINE_NUMBERS
 from dcg_torch.scene.places import places
 from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Pose, Symbol, WorldModel
 
@@ -51,7 +61,7 @@ def place_examples() -> list[Example]:
             weight=_WEIGHT * (_AMBIGUOUS if {phrase.noun, *phrase.words} & EITHER_END else 1.0),
         )
         for phrase, kinds, sides in phrases
-    ] + _group_examples()
+    ] + [*_group_examples(), *_line_examples(things)]
 
 
 def _group_examples() -> list[Example]:
@@ -70,7 +80,26 @@ def _group_examples() -> list[Example]:
 
     said = [Example(Phrase(PhraseKind.NOUN, "cube", noun="cube"), world, labels(()), weight=_WEIGHT)]
     for word, kinds in GROUP_WORDS.items():
+        if word in READ_FROM:
+            continue
         alone = Phrase(PhraseKind.NOUN, word, noun=word)
         of_cubes = Phrase(PhraseKind.NOUN, f"{word} of cubes", (word,), "cube", plural=True)
         said += [Example(phrase, world, labels(kinds), weight=_WEIGHT) for phrase in (alone, of_cubes)]
+    return said
+
+
+def _line_examples(places_there: tuple[Object, ...]) -> list[Example]:
+    """Boards with one thing in each row and column: which of them a number from an end means."""
+    said = []
+    for number in (7, 10):
+        objects = tuple(Object(f"{k}", "cube", known=True, position=(1.0 * k, 1.0 * k, 0.0)) for k in range(number))
+        robot = Pose(0.0, 0.0)
+        world = WorldModel(objects, robot, groups=lines_of_all(objects, 1.0, robot), places=places_there)
+        for word in (*LINE_NUMBERS, MIDDLE_LINE):
+            for line in READ_FROM:
+                meant = [{word, line} <= o.attributes for o in world.things]
+                if any(meant):
+                    label = tuple(Correspondence.ACTIVE if m else Correspondence.INACTIVE for m in meant)
+                    phrase = Phrase(PhraseKind.NOUN, line, (word,), line, context=("landmark: of any",))
+                    said.append(Example(phrase, world, label, weight=_WEIGHT))
     return said

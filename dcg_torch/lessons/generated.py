@@ -6,6 +6,7 @@ from collections.abc import Callable, Collection
 
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
+from dcg_torch.lessons.boards import board_scene
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.ends import scattered_scene
 from dcg_torch.lessons.formations import formation_scene
@@ -30,8 +31,9 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
+    boards = arranged_lessons(parse, count // 4, makers=(board_scene,))
     scattered = arranged_lessons(parse, third, makers=(scattered_scene,))
     looks = arranged_lessons(parse, count // 6, makers=(height_scene, shelf_scene, lonely_scene))
     sized = arranged_lessons(parse, third // 2, makers=(furnished_scene, furnished_scene, table_top_scene))
-    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered)
+    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered, *boards)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

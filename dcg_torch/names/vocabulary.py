@@ -33,6 +33,7 @@ DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "
 """Nouns for the sides of somebody: "on your left"."""
 PLACE_TYPES = frozenset(kind for kind, _ in PLACE_WORDS.values())
 OWNERS = {"your": "of robot", "my": "of speaker"}
+LINE_ACROSS, LINE_ALONG, MIDDLE_LINE = "line across", "line along", "middle line"
 GROUP_WORDS = {
     "row": ("row",),
     "line": ("row",),
@@ -45,8 +46,20 @@ GROUP_WORDS = {
     "bunch": ("cluster",),
     "cluster": ("cluster",),
     "collection": ("cluster",),
+    LINE_ACROSS: (LINE_ACROSS,),
+    LINE_ALONG: (LINE_ALONG,),
 }
-"""What people call groups."""
+"""What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
+LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}
+_FIRST, _LAST = ("top", "upper", "back", "far"), ("bottom", "lower", "front", "near", "last")
+LINE_FROM: dict[str, dict[str, str]] = {
+    LINE_ACROSS: dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
+    LINE_ALONG: dict.fromkeys(("left", "leftmost"), "from the left")
+    | dict.fromkeys(("right", "rightmost", "last"), "from the right"),
+}
+"""Line of a scene -> word for one of its ends -> from where it is the first."""
+READ_FROM = {LINE_ACROSS: ("from the top", "from the left"), LINE_ALONG: ("from the left", "from the top")}
+"""Line -> from where such lines are counted, and from where the things in one are, as one reads a page."""
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
 RANKING = frozenset({"closest to", "farthest from", "farthest to"})
@@ -84,12 +97,13 @@ SYNONYMS = {
     **{"smaller": "smallest", "littler": "smallest", "littlest": "smallest", "tiniest": "smallest"},
     **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
     **{"taller": "tallest", "shorter": "shortest", "wider": "largest", "widest": "largest"},
-    **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "lone": "alone"},
+    **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "centric": "middle"},
+    **dict.fromkeys(("lone", "single", "freestanding", "solitary", "lonely", "standalone"), "alone"),
     **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
-    **{"lonely": "alone", "isolated": "alone", "solitary": "alone"},
+    **{"isolated": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
 """Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
@@ -99,6 +113,7 @@ FLAT_SYNONYMS |= {"from the top": "from the back", "from the bottom": "from the 
 COMPASS: dict[str, tuple[str, ...]] = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
 COMPASS |= {f"{up}{side}": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 COMPASS |= {f"{name}ern": sides for name, sides in COMPASS.items()}
+COMPASS |= {f"{up}{side}ernmost": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 """Of a picture or a map north is up."""
 _BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
 BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}

@@ -1,17 +1,20 @@
-"""Groups of objects that people speak of as one: rows, stacks, and what lies close together.
+"""Groups of objects that people speak of as one: rows, stacks, what lies close together, the lines of a whole scene.
 
 A row is evenly spaced, or it is a group of neighbours that lie along a line. Groups of neighbours are the clusters of
-single linkage, at every distance at which one ends: what is closer to one another than to anything else alike.
+single linkage, at every distance at which one ends: what is closer to one another than to anything else alike. "The
+third row" counts through all that is there, as one reads a page: a thing is in one such line across and in one along.
 """
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.scene.layout import Floats
+from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
+from dcg_torch.scene.layout import Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
@@ -55,10 +58,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     there = [o for o in objects if o.position is not None]
     if len(there) < 2:
         return ()
-    position = np.array([o.position for o in there], dtype=np.float64).reshape(-1, 3)
-    position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
-    position = laid_flat(position)
-    position /= unit
+    position = _seen(there, unit, robot)
     alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
     for j, o in enumerate(there):
         alike.setdefault((o.type,), []).append(j)
@@ -75,6 +75,34 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         for kind, of_kind in found.items()
         for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
     )
+
+
+def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
+    """The rows and the columns of a whole scene, each with its number from either end in its attributes.
+
+    Of a stack the top alone is counted.
+    """
+    there = [o for o in objects if o.position is not None]
+    if not there:
+        return ()
+    position = _seen(there, unit, robot)
+    top, found = _uncovered(position), []
+    for kind, (axis, first, last) in _LINES.items():
+        lines = list(_parted(-position[:, axis], top))
+        for k, members in enumerate(lines):
+            line = _group(kind, [there[j] for j in members], position[members])
+            counted = {f"{k + 1} from the {first}", f"{len(lines) - k} from the {last}"}
+            counted |= {MIDDLE_LINE} if 2 * k + 1 == len(lines) else set()
+            found.append(replace(line, attributes=line.attributes | counted))
+    return tuple(found)
+
+
+def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
+    """(n, 3) positions in units, as the robot sees them."""
+    position = np.array([o.position for o in objects], dtype=np.float64).reshape(-1, 3)
+    position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
+    seen: Floats = laid_flat(position) / unit
+    return seen
 
 
 def _group(kind: str, members: Sequence[Object], position: Floats) -> Object:
@@ -176,6 +204,28 @@ def _in_line(points: Floats) -> bool:
     flat = points[:, :2] - points[:, :2].mean(axis=0)
     along, aside = np.abs(flat @ np.linalg.svd(flat, full_matrices=False)[2].T).max(axis=0)
     return bool(aside <= _ASIDE * along)
+
+
+_LINES = {LINE_ACROSS: (0, "top", "bottom"), LINE_ALONG: (1, "left", "right")}
+"""Lines -> the axis on which their things have about one value, and from which ends they are counted."""
+
+
+def _parted(value: Floats, kept: Ints) -> Iterable[list[int]]:
+    """Those that are kept, parted where one's value is too far from the mean of those before it."""
+    line: list[int] = []
+    for k in kept[np.argsort(value[kept], kind="stable")].tolist():
+        if line and value[k] - value[line].mean() > SAME_SPOT:
+            yield line
+            line = []
+        line.append(k)
+    yield line
+
+
+def _uncovered(position: Floats) -> Ints:
+    """The numbers of things with none over them: of a stack one counts."""
+    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
+    higher = position[None, :, 2] > position[:, None, 2] + 0.01
+    return np.flatnonzero(~(over & higher).any(axis=1))
 
 
 def _stacks(position: Floats) -> Iterable[frozenset[int]]:

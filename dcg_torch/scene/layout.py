@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG
 from dcg_torch.scene.bodies import Bodies, bodies
 from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
@@ -31,6 +32,11 @@ NEAREST = 3
 SETS = ("kind", "type", "color", "all", "row")
 """What a thing may be compared with: those of its type and colour, of its type, of its colour, all, or those in its row
 or stack. Which, depends on what the phrase says of it."""
+
+LINES = (LINE_ACROSS, LINE_ALONG)
+"""Groups that are the rows and the columns of a whole scene, see `groups`; one may have a single thing."""
+LINE_NUMBERS = tuple(f"{k} from the {end}" for end in ("top", "bottom", "left", "right") for k in range(1, 11))
+"""Their attributes: which one it is."""
 
 DIRECTION = "direction"
 """Type of the places that are no point but a way to look: "on your left"."""
@@ -136,7 +142,9 @@ class Layout:
         """The longest group that a thing is in is its row."""
         code = np.full(len(self.things), -1, dtype=np.int64)
         longest = np.zeros(len(self.things), dtype=np.int64)
-        for k, inside in enumerate(self.members.values()):
+        for k, (group, inside) in enumerate(self.members.items()):
+            if not self.things[group].attributes.isdisjoint(LINES):
+                continue
             better = inside[longest[inside] < len(inside)]
             longest[better], code[better] = len(inside), k
         return Alike(code, list(self.members.values()))

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from dcg_torch.names.vocabulary import MIDDLE_LINE
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
-from dcg_torch.scene.layout import HEADINGS, NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.order import Alike, signatures
 from dcg_torch.scene.order import before as lower
 
@@ -19,6 +20,7 @@ STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
     *(f"state: {s}" for s in ("beside something", "held", "in a row")),
     *(f"part: {s}" for s in (*HEADINGS, "of robot", "of speaker", ROW, STACK, CLUSTER, ACROSS, ALONG)),
+    *(f"part: {s}" for s in (*LINES, *LINE_NUMBERS, MIDDLE_LINE)),
     *(f"part: of {n}" for n in range(2, 11)),
 ]
 """The states of objects, and what places and groups are, that are always features; further attributes of objects become
@@ -41,8 +43,8 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     count = int(solid.sum())
     there = np.isfinite(where.position[:count]).all(axis=1)
     in_row = np.zeros(len(things), dtype=np.bool_)
-    for members in where.members.values():
-        in_row[members] = True
+    for group, members in where.members.items():
+        in_row[members] |= things[group].attributes.isdisjoint(LINES)
     beside = np.where(near.stacked, 1, np.where(near.beside, 2, 0))
     code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
     code = np.where(there, code, 0)  # what is nowhere has attributes alone
@@ -120,10 +122,17 @@ def _values(where: Layout) -> Floats:
 
 
 def _from_middle(where: Layout, alike: Alike) -> Floats:
-    """(n,) distance of every thing to the middle of those alike; NaN where there are none."""
+    """(n,) distance of every thing to the middle of those alike; NaN where there are none.
+
+    Of all that is there it is the middle of the box around it, and so it is for one or two groups.
+    """
     distance = np.full(len(where.things), math.nan)
+    solid = where.position[where.solid & np.isfinite(where.position).all(axis=1)]
     for members in alike.members:
         if len(members):
+            of_all = (where.group[members[0]] and len(members) < 3) or where.solid[members].sum() == len(solid)
             middle = np.nan_to_num(where.position[members]).sum(axis=0) / len(members)
+            if of_all and len(solid):
+                middle[:2] = (solid[:, :2].min(axis=0) + solid[:, :2].max(axis=0)) / 2
             distance[members] = np.linalg.norm(where.position[members] - middle, axis=1)
     return distance

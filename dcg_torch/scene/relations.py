@@ -11,7 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import LINES, NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike
 from dcg_torch.scene.order import before as lower
@@ -88,6 +88,8 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
             flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
         distance = np.hypot(flat[..., 0], flat[..., 1])
     exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
+    # A line of the whole scene has everything near it: a thing is in it or not.
+    alone = exists & ~np.array([not where.things[j].attributes.isdisjoint(LINES) for j in first.tolist()])[:, None]
     solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
     of_place = exists & ~solid & point
     covers, apart = None, exists & False
@@ -97,14 +99,14 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     near = near if covers is None else np.where(covers, np.minimum(near, 0.0), near)
     steps = np.searchsorted(DISTANCES, np.where(exists, near, 0.0), side="left")
     found = {
-        "distance": np.where(exists & solid, steps, -1),
+        "distance": np.where(alone & solid, steps, -1),
         "place distance": np.where(of_place, steps, -1),
         "vertical": _vertical(where, first, near, offset[..., 2], exists, covers, apart),
     }
     itself = first[:, None] == np.arange(len(position))[None, :]
     found["itself"] = np.where(itself & solid, 0, -1)
     found |= _sides(where, first, flat, exists & point & (near >= SAME_SPOT))
-    found |= _orders(where, first, distance, exists, alike)
+    found |= _orders(where, first, distance, alone, alike)
     if where.place[first].any():
         found |= _headed(where, first, exists)
     if where.group[first].any():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from dcg_torch.scene.groups import groups
+from dcg_torch.scene.groups import groups, lines_of_all
 from dcg_torch.scene.places import Bounds, places, scene_bounds
 from dcg_torch.types import WorldModel
 
@@ -41,6 +41,8 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
     return replace(world, places=places(bounds, world.robot, world.speaker), unit=workspace.unit)
 
 
-def with_groups(world: WorldModel) -> WorldModel:
-    """A world with the groups that its objects form."""
-    return replace(world, groups=groups(world.objects, world.unit, world.viewer or world.robot))
+def with_groups(world: WorldModel, *, lines: bool = False) -> WorldModel:
+    """A world with the groups that its objects form; `lines`: with the rows and the columns of all of it, too."""
+    viewer = world.viewer or world.robot
+    counted = lines_of_all(world.objects, world.unit, viewer) if lines else ()
+    return replace(world, groups=(*groups(world.objects, world.unit, viewer), *counted))
