@@ -9,15 +9,13 @@ from dcg_torch.evaluation.certify import certify
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.perturb import (
     PERTURBATIONS,
-    Perturbed,
     garble,
     swap_absent_color,
     swap_color,
     swap_noun,
-    swap_ordinal,
-    swap_side,
     take_away,
 )
+from dcg_torch.evaluation.turned import Perturbed, swap_ordinal, swap_side
 
 
 def episode(text: str, things: str, target: str = "0", **keys: Any) -> Episode:
