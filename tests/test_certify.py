@@ -15,7 +15,8 @@ from dcg_torch.evaluation.perturb import (
     swap_noun,
     take_away,
 )
-from dcg_torch.evaluation.turned import Perturbed, swap_ordinal, swap_side
+from dcg_torch.evaluation.said import Perturbed
+from dcg_torch.evaluation.turned import swap_ordinal, swap_side
 
 
 def episode(text: str, things: str, target: str = "0", **keys: Any) -> Episode:
