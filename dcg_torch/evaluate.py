@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import sys
 
-from dcg_torch.cli.commands import start
-
 
 def main() -> int:
-    """Run the command line; the exit status. The program is loaded here, so that Ctrl-C in this time is one line."""
+    """Run the command line; the exit status. All else is loaded here, so that Ctrl-C in this time is one line."""
+    try:
+        from dcg_torch.cli.commands import start
+    except KeyboardInterrupt:
+        print("dcg_torch: interrupted", file=sys.stderr)
+        return 130
     return start("evaluate", sys.argv)
 
 

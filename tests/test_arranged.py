@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import numpy as np
@@ -24,6 +25,17 @@ def test_everything_said_of_a_table_is_said_of_one_object(seed: int) -> None:
         if "closest to the left edge" in text or text.startswith("take the leftmost"):
             assert one.position[1] == max(o.position[1] for o in alike)
             assert sum(o.position[1] == one.position[1] for o in alike) == 1
+        if text.endswith((" at the edge", " on the edge", " at the border", " on the border")):
+            depth = {o.id: min(min(v, 7.0 - v) for v in o.position[:2]) for o in alike}
+            assert depth[one.id] == 0.0
+            assert all(d >= 2.0 for i, d in depth.items() if i != one.id)
+        if text.endswith((" in the corner", " in a corner", " in the corner of the board")):
+            depth = {o.id: math.hypot(*(min(v, 7.0 - v) for v in o.position[:2])) for o in alike}
+            assert depth[one.id] == 0.0
+            assert all(d >= 2.0 for i, d in depth.items() if i != one.id)
+        if " single " in text:
+            places = [o.position[:2] for o in scene.objects]
+            assert [o for o in alike if places.count(o.position[:2]) == 1] == [one]
         if "on the floor" in text:
             assert [o for o in alike if o.position[2] == 0.0] == [one]
         if "with nothing on it" in text:

@@ -17,9 +17,9 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 
 # Rooms from the lowest to the highest floor: a room imports rooms that stand in a line above its own.
 LAYERS = (
-    {"types", "storage", "names"},
+    {"types", "storage", "names", "english"},
     {"language", "report", "scene", "world"},
-    {"grounding", "settings", "simulator"},
+    {"grounding", "settings", "simulator", "speech_acts"},
     {"learning"},
     {"agent", "lessons"},
     {"model"},

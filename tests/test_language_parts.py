@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from dcg_torch.english.spelling import Speller
 from dcg_torch.language.colors import color_names, match_color, normal_color
-from dcg_torch.language.spelling import Speller
 
 
 @given(word=st.text("abcde", min_size=1, max_size=9))

@@ -10,7 +10,7 @@ from dcg_torch.dialogue.acts import Forget, Lesson, Refused, Stop, is_stop, read
 from dcg_torch.language import Parse
 from dcg_torch.language.lexicon import REFUSALS
 from dcg_torch.language.refusals import MOTION, NO_THING
-from dcg_torch.language.requests import Answer, Motion, Question, read_forget, read_motion, read_question
+from dcg_torch.speech_acts.requests import Answer, Motion, Question, read_forget, read_motion, read_question
 from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import load_worlds
 

@@ -1,6 +1,6 @@
-"""Make the word lists of `dcg_torch/language/data` from WordNet 3.0's files.
+"""Make the word lists of `dcg_torch/english/data` from WordNet 3.0's files.
 
-    python tools/english_words.py /usr/share/wordnet dcg_torch/language/data
+    python tools/english_words.py /usr/share/wordnet dcg_torch/english/data
 
 WordNet's files are in Debian's package `wordnet-base`. Written are `english.tsv` (a word and, for each part of
 speech that it can be, a letter and how often it was that in WordNet's tagged texts, as a power of two; parts of speech

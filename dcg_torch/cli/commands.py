@@ -8,8 +8,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from dcg_torch.storage.foreign import misspelt, plain
-
 
 @dataclass(frozen=True)
 class Command:
@@ -46,6 +44,7 @@ COMMANDS: Mapping[str, Command] = {
         ("rclpy",),
     ),
     "pretrain": Command("cli.pretrain", "make the shipped model anew"),
+    "scenes": Command("cli.scenes", "scenes with commands that a program made, to certify with"),
     "schema": Command("cli.schema", "the JSON Schemas of all files"),
     "completion": Command("cli.completion", "what your shell completes: bash or zsh"),
 }
@@ -69,6 +68,8 @@ def _help_on(name: str, program: str, commands: Mapping[str, Command]) -> int:
     """Say more of one command; the exit status."""
     if name in commands:
         return start(name, [f"{program} {name}", "--help"], commands)
+    from dcg_torch.storage.foreign import misspelt, plain  # here: Ctrl-C while it loads is to be one line as well
+
     near = misspelt(name, tuple(commands))
     hint = f"did you mean {near}?" if near else f"take {', '.join(commands)}"
     print(f"dcg_torch: help {plain(name)}: there is no such command; {hint}", file=sys.stderr)
@@ -91,7 +92,8 @@ def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
 def _main_of(name: str, command: Command) -> int:
     try:
         module = importlib.import_module(f"dcg_torch.{command.module}")
-    except KeyboardInterrupt:  # before the program can say it itself
+        status: int = module.main()
+    except KeyboardInterrupt:  # before or after the program can say it itself
         print("dcg_torch: interrupted", file=sys.stderr)
         return 130
     except ModuleNotFoundError as error:
@@ -104,5 +106,4 @@ def _main_of(name: str, command: Command) -> int:
             file=sys.stderr,
         )
         return 2
-    status: int = module.main()
     return status

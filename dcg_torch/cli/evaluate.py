@@ -31,6 +31,7 @@ from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, tra
 from dcg_torch.evaluation.summary import by_file, summarise
 from dcg_torch.evaluation.summary import figures as of_all
 from dcg_torch.experiment.factory import make_model
+from dcg_torch.experiment.lessons_note import lessons_note
 from dcg_torch.grounding.devices import device_of
 from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
@@ -68,7 +69,8 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     splits = read_splits(settings)
     _check(settings, splits)
     # With folds, too, the first split has all episodes.
-    if note := unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part):
+    unused = unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part)
+    for note in filter(None, (unused, lessons_note(settings.model, settings.training))):
         console.print(f"note: {note}", markup=False)
     for name in (PREDICTIONS, SUMMARY):
         (directory / name).unlink(missing_ok=True)

@@ -13,9 +13,17 @@ import yaml
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import SETS
 from dcg_torch.language.parser import MAX_CHARACTERS
-from dcg_torch.language.requests import Answer, Motion, Question, read_answer, read_forget, read_motion, read_question
-from dcg_torch.language.teaching import Teaching, read_teaching
 from dcg_torch.language.tokens import tokens
+from dcg_torch.speech_acts.requests import (
+    Answer,
+    Motion,
+    Question,
+    read_answer,
+    read_forget,
+    read_motion,
+    read_question,
+)
+from dcg_torch.speech_acts.teaching import Teaching, read_teaching
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,8 +12,8 @@ from dcg_torch.dialogue.situation import ASKING, Errand, Situation
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import VERBS
-from dcg_torch.language.requests import Answer
 from dcg_torch.learning.learner import Experience
+from dcg_torch.speech_acts.requests import Answer
 from dcg_torch.types import PhraseKind
 
 _SURE_ANSWER = 0.6

@@ -12,8 +12,8 @@ from dcg_torch.dialogue.lessons import face
 from dcg_torch.dialogue.questions import answer_question, what_is_seen
 from dcg_torch.dialogue.sentences import ENDINGS
 from dcg_torch.dialogue.situation import Situation, Stopped, UnclearLesson, beside
-from dcg_torch.language.requests import Answer, Motion, Question
 from dcg_torch.simulator.limits import MAX_SPIN
+from dcg_torch.speech_acts.requests import Answer, Motion, Question
 from dcg_torch.types import DriveResult
 from dcg_torch.world.files import WorldObject
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import with_article
 from dcg_torch.dialogue.situation import Situation, UnclearLesson
-from dcg_torch.language.teaching import Teaching
 from dcg_torch.learning.beliefs import UNMET
+from dcg_torch.speech_acts.teaching import Teaching
 from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import WorldObject
 

@@ -11,8 +11,8 @@ from dcg_torch.dialogue.situation import Errand, Situation
 from dcg_torch.grounding.explanation import explain, rivalry
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import parse_command
-from dcg_torch.language.requests import Question
 from dcg_torch.learning.beliefs import UNMET
+from dcg_torch.speech_acts.requests import Question
 from dcg_torch.types import Percept
 
 _SURE = 0.5

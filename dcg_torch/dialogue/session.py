@@ -28,11 +28,11 @@ from dcg_torch.dialogue.file import (
     with_stops,
 )
 from dcg_torch.dialogue.situation import Situation
-from dcg_torch.language.requests import Question
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
 from dcg_torch.model.pretrain import SHIPPED
+from dcg_torch.speech_acts.requests import Question
 from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import Percept, Pose

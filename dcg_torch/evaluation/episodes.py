@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -32,18 +33,27 @@ _Shade = Annotated[float, Field(ge=0.0, le=255.0)]
 _Name = Annotated[str, Field(min_length=1, max_length=200, pattern=r"\S")]
 
 
-class _Place(_Record):
+class Place(_Record):
+    """Where somebody stands: metres, and radians from x towards y."""
+
     x: _Coordinate
     y: _Coordinate
     yaw: _Coordinate = 0.0
+
+
+_ASKING = re.compile(r"(?:has|is|wears)(?=[A-Z_])")
+
+
+def _is_truth(key: str, value: object) -> bool:
+    return isinstance(value, bool) or (_ASKING.match(key) is not None and value in (0, 1))
 
 
 class EpisodeObject(_Record):
     """One object: metres; `size` are its extents, one number for all three, or a word, if known.
 
     A size of 0 is what scanners write when they could not tell: it counts as unknown. `rgb` is what the object looks
-    like, 0 to 255. Further keys are attributes where they are true or a text; what else they hold is not used, and
-    `unused_keys` counts it.
+    like, 0 to 255. Further keys are `attributes` where they are true, false or a text; what else they hold is not used,
+    and `unused_keys` counts it.
     """
 
     id: _Name
@@ -61,10 +71,14 @@ class EpisodeObject(_Record):
 
     @property
     def attributes(self) -> frozenset[str]:
-        """Its further keys: "held" where true, "material: wood" where a string; numbers and all else are not."""
+        """Its further keys: "held" where true, "beard: no" where false, "material: wood" where a string.
+
+        Of numbers 1 and 0 are such where the key asks for yes or no ("hasBeard"); all else is not used.
+        """
         further = {**(self.model_extra or {}), "size": self.size}
         named = {f"{key}: {value}" for key, value in further.items() if isinstance(value, str)}
-        return frozenset(named | {key for key, value in further.items() if value is True})
+        truths = {key: bool(value) for key, value in further.items() if _is_truth(key, value)}
+        return frozenset(named | {key if true else f"{key}: no" for key, true in truths.items()})
 
 
 class Episode(_Record):
@@ -78,8 +92,8 @@ class Episode(_Record):
     text: Annotated[str, Field(max_length=10_000)]
     objects: tuple[EpisodeObject, ...] = Field(min_length=1)
     target: tuple[str, ...]
-    robot: _Place | None = None
-    speaker: _Place | None = None
+    robot: Place | None = None
+    speaker: Place | None = None
     holding: str | None = None
     group: str | None = None
 
@@ -203,7 +217,7 @@ def _check_keys(line: Any, where: str) -> None:
         return
     things = line.get("objects")
     records: list[tuple[str, Any, type[BaseModel]]] = [("", line, Episode)]
-    records += [(f"{name}.", line.get(name), _Place) for name in ("robot", "speaker")]
+    records += [(f"{name}.", line.get(name), Place) for name in ("robot", "speaker")]
     records += [(f"objects.{k}.", o, EpisodeObject) for k, o in enumerate(things if isinstance(things, list) else [])]
     for prefix, record, model in records:
         if not isinstance(record, dict) or len(record) > _MOST_KEYS:
@@ -227,7 +241,8 @@ def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
             found.update(f"{name}.{key}" for key in (place and place.model_extra) or {})
         for thing in episode.objects:
             further = (thing.model_extra or {}).items()
-            found.update(f"objects.{key}" for key, value in further if not isinstance(value, (str, bool, type(None))))
+            used = ((key, isinstance(value, (str, type(None))) or _is_truth(key, value)) for key, value in further)
+            found.update(f"objects.{key}" for key, heard in used if not heard)
     return dict(found)
 
 

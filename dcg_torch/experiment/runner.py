@@ -28,6 +28,7 @@ from dcg_torch.experiment.folder import (
     remove_parts,
 )
 from dcg_torch.experiment.journal import Journal
+from dcg_torch.experiment.lessons_note import lessons_note
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off, works_alone
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
@@ -85,7 +86,7 @@ def run(settings: Settings, directory: Path, progress: Progress, say: Callable[[
         settings: checked ones.
         directory: the run folder, claimed by the caller; with the same settings as before it is gone on with.
         progress: called now and then with the rows that are new, in order; first with those of an earlier run.
-        say: told, in one line each, of damage that was found.
+        say: told, in one line each, of damage that was found, and of what takes long before the first command.
 
     Raises:
         RunFolderError: the folder holds another experiment.
@@ -99,6 +100,9 @@ def run(settings: Settings, directory: Path, progress: Progress, say: Callable[[
     trials, notes = open_trials(settings, directory)
     for note in notes:
         say(note)
+    teaches = lessons_note(settings.model, settings.training)
+    if trials and teaches is not None:
+        say(teaches)
     remove_parts(directory, trials)
     journal = Journal(directory, settings.trials, settings.iterations)
     progress(journal.advance())

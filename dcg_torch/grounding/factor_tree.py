@@ -13,6 +13,9 @@ from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 _OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
 
+_LEVEL = 0.02
+"""Metres of height within which all stands on one level."""
+
 
 def speaks_of_groups(tree: ParseTree) -> bool:
     """Does some noun phrase of the command speak of a group of objects?"""
@@ -61,7 +64,10 @@ def _said_in(tree: ParseTree, scene: str) -> ParseTree:
 
 
 def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
-    tree = in_plain_words(tree, frozenset() if world is None else heads(o.type for o in world.objects if o.type))
+    objects = () if world is None else world.objects
+    heights = [o.position[2] for o in objects if o.position is not None]
+    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
+    tree = in_plain_words(tree, heads(o.type for o in objects if o.type), flat=flat)
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)

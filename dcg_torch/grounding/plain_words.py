@@ -12,14 +12,17 @@ from dcg_torch.names.vocabulary import (
     BY_COMPASS,
     COMPASS,
     DEGREES,
+    FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
     INSIDE,
     LATERAL,
     LIKE_RELATION,
+    ORDINALS,
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
+    QUANTIFIERS,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -42,14 +45,15 @@ def heads(types: Iterable[str]) -> frozenset[str]:
     return frozenset(map(_head, set(types)))
 
 
-def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False) -> ParseTree:
     """A parse tree in plain words.
 
     Args:
         there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
+        flat: does all stand on one level?
     """
-    tree = _middle_of_set(_sided(tree))
-    phrase, below = tree.phrase, tuple(in_plain_words(child, there) for child in tree.children)
+    tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
+    phrase, below = tree.phrase, tuple(in_plain_words(child, there, flat=flat) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
@@ -64,6 +68,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
+    words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
+    words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
     named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
@@ -71,6 +77,21 @@ def in_plain_words(tree: ParseTree, there: frozenset[str]) -> ParseTree:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
     return ParseTree(replace(phrase, words=words), children)
+
+
+def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
+    """ "The second farthest cube to the left" is the second from the left; without an ordinal, the leftmost."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return tree
+    ends = [c for c in tree.children if c.phrase.words[:1] == ("farthest to",) and len(c.children) == 1]
+    sides = [c.children[0] for c in ends if c.children[0].phrase.noun in LATERAL]
+    if len(sides) != 1 or sides[0].phrase.words or sides[0].children:
+        return tree
+    side = sides[0].phrase.noun
+    word = f"from the {side}" if not ORDINALS.keys().isdisjoint(phrase.words) else f"{side}most"
+    kept = tuple(c for c in tree.children if c.children != (sides[0],))
+    return ParseTree(replace(phrase, words=(*phrase.words, word)), kept)
 
 
 def _sided(tree: ParseTree) -> ParseTree:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import coordinated, path_to_object, speaks_of_groups, to_factor_tree
 from dcg_torch.grounding.frames import from_the_other_side
@@ -19,6 +20,8 @@ from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import stated_values
+from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.weights import log_odds
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
@@ -46,7 +49,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
-    return [Reading(looking(r.tree, command.text, world), weight, tuple(r.rules)) for r, weight in kept]
+    told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
+    return [Reading(tree, weight, tuple(rules)) for tree, weight, rules in told]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -169,20 +173,53 @@ def sense(solution: Solution) -> float:
 
 
 def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
-    """The tree whose first noun phrase is also told of the command's words what is to be judged by looking.
+    """The tree whose noun phrases are also told of the command's words what is to be judged by looking.
 
-    All its words where things show their colours; what may be the value of an attribute where things have such.
+    Where things show their colours the first noun phrase is told of all words, but of its own alone if the command
+    speaks of other things too. Where their colours are but named each is told of those of its words that compare
+    ("darkest"). The first is told of what may be the value of an attribute where things have such.
     """
     shown = any(o.rgb is not None for o in world.objects)
+    named = not shown and any(o.color is not None for o in world.objects)
     valued = any(":" in a for o in world.objects for a in o.attributes)
-    if not shown and not valued:
+    if not shown and not named and not valued:
         return tree
-    words = tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
-    return _told(tree, words if shown else (), stated_values(words) if valued else ())
+    words = _words(text)
+    several = shown and _speaks_of_others(tree, {o.type for o in world.objects if o.type is not None})
+    values = stated_values(words) if valued else ()
+    if named or several:
+        tree = _each_told(tree, compared=named)
+        words = ()
+    return _told(tree, words if shown else (), values)
+
+
+def _speaks_of_others(tree: ParseTree, types: set[str]) -> bool:
+    """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
+    _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
+    return any(
+        any(log_odds(noun.noun, type_) > 0.0 for type_ in types) if noun.noun else noun.text.endswith(" one")
+        for noun in others
+    )
+
+
+def _words(text: str) -> tuple[str, ...]:
+    return tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
+
+
+def _each_told(tree: ParseTree, *, compared: bool) -> ParseTree:
+    """The tree whose noun phrases are each told of their own words; of those that compare colours alone if so asked."""
+    children = tuple(_each_told(child, compared=compared) for child in tree.children)
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return replace(tree, children=children)
+    own = _words(phrase.text)
+    look = comparing_words([w for w in own if w in phrase.words]) if compared else own
+    return replace(tree, phrase=replace(phrase, look=look), children=children)
 
 
 def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> ParseTree:
     phrase = tree.phrase
     if phrase.kind is PhraseKind.NOUN:
-        return replace(tree, phrase=replace(phrase, look=look, words=tuple(dict.fromkeys((*phrase.words, *values)))))
+        words = tuple(dict.fromkeys((*phrase.words, *values)))
+        return replace(tree, phrase=replace(phrase, look=look or phrase.look, words=words))
     return replace(tree, children=(*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))

@@ -25,6 +25,8 @@ Bools = NDArray[np.bool_]
 
 _FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
+_NAMES_ONE = math.log(0.5)
+"""Log Psi from which a noun phrase names a thing that is there."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +156,9 @@ class Search:
             combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
             is_noun = tree.phrase.kind is PhraseKind.NOUN
             found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            if not landmark:
+            if landmark:
+                found = self._no_group(tree, found) if is_noun else found
+            else:
                 found = self._only_objects(tree, found)
                 found = self._or_absent(tree, found) if is_noun else found
             self._nouns[key] = found
@@ -238,6 +242,18 @@ class Search:
             times = [n - len(special), *(1 for _ in special)]
             known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
         return [known[key] for key in keys]
+
+    def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
+        """Without groups, where a landmark in the singular names a thing: "the green block" is no cluster of them."""
+        phrase, named = tree.phrase, found.named
+        if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
+            return found
+        world = self.encoder.world
+        seen = named[: len(world.objects)][self.encoder.perceived[: len(world.objects)]]
+        if not world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
+            return found
+        group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
+        return replace(found, scores=np.where(group[None, :, None], -np.inf, found.scores))
 
     def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""

@@ -102,6 +102,8 @@ _AS_WELL = 0.5
 """An object is one of several that are meant if it is described at least half as well as the best."""
 
 
+_LIKELY = 0.1
+"""Share of the best object's probability from which another is one of several: what all fit well, this tells apart."""
 _EXCLUDED = 1e-3
 """An object so much less probable than the best is no further one of a number: it has another name."""
 
@@ -167,8 +169,8 @@ class Solution:
             return tuple(o for o in ranked[: noun.count] if self.probabilities[o.id] >= least)
         # What nothing fits well is told apart by the odds.
         fits = self.fits if self.fits[ranked[0].id] >= _AS_WELL else self.odds
-        least = _AS_WELL * fits[ranked[0].id]
-        return tuple(o for o in ranked if fits[o.id] >= least)
+        least, likely = _AS_WELL * fits[ranked[0].id], _LIKELY * self.probabilities[ranked[0].id]
+        return tuple(o for o in ranked if fits[o.id] >= least and self.probabilities[o.id] >= likely)
 
     @property
     def noun(self) -> Phrase | None:

@@ -85,8 +85,8 @@ class _Builder(NounPhrases):
             self.denied = True  # "the cube not on the table"
         elif after is not None and after.kind is Kind.NOUN and after.noun not in SETS["someone"]:
             self.excluded = True  # "the cube, not the sphere"
-        elif after is not None and after.kind is Kind.ADVERB and self.nouns:
-            self.denied = True
+        elif after is not None and self.nouns and (after.kind is Kind.ADVERB or after.participle):
+            self.denied = True  # "the blonde, not wearing glasses"
         else:
             self.clause.negated = True
 
@@ -157,6 +157,8 @@ class _Builder(NounPhrases):
         main = not (item.participle or item.finite or self.relative or name == "be")
         if self.clause.verb is None and (main or not self.nouns):
             self.clause.verb = item
+        elif name in SETS["possessing"] and direct:
+            self.relation(item)  # "he wears a tie"
         elif item.finite and self.clause.verb is None and self.clause.objects and not self.relative:
             self.clause.verb, self.clause.acting = item, True  # "the top box moves left"
         elif name == "be":

@@ -9,9 +9,10 @@ from __future__ import annotations
 import functools
 from typing import Final
 
+from dcg_torch.english.dictionary import irregular
+from dcg_torch.english.forms import is_compared, is_plural, parts, singular, verb
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, irregular
-from dcg_torch.language.morphology import is_compared, is_plural, parts, singular, verb
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS
 
 _OPEN: Final = GRAMMAR["open"]
 _CLOSED: Final = tuple(name for name in GRAMMAR["lists"] if name not in GRAMMAR["open_lists"].split())

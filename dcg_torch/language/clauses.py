@@ -16,7 +16,8 @@ _CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 class Clause:
     """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases.
 
-    `refused` says why it is no order about a thing; `sentence` is the number of its sentence.
+    `refused` says why it is no order about a thing; `sentence` is the number of its sentence; `corrects`: it takes back
+    what was said before it.
     """
 
     verb: Item | None = None
@@ -27,6 +28,7 @@ class Clause:
     acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
     sentence: int = 0
+    corrects: bool = False
 
     @property
     def action(self) -> str:
@@ -52,7 +54,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
         if item.kind is Kind.STOP:
             relative = False
             said = clauses[-1] and any(start <= clauses[-1][0].start < stop for start, stop, _ in talk)
-            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said:
+            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said and item.text not in SETS["corrections"]:
                 clauses[-1].append(replace(item, kind=Kind.COMMA))
             else:
                 clauses.append([])
@@ -121,6 +123,14 @@ def _subject(items: Sequence[Item], k: int) -> bool:
     return items[k].noun in SETS["someone"] and items[k - 1].noun not in SETS["robot"]
 
 
+def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
+    """ "(The blonde,) not wearing glasses", "(no hair,) has a beard": more of what a noun phrase by itself is like."""
+    kinds = {other.kind for other in clause}
+    if Kind.NOUN not in kinds or Kind.VERB in kinds:
+        return False
+    return item.participle if before.kind is Kind.NEGATION else item.finite and item.words[0] in SETS["possessing"]
+
+
 def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
     """Whether a clause begins with the verb at `k`."""
     item = items[k]
@@ -128,6 +138,8 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         return False
     before = items[k - 1] if k else None
     lemma = item.words[0].split()[0]
+    if before is not None and before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
+        return False
     if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
         # "the block being held", "the cube is placed on ...", but "you are looking for"
         subject = items[k - 2]

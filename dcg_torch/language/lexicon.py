@@ -1,4 +1,4 @@
-"""The words of commands, loaded from `data/`: lists, patterns, weights, and an English dictionary.
+"""The words of commands, loaded from `data/`: lists, patterns and weights.
 
 Whatever is a list of words, a pattern or a number of the grammar stands there and not in code.
 """
@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import resources
 from typing import Any, Final
@@ -53,10 +53,6 @@ CHOICES: Final[Mapping[str, Any]] = GRAMMAR["choices"]
 TARGETS: Final[Mapping[str, float]] = GRAMMAR["targets"]
 PARTICLE_VERBS: Final = {name: frozenset(text.split()) for name, text in _WORDS["particle_verbs"].items()}
 RELATION_VERBS: Final[Mapping[str, str]] = _WORDS["relation_verbs"]
-NOUN_FORMS: Final[Mapping[str, str]] = _WORDS["noun_forms"]
-VERB_FORMS: Final[Mapping[str, str]] = _WORDS["verb_forms"]
-PLURAL_ENDINGS: Final[list[list[str]]] = _WORDS["plural_endings"]
-VERB_ENDINGS: Final[list[list[str]]] = _WORDS["verb_endings"]
 MISSPELT: Final[Mapping[str, str]] = _WORDS["misspelt"]
 COLOR_SPELLINGS: Final[Mapping[str, str]] = _WORDS["color_spellings"]
 _SIZED: Final = {f"{size}{ending}": size for size in SETS["sizes"] for ending in SETS["size_endings"]}
@@ -113,38 +109,6 @@ def match_preposition(joined: str, offset: int) -> PrepositionMatch | None:
     if normal == "=":
         normal = SAME.get(raw, raw)
     return PrepositionMatch(raw, raw.count(" ") + 1, normal.replace("<compass>", compass or ""), _WEIGHTS[at])
-
-
-@functools.cache
-def english() -> Mapping[str, Mapping[str, int]]:
-    """A dictionary: word -> {part of speech (n, v, a, r): how often it is that, a power of two}."""
-    return _Dictionary(line.partition("\t")[::2] for line in lines("english.tsv"))
-
-
-class _Dictionary(Mapping[str, Mapping[str, int]]):
-    """A dictionary whose lines are read when their word is looked up: it has tens of thousands."""
-
-    def __init__(self, entries: Iterable[tuple[str, str]]) -> None:
-        self._kinds = dict(entries)
-
-    def __getitem__(self, word: str) -> Mapping[str, int]:
-        kinds = self._kinds[word]
-        return {kinds[i]: int(kinds[i + 1]) for i in range(0, len(kinds), 2)}
-
-    def __contains__(self, word: object) -> bool:
-        return word in self._kinds
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._kinds)
-
-    def __len__(self) -> int:
-        return len(self._kinds)
-
-
-@functools.cache
-def irregular() -> Mapping[tuple[str, str], str]:
-    """(irregular form, part of speech) -> base form."""
-    return {(form, kind): base for form, kind, base in (line.split("\t") for line in lines("irregular.tsv"))}
 
 
 @functools.cache

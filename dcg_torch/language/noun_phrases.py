@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.english.forms import is_plural, parts, singular
 from dcg_torch.language.colors import PLURALS
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
-from dcg_torch.language.morphology import is_plural, parts, singular
 from dcg_torch.language.selection import normal_words
 from dcg_torch.language.tagging import Reader, Token
 
@@ -105,6 +105,10 @@ class NounPhrase(Reader):
     def _color(self, token: Token) -> bool:
         if self.headed:
             return False
+        after = self.text(self.at + 1)
+        if self.tag(self.at + 1) == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
+            self.words.append(f"{token.value[0]} {after}")  # "white-haired", "red-tipped": it is no colour of the whole
+            return self._take(2)
         if self.color is None:
             self.color = token.value[0]
         else:

@@ -9,15 +9,17 @@ import math
 from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass
 
+from dcg_torch.english.dictionary import english
+from dcg_torch.english.forms import singular
 from dcg_torch.language.attachment import build
 from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import CHOICES, VERBS, english
-from dcg_torch.language.morphology import singular
+from dcg_torch.language.lexicon import CHOICES, SETS, VERBS
 from dcg_torch.language.phrases import items
+from dcg_torch.language.references import correct
 from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
@@ -165,9 +167,12 @@ class _Command:
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         stops = [item.start for item in self.items if item.kind is Kind.STOP]
+        back = [n + 1 for n, at in enumerate(stops) if words[at] in SETS["corrections"]]
         for clause, group in zip(self.clauses, groups, strict=True):
             clause.sentence = bisect.bisect(stops, group[0].start)
+            clause.corrects = clause.sentence in back
             refuse(clause, group, self.parts, words)
+        correct(self.clauses)
         return root(self.clauses, decisions)
 
     def unread(self) -> tuple[str, ...]:

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.english.forms import verb
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, VERBS
-from dcg_torch.language.morphology import verb
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Reader, Token
 
@@ -84,7 +84,7 @@ class _Phrases(Reader):
         token = self.tokens[i]
         base = verb(token.text) if token.tag != "HAVE" else "have"
         item = self.add(Kind.VERB, i, i + 1, (base,))
-        item.finite = token.tag == "VG" and token.text.endswith("s")
+        item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
         after = self.text(i + 1)
         stop = i + 1

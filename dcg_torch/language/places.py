@@ -69,7 +69,7 @@ def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: De
         elif not _compound(owner, place, decisions):
             _below(owner, place.item)
         last = owner
-    if clause.verb is None and target is None:
+    if clause.verb is None and (target is None or (target.noun in SETS["spots"] and not target.children)):
         _unnamed(clause)
 
 
@@ -136,13 +136,14 @@ def _belongs_to_verb(place: Pending, clause: Clause, target: Item | None, full: 
 
 
 def _unnamed(clause: Clause) -> None:
-    """ "closest to me", "in the corner", "my left": of the thing only the place is said."""
+    """ "closest to me", "in the corner", "my left", "top left corner": of the thing only the place is said."""
     somewhere = SETS["places"] | SETS["someone"]
-    places = [p for p in clause.places if p.words[0] in PLACING["extremes"] or p.children[0].noun in somewhere]
+    telling = PLACING["extremes"] | PLACING["between"]
+    places = [p for p in clause.places if p.words[0] in telling or p.children[0].noun in somewhere]
     places += [
-        Item(Kind.PREPOSITION, side.start, side.stop, side.text, ("on",), children=[side])
+        Item(Kind.PREPOSITION, side.start, side.stop, side.text, ("on" if is_side(side) else "in",), children=[side])
         for side in clause.objects
-        if is_side(side) and side.determined
+        if (is_side(side) and (side.determined or side.words)) or (side.noun in SETS["spots"] and not is_side(side))
     ]
     if places:
         first = places[0]
@@ -209,6 +210,7 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Claus
         nouns.append(item)
         return
     share_noun(partner, item)
+    item.words += ("no",) if item.negative else ()  # "(with) a tie and no beard"
     for place in reversed(pending):
         if any(child is partner for child in place.item.children):
             place.item.children.append(item)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
@@ -12,22 +13,47 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
+    told = SETS["be"] | {""}
     for clause in clauses:
-        if clause is own or not clause.objects or clause.verb is not None:
+        there = exists(clause)
+        if clause is own or not clause.objects or clause.refused == TAKEN_BACK or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
-        stands = more.text in SETS["stands_for"]
-        if not (more.pronoun or stands) or not (clause.statement or len(clause.objects) == 1):
+        if _only_places(more) and len(clause.objects) == 1:
+            noun.children += more.children  # "Top left? The big black one."
             continue
-        if stands or more.color is None or noun.color is None:
+        if there and about_it(more) and more.noun is not None and more.start > noun.start and own.action in told:
+            noun.children.append(Item(Kind.PREPOSITION, more.start, more.start, "", ("with",), children=[more]))
+            continue
+        stands = more.text in SETS["stands_for"]
+        if not (more.pronoun or stands) or not (clause.statement or there or len(clause.objects) == 1):
+            continue
+        if "other" not in more.words and (stands or more.color is None or noun.color is None):
             noun.color = noun.color or more.color
             noun.words += more.words
             noun.children += [child for child in more.children if child not in noun.children]
 
 
+def _only_places(noun: Item) -> bool:
+    """Whether a noun phrase says but where something is: "in the corner", "top left"."""
+    named = noun.noun or noun.color or noun.words or noun.plural or noun.count
+    return noun.pronoun and not named and not noun.text and bool(noun.children)
+
+
+def exists(clause: Clause) -> bool:
+    """ "There is a cone by the door": a clause that says what is there."""
+    return clause.action in SETS["be"] and not clause.statement
+
+
+def about_it(noun: Item) -> bool:
+    """ "(There is) a blue pillow next to it"."""
+    return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
+
+
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
-    several = [noun for noun in _mentions(clauses) if noun.plural and noun.noun is not None and noun.start < one.start]
+    several = [noun for noun in _mentions(clauses) if noun.noun is not None and noun.start < one.start]
+    several = [noun for noun in several if noun.plural or ("other" in one.words and noun.noun not in SETS["someone"])]
     several = [noun for noun in several if all(node is not one for node in noun.walk())]
     several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
     if not several:
@@ -40,6 +66,33 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.children += group.children
     else:
         one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
+
+
+def correct(clauses: Sequence[Clause]) -> None:
+    """ "Take the cube, no, the ball", "... no wait, the red one": what takes back the clause before it replaces it."""
+    for k, clause in enumerate(clauses):
+        said = [other for other in clauses[:k] if other.refused is None and (other.objects or other.places)]
+        new = main_object(clause)
+        if not clause.corrects or not said or not (new or clause.places):
+            continue
+        old = said[-1]
+        goal = old.places[0] if old.places and main_object(old) is None else None
+        was = main_object(old) if goal is None else goal.children[0]
+        if new is not None and was is not None and new.noun is None:
+            new.noun, new.pronoun = was.noun, False
+        if clause.verb is None:
+            clause.verb = old.verb
+            if new is None:
+                clause.objects = old.objects
+            elif goal is not None:
+                clause.objects = [noun for noun in clause.objects if noun is not new]
+                clause.places = [replace(goal, children=[new]), *clause.places]
+            else:
+                clause.places = clause.places or old.places
+        old.refused = TAKEN_BACK
+
+
+TAKEN_BACK = "it takes a command back"
 
 
 def _in_the_middle(one: Item, several: Item) -> None:
@@ -121,16 +174,21 @@ def _may_be(node: Item, noun: Item) -> bool:
         return False
     if node.noun in SETS["groups"]:
         return noun.plural
-    same = node.noun is None or node.noun in SETS["anything"] or f" {noun.noun}".endswith(f" {node.noun}")
+    same = node.noun is None or node.noun in SETS["anything"] or _one_head(node.noun, noun.noun)
     if not same:
         return False
     return node.color in (None, noun.color) and (node.plural == noun.plural or node.noun is None)
 
 
+def _one_head(one: str, other: str) -> bool:
+    return f" {other}".endswith(f" {one}") or f" {one}".endswith(f" {other}")  # "my tape", "the measuring tape"
+
+
 def _take_over(node: Item, noun: Item) -> None:
     grouped = node.noun in SETS["groups"] and SETS["groups"].isdisjoint(noun.words)
     group = (node.noun, *((f"of {noun.count}",) if noun.count else ())) if grouped else ()
-    node.noun, node.color, node.count, node.plural = noun.noun, noun.color, noun.count, noun.plural
+    node.noun = node.noun if f" {node.noun}".endswith(f" {noun.noun}") else noun.noun
+    node.color, node.count, node.plural = noun.color, noun.count, noun.plural
     node.words = tuple(dict.fromkeys((*noun.words, *filter(None, group))))
     node.count, node.pronoun = None if grouped else noun.count, False
     node.children = node.children or [child.copy() for child in noun.children]

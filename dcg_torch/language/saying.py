@@ -54,7 +54,7 @@ class NounPhrases:
             self.nouns.append(item)
             for pending in self.pending:
                 pending.nouns, pending.forced = [item], True
-        elif self.nouns and ((self.copula and self.forced) or self.repeats(item)):
+        elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
             self.merge(self.nouns[-1], item)
         elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
             self.side(item)  # but "on the left and right"
@@ -68,6 +68,14 @@ class NounPhrases:
             self.leading_place(item)
             self.clause.objects.append(item)
             self.nouns.append(item)
+
+    def names_it(self, item: Item) -> bool:
+        """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
+        last, things = self.nouns[-1], SETS["anything"] | {None}
+        if last.noun not in things or item.noun in things | SETS["places"] | SETS["someone"] | SETS["measures"]:
+            return False
+        told = last in self.clause.objects and last.text not in SETS["stands_for"] and item.color in {None, last.color}
+        return told and item.determined and self.joined and not self.and_joined
 
     def is_bare_place(self, item: Item) -> bool:
         """ "(blue fan,) top row": where the thing is, without a preposition."""

@@ -11,10 +11,10 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Final, TypeAlias
 
+from dcg_torch.english.forms import singular
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import candidates, is_plain_noun
 from dcg_torch.language.colors import match_color, normal_color
-from dcg_torch.language.morphology import singular
 
 _NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
 _DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer

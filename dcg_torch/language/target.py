@@ -9,7 +9,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
-from dcg_torch.language.references import arrive, describe_later, one_of_several, refer
+from dcg_torch.language.references import about_it, arrive, describe_later, exists, one_of_several, refer
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _FIRST_ORDER = "earlier_goal"
@@ -35,7 +35,7 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            found.append(Mention(target, clause, _object_score(clause) + penalty))
+            found.append(Mention(target, clause, _object_score(clause, target) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -47,12 +47,14 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
     return found
 
 
-def _object_score(clause: Clause) -> float:
+def _object_score(clause: Clause, target: Item) -> float:
     verb = clause.action
     if clause.acting:
         return TARGETS["acting"]
     if verb in VERBS["shun"]:
         return TARGETS["shun"]
+    if exists(clause) and ("other" in target.words or about_it(target)):
+        return TARGETS["another"]
     if clause.statement or not verb:
         return TARGETS["statement"]
     for name in ("look", "put", "take", "reach"):

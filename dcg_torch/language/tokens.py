@@ -7,11 +7,12 @@ import re
 import unicodedata
 from collections.abc import Collection, Sequence
 
+from dcg_torch.english.dictionary import english
+from dcg_torch.english.forms import is_compared, parts, singular, verb
+from dcg_torch.english.spelling import Speller
 from dcg_torch.language.candidates import is_plain_noun
 from dcg_torch.language.colors import color_names, single_colors
-from dcg_torch.language.lexicon import MISSPELT, PLACING, REWRITES, SETS, WORD
-from dcg_torch.language.morphology import is_english, parts, singular
-from dcg_torch.language.spelling import Speller
+from dcg_torch.language.lexicon import MISSPELT, NORMAL, NUMBERS, PLACING, PRONOUNS, REWRITES, SETS, WORD
 
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -87,6 +88,18 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
     return mended
 
 
+@functools.lru_cache(8192)
+def is_english(word: str) -> bool:
+    """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
+    if word in english() or word in PRONOUNS or word in NUMBERS or word in NORMAL:
+        return True
+    if any(word in words for words in (*SETS.values(), *PLACING.values())):
+        return True
+    if singular(word) in english() or verb(word) in english():
+        return True
+    return is_compared(word)
+
+
 @functools.lru_cache(16)
 def _speller(known: frozenset[str]) -> Speller:
     return Speller([known, SETS["basic_colors"], _command_words()], is_english)
@@ -94,7 +107,9 @@ def _speller(known: frozenset[str]) -> Speller:
 
 @functools.cache
 def _command_words() -> frozenset[str]:
-    words = SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"]
+    words = (
+        SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"] | SETS["ordinals"]
+    )
     single = {name for names in PLACING.values() for name in names if " " not in name}
     colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
     return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors

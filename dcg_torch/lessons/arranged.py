@@ -158,6 +158,8 @@ def _about(one: Percept, objects: Sequence[Percept]) -> Iterator[Told]:
     below = rests_on(one)
     if below is None and alone(lambda o: rests_on(o) is None):
         yield from ((f"take the {head} {where}", only) for where in ("on the floor", "on the ground", "from the board"))
+    if below is None and not covered(one) and alone(lambda o: rests_on(o) is None and not covered(o)):
+        yield f"take the single {head}", only
     if alone(lambda o: not covered(o)):
         yield f"take the {head} with nothing on it", only
     if below is not None and alone(lambda o: (p := rests_on(o)) is not None and _same(p, below)):
@@ -193,6 +195,15 @@ def _at_edges(one: Percept, alike: Sequence[Percept], head: str) -> Iterator[Tol
                 yield f"take the {side}most {head}", only
             if reach[one.id] == 3.5:
                 yield f"take the {head} at the {side} edge", only
+    inside = {i: 3.5 - float(np.abs(p).max()) for i, p in place.items()}  # how far from the nearest edge
+    if inside[one.id] == 0.0 and first(lambda i: inside[i], margin=2.0):
+        yield from (
+            (f"take the {head} {where} the {edge}", only) for where in ("at", "on") for edge in ("edge", "border")
+        )
+    corners = {i: float(np.linalg.norm(3.5 - np.abs(p))) for i, p in place.items()}  # how far from the nearest one
+    if corners[one.id] == 0.0 and first(lambda i: corners[i], margin=2.0):
+        yield from ((f"take the {head} in {which} corner", only) for which in ("the", "a"))
+        yield f"take the {head} in the corner of the board", only
     for depth in ("top", "bottom"):
         for side in ("left", "right"):
             corner = 3.5 * (np.array(ways[depth]) + np.array(ways[side]))

@@ -7,8 +7,11 @@ from collections.abc import Callable, Collection
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.arranged import Reading, arranged_lessons
 from dcg_torch.lessons.clutter import clutter_scene
+from dcg_torch.lessons.ends import scattered_scene
 from dcg_torch.lessons.formations import formation_scene
+from dcg_torch.lessons.furnished import furnished_scene, table_top_scene
 from dcg_torch.lessons.handling import stack_scene
+from dcg_torch.lessons.looks import height_scene, lonely_scene, shelf_scene
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.lessons.rooms import room_lessons
 from dcg_torch.lessons.selections import half_scene, size_scene
@@ -17,7 +20,8 @@ from dcg_torch.lessons.selections import half_scene, size_scene
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
     """So many lessons on relations, and a third as many in each other kind of scene; the same for the same arguments.
 
-    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone.
+    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone, among things that say how
+    large they are, and on how tall, how high and how far apart things are.
 
     Args:
         parse: reads commands.
@@ -26,5 +30,8 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     picks = arranged_lessons(parse, 3 * third, makers=(half_scene, size_scene, formation_scene))
     handled = arranged_lessons(parse, third, makers=(stack_scene,))
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
-    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered)
+    scattered = arranged_lessons(parse, third, makers=(scattered_scene,))
+    looks = arranged_lessons(parse, count // 6, makers=(height_scene, shelf_scene, lonely_scene))
+    sized = arranged_lessons(parse, third // 2, makers=(furnished_scene, furnished_scene, table_top_scene))
+    tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

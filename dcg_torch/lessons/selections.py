@@ -15,7 +15,7 @@ from dcg_torch.types import Percept, Pose
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth")
 NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
-_CLEAR = 0.2  # metres by which a rank must be told apart
+CLEAR = 0.2  # metres by which a rank must be told apart
 _WHO = ("you", "the robot")
 Unclear = tuple[str, frozenset[str | None]]
 """A command and the ids of what it means; None is one that can hardly be told from another."""
@@ -75,13 +75,13 @@ def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Gene
     """What picks one or some of a half of the scene; left and right are the robot's as it faces that half."""
     who = str(rng.choice(_WHO))
     yield f"go to the {kind}s {where} {who}", frozenset(o.id for o in half)
-    by_side = _ranked(half, lambda o: -o.position[1])
+    by_side = ranked(half, lambda o: -o.position[1])
     if where == "in front of":
         for side, order in (("left", by_side), ("right", by_side[::-1])):
             yield from ((f"go to the {text} {where} {who}", frozenset({i})) for text, i in _counted(kind, side, order))
         if len(by_side) % 2 and len(by_side) > 2:
             yield f"go to the middle {kind} {where} {who}", frozenset({by_side[len(by_side) // 2]})
-    by_way = _ranked(half, lambda o: float(np.hypot(*o.position[:2])))
+    by_way = ranked(half, lambda o: float(np.hypot(*o.position[:2])))
     if len(by_way) > 1:
         for near, far in (("nearest", "farthest"), ("closest", "furthest")):
             yield f"go to the {near} {kind} {where} {who}", frozenset({by_way[0]})
@@ -92,7 +92,7 @@ def _of_half(kind: str, half: Sequence[Percept], where: str, rng: np.random.Gene
 
 def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float, float]) -> Iterator[Unclear]:
     """Ways to count by the distance from something."""
-    order = _ranked(things, lambda o: float(np.hypot(o.position[0] - at[0], o.position[1] - at[1])))
+    order = ranked(things, lambda o: float(np.hypot(o.position[0] - at[0], o.position[1] - at[1])))
     for k, ordinal in enumerate(ORDINALS[1 : min(3, len(order))], start=1):
         yield f"go to the {ordinal} closest {kind} to {name}", frozenset({order[k]})
         yield f"go to the {ordinal} farthest {kind} from {name}", frozenset({order[-1 - k]})
@@ -102,7 +102,7 @@ def _from_mark(kind: str, things: Sequence[Percept], name: str, at: tuple[float,
 
 def _by_distance(kind: str, things: Sequence[Percept]) -> Iterator[Unclear]:
     """The nearest and the farthest of all, also of those behind the robot."""
-    order = _ranked(things, lambda o: float(np.hypot(*o.position[:2])))
+    order = ranked(things, lambda o: float(np.hypot(*o.position[:2])))
     for near, far in (("nearest", "farthest"), ("closest", "furthest")):
         yield f"go to the {near} {kind}", frozenset({order[0]})
         yield f"go to the {far} {kind}", frozenset({order[-1]})
@@ -126,22 +126,28 @@ def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterat
     alike = [o for o in objects if o.type == kind and color in (None, o.color)]
     if len(alike) < 2:
         return
-    ranked = sorted(alike, key=lambda o: -o.size[0] if o.size is not None else 0.0)
+    order = sorted(alike, key=lambda o: -o.size[0] if o.size is not None else 0.0)
     head = " ".join(filter(None, (color, kind)))
     for big, small in (("biggest", "smallest"), ("largest", "smallest"), ("big", "small"), ("large", "little")):
-        yield f"go to the {big} {head}", frozenset({ranked[0].id})
-        yield f"go to the {small} {head}", frozenset({ranked[-1].id})
-    for k, ordinal in enumerate(ORDINALS[1 : len(ranked) - 1], start=1):
+        yield f"go to the {big} {head}", frozenset({order[0].id})
+        yield f"go to the {small} {head}", frozenset({order[-1].id})
+    if len(order) == 3:
+        yield from ((f"go to the {word} {head}", frozenset({order[1].id})) for word in ("medium", "medium sized"))
+    for k, ordinal in enumerate(ORDINALS[1 : len(order) - 1], start=1):
         for big, small in (("biggest", "smallest"), ("largest", "smallest")):
-            yield f"go to the {ordinal} {big} {head}", frozenset({ranked[k].id})
-            yield f"go to the {ordinal} {small} {head}", frozenset({ranked[-1 - k].id})
+            yield f"go to the {ordinal} {big} {head}", frozenset({order[k].id})
+            yield f"go to the {ordinal} {small} {head}", frozenset({order[-1 - k].id})
 
 
-def _ranked(things: Sequence[Percept], value: Callable[[Percept], float]) -> list[str | None]:
-    """The ids in the order of a value; None in the place of one that can hardly be told from a neighbour."""
-    ranked = sorted(things, key=value)
-    apart = np.array([np.inf, *np.diff([value(o) for o in ranked]), np.inf]) > _CLEAR
-    return [o.id if apart[k] and apart[k + 1] else None for k, o in enumerate(ranked)]
+def ranked(things: Sequence[Percept], value: Callable[[Percept], float], clear: float = CLEAR) -> list[str | None]:
+    """The ids in the order of a value; None in the place of one that can hardly be told from a neighbour.
+
+    Args:
+        clear: by how much the values of two must differ.
+    """
+    order = sorted(things, key=value)
+    apart = np.array([np.inf, *np.diff([value(o) for o in order]), np.inf]) > clear
+    return [o.id if apart[k] and apart[k + 1] else None for k, o in enumerate(order)]
 
 
 def _clear(said: Iterable[Unclear]) -> Iterator[Told]:

@@ -52,7 +52,7 @@ def interpret(sentence: str, world: WorldModel, pointing_at: str | None, model: 
         pointing_at: id of the object that the teacher points at.
         model: finds the object that the teacher describes.
     """
-    from dcg_torch.language.teaching import read_teaching  # its words are data that only who gives text pays for
+    from dcg_torch.speech_acts.teaching import read_teaching  # its words are data that only who gives text pays for
 
     said = read_teaching(sentence)
     if said is None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from dcg_torch.names.normal import normalise, read_data
 from dcg_torch.names.palette import color_words, region
+from dcg_torch.names.weights import log_odds
 
 ATTRIBUTE_FACTS: Final = (
     "attribute: equal",  # "wooden" said of "wooden"
@@ -26,6 +27,10 @@ COLOR_FACTS: Final = (
     "color: far",
     "color: strange",  # nothing tells where one of them is
 )
+HAS, NOT_ = "with ", "not "
+"""How words say that an object has what a key names: "with glasses", "with dark hair", "not with tie"."""
+_KEY_ODDS = 1.5
+"""Log-odds from which a noun names a key."""
 _FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
 _ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
 
@@ -35,6 +40,7 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
+    del data["absent"]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
     for key, k, words in values:
@@ -66,7 +72,8 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
         Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
         "contrary" too.
     """
-    found = {fact for word in words if (fact := _attribute_fact(normalise(word), frozenset(attributes))) is not None}
+    said = (word if HAS in word else normalise(word) for word in words)
+    found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
 
 
@@ -91,10 +98,29 @@ def stated_values(words: Sequence[str]) -> tuple[str, ...]:
 
 @functools.lru_cache(maxsize=16384)
 def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
-    meanings, excluded = _meanings()
-    pairs = [(normalise(key), normalise(value or key)) for key, _, value in (a.partition(":") for a in attributes)]
-    if any(word == value for _, value in pairs):
+    if word.startswith(NOT_):
+        found = _attribute_fact(word.removeprefix(NOT_), attributes)
+        return _DENIED.get(found or "", found)
+    pairs = [_pair(attribute) for attribute in attributes]
+    if word.startswith(HAS):
+        return _possession_fact(word.removeprefix(HAS), pairs)
+    if any(word == value or (word == key and value not in _absent()) for key, value in pairs):
         return "attribute: equal"
+    if any(word == key for key, _ in pairs):
+        return "attribute: contrary"
+    return _value_fact(word, pairs)
+
+
+_DENIED = {
+    "attribute: equal": "attribute: contrary",
+    "attribute: alike": "attribute: contrary",
+    "attribute: contrary": "attribute: alike",
+}
+
+
+def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
+    """Of a word that may state a value, whatever the key."""
+    meanings, excluded = _meanings()
     meant = meanings.get(word)
     if meant is None:
         return None
@@ -104,6 +130,65 @@ def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
     # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
     contrary = any((one, other) in excluded for one in meant for other in true)
     return "attribute: contrary" if contrary else "attribute: silent"
+
+
+def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
+    """Of "glasses" or "dark hair" that an object is said to have."""
+    key, value = next(((k, v) for k, v in pairs if f" {said}".endswith(f" {k}")), (None, ""))
+    if key is None:
+        return "attribute: silent"
+    like = said.removesuffix(key).strip()
+    if not like or value in _absent():
+        return "attribute: contrary" if value in _absent() else "attribute: equal"
+    if like == value:
+        return "attribute: equal"
+    fact = _value_fact(like, [(key, value)]) if states_value(like, frozenset({key})) else None
+    if fact is None and region(like) is not None:
+        near = not {"color: equal", "color: same hue", "color: alike"}.isdisjoint(color_evidence(like, value))
+        fact = "attribute: alike" if near else "attribute: contrary"
+    return fact or "attribute: silent"
+
+
+@functools.cache
+def _absent() -> frozenset[str]:
+    """Values that say that an object has not what the key names."""
+    return frozenset(map(str, read_data("values.yaml")["absent"]))
+
+
+def _pair(attribute: str) -> tuple[str, str]:
+    """Key and value in normal form; what is merely true is its own value."""
+    key, _, value = attribute.partition(":")
+    return attribute_key(key), normalise(value or key)
+
+
+@functools.lru_cache(maxsize=4096)
+def attribute_key(key: str) -> str:
+    """What the key of an attribute names.
+
+    >>> attribute_key("hasBeard"), attribute_key("hair_colour"), attribute_key("orientation")
+    ('beard', 'hair', 'orientation')
+    """
+    words = normalise(key).split(" ")
+    while len(words) > 1 and words[0] in ("has", "ha", "is", "with", "wears", "wear", "wearing"):
+        words = words[1:]
+    return " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+
+
+@functools.lru_cache(maxsize=4096)
+def named_key(noun: str, keys: frozenset[str]) -> str | None:
+    """The key that a noun names: "glasses" for "spectacles"; None if it names none of them.
+
+    Args:
+        keys: as `attribute_key` has them.
+    """
+    return max((key for key in keys if log_odds(noun, key) > _KEY_ODDS), key=lambda k: log_odds(noun, k), default=None)
+
+
+@functools.lru_cache(maxsize=4096)
+def states_value(word: str, keys: frozenset[str]) -> bool:
+    """May a word state the value of one of some keys: "bald" of `hair`, "woman" of `gender`?"""
+    meanings, _ = _meanings()
+    return any(key in of.split(" ") for key, _ in meanings.get(normalise(word), ()) for of in keys)
 
 
 def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str, int]]:

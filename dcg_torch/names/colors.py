@@ -53,6 +53,15 @@ def _terms(words: tuple[str, ...]) -> tuple[_Term, ...]:
     return tuple(found)
 
 
+def comparing_words(words: Sequence[str]) -> tuple[str, ...]:
+    """Those of some words that compare colours: "darkest", "light", "bluer".
+
+    >>> comparing_words(("big", "darkest", "one"))
+    ('darkest',)
+    """
+    return tuple(w for w in words if any(t.feature in ("axes", "compared hue") for t in _terms((w,))))
+
+
 def _deny(term: _Term) -> _Term:
     if term.feature == "region":
         return _Term("not region", term.region)

@@ -129,7 +129,7 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
 def _form(said: _Name, named: _Name) -> str:
     if said.solid == named.solid:
         return "name: equal"
-    if said.text in _everyday().generic:
+    if said.text in _everyday().generic and not _share_a_name(said.text, named.text):
         return "name: generic"
     longer, shorter = len(named.words) > len(said.words), len(named.words) < len(said.words)
     if longer and named.words[-len(said.words) :] == said.words:
@@ -146,6 +146,12 @@ def _form(said: _Name, named: _Name) -> str:
     return "name: shared word" if one & other else "name: none"
 
 
+def _share_a_name(noun: str, name: str) -> bool:
+    """Whether both are in one group of the list: "picture" may be said of everything, and of a painting by its name."""
+    groups = _everyday().groups
+    return bool(groups.get(noun, frozenset()) & groups.get(name, frozenset()))
+
+
 def _kind(said: _Name, named: _Name) -> str:
     whole = _relation(said.text, named.text)
     if whole not in _LOOSE or said.head == named.head:
@@ -160,8 +166,7 @@ def _kind(said: _Name, named: _Name) -> str:
 @functools.lru_cache(maxsize=65536)
 def _relation(noun: str, name: str) -> str:
     """How two nouns of the table relate: the end of one of the `KINDS` that are not of heads."""
-    groups = _everyday().groups
-    if groups.get(noun, frozenset()) & groups.get(name, frozenset()):
+    if _share_a_name(noun, name):
         return "everyday"
     said, named = _meanings(noun), _meanings(name)
     if not said.senses or not named.senses:

@@ -63,12 +63,26 @@ class Region:
 @functools.cache
 def listed_colors() -> dict[str, tuple[float, float, float]]:
     """Every listed name in normal form, and its colour in CIELAB; the survey's names go before those of CSS."""
+    named = _listed_rgb()
+    return {name: _triple(v) for name, v in zip(named, lab(np.array(list(named.values()))), strict=True)}
+
+
+@functools.cache
+def _listed_rgb() -> dict[str, tuple[float, float, float]]:
     from matplotlib.colors import CSS4_COLORS, XKCD_COLORS, to_rgb  # here: only unknown colours need it
 
     named = {normalise(name): code for name, code in CSS4_COLORS.items()}
     named |= {normalise(name.removeprefix("xkcd:")): code for name, code in XKCD_COLORS.items()}
-    values = lab(255.0 * np.array([to_rgb(code) for code in named.values()]))
-    return {name: (float(v[0]), float(v[1]), float(v[2])) for name, v in zip(named, values, strict=True)}
+    return {name: _triple(255.0 * np.array(to_rgb(code))) for name, code in named.items()}
+
+
+def named_rgb(name: str) -> tuple[float, float, float] | None:
+    """What a thing of a listed colour looks like, 0 to 255 each; None where the name is not listed.
+
+    >>> named_rgb("Black")
+    (0.0, 0.0, 0.0)
+    """
+    return _listed_rgb().get(normalise(name))
 
 
 @dataclass(frozen=True)

@@ -65,6 +65,8 @@ SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
+QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
+"""Words that say how many are meant, and nothing of which."""
 EITHER_END = frozenset({"back", "front"})
 """Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
@@ -83,9 +85,16 @@ SYNONYMS = {
     **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
     **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "lone": "alone"},
     **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},
+    **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
+    **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
+    **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
+    **{"lonely": "alone", "isolated": "alone", "solitary": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
 """Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
+FLAT_SYNONYMS = {"highest": "top", "lowest": "bottom", "high": "top", "low": "bottom"}
+FLAT_SYNONYMS |= {"from the top": "from the back", "from the bottom": "from the front"}
+"""The same where all stands on one level: "the lowest dot" of a picture is the one at its bottom."""
 COMPASS: dict[str, tuple[str, ...]] = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
 COMPASS |= {f"{up}{side}": COMPASS[up] + COMPASS[side] for up in ("north", "south") for side in ("east", "west")}
 COMPASS |= {f"{name}ern": sides for name, sides in COMPASS.items()}

@@ -14,7 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.neighbours import Neighbours, neighbours
+from dcg_torch.scene.bodies import Bodies, bodies
+from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
@@ -57,6 +58,7 @@ class Layout:
         middle: (2,) the middle of the objects.
         robot: (2,) where the robot is.
         speaker: (2,) where the speaker is, or None.
+        bodies: how large the objects are, or None.
     """
 
     things: tuple[Object, ...]
@@ -72,6 +74,7 @@ class Layout:
     middle: Floats
     robot: Floats
     speaker: Floats | None
+    bodies: Bodies | None = None
 
     @functools.cached_property
     def solid(self) -> Bools:
@@ -94,7 +97,13 @@ class Layout:
     def near(self) -> Neighbours:
         """Of the objects, which come first: who is near whom."""
         n = int(self.solid.sum())
-        return neighbours(self.position[:n], self.color[:n])
+        return neighbours(self.position[:n], self.color[:n], None if self.bodies is None else self.bodies.half[:n])
+
+    @functools.cached_property
+    def apart(self) -> Floats:
+        """(n,) how far the nearest other object is; NaN for what is none."""
+        n = int(self.solid.sum())
+        return np.concatenate([nearest_other(self.position[:n]), np.full(len(self.things) - n, math.nan)])
 
     @functools.cached_property
     def resting(self) -> Bools:
@@ -142,7 +151,10 @@ def layout(world: WorldModel) -> Layout:
     position = np.array([_NOWHERE if o.position is None else o.position for o in things], dtype=np.float64)
     position = position.reshape(n, 3)
     position[:, :2] = to_robot_frame(viewer, position[:, :2])
-    position[:objects] = laid_flat(position[:objects])
+    seen = position[:objects]
+    flat = laid_flat(seen)
+    on_floor = flat is seen  # no picture
+    position[:objects] = flat
     position /= world.unit
     half = np.zeros((n, 2))
     for j in range(placed, n):
@@ -164,7 +176,10 @@ def layout(world: WorldModel) -> Layout:
         speaker = to_robot_frame(viewer, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
     own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
-    return Layout(things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker)
+    sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
+    return Layout(
+        things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker, sized
+    )
 
 
 _NOWHERE = (math.nan,) * 3

@@ -50,12 +50,13 @@ class Neighbours:
     colors: dict[int, tuple[int, ...]]
 
 
-def neighbours(position: Floats, color: Ints) -> Neighbours:
+def neighbours(position: Floats, color: Ints, half: Floats | None = None) -> Neighbours:
     """Who is near whom.
 
     Args:
         position: (n, 3) in units of the world; NaN where a thing stands nowhere.
         color: (n,) the number of its colour, -1 for none.
+        half: (n, 2) half extents in x and y, NaN where they are not known: small things side by side are no stack.
     """
     n = len(position)
     covered, resting, beside, stacked = (np.zeros(n, dtype=np.bool_) for _ in range(4))
@@ -65,6 +66,10 @@ def neighbours(position: Floats, color: Ints) -> Neighbours:
         i, j = there[one], there[other]
         beside[i] = True
         spot = apart < SAME_SPOT
+        if half is not None:
+            offset = np.abs(position[i, :2] - position[j, :2])
+            with np.errstate(invalid="ignore"):
+                spot &= ~(offset >= half[i] + half[j]).any(axis=1)
         i, j = i[spot], j[spot]
         stacked[i] = True
         up = position[i, 2] - position[j, 2]
@@ -107,3 +112,21 @@ def _close(points: Floats, i: Ints, j: Ints, bound: float) -> tuple[Ints, Ints, 
     apart = np.hypot(offset[:, 0], offset[:, 1])
     near = apart < bound
     return i[near], j[near], apart[near]
+
+
+def nearest_other(position: Floats) -> Floats:
+    """(n,) how far the nearest other thing is from each of (n, 3) positions; NaN where there is none."""
+    found = np.full(len(position), np.nan)
+    there = np.flatnonzero(np.isfinite(position).all(axis=1))
+    if len(there) < 2:
+        return found
+    points = position[there]
+    if len(there) <= _FEW:
+        apart = np.linalg.norm(points[:, None] - points[None], axis=2)
+        np.fill_diagonal(apart, np.inf)
+        found[there] = apart.min(axis=1)
+        return found
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    found[there] = cKDTree(points).query(points, k=2)[0][:, 1]
+    return found

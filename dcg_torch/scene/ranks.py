@@ -13,7 +13,7 @@ from dcg_torch.scene.order import before as lower
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
-    *("middle", "robot", "remote", "speaker"),
+    *("middle", "robot", "remote", "speaker", "apart"),
 )
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
@@ -116,7 +116,7 @@ def _values(where: Layout) -> Floats:
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
-    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker])
+    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart])
 
 
 def _from_middle(where: Layout, alike: Alike) -> Floats:

@@ -80,6 +80,9 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     offset = position[None, :, :] - position[first][:, None, :]  # (c, n, 3)
     flat = offset[..., :2]
     half = where.half[first][:, None, :]
+    if where.bodies is not None:
+        wide = where.bodies.wide
+        half = half + wide[first][:, None, :] + wide[None]
     with np.errstate(invalid="ignore"):
         if half.any():
             flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
@@ -87,15 +90,20 @@ def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike)
     exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
     solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
     of_place = exists & ~solid & point
-    steps = np.searchsorted(DISTANCES, np.where(exists, distance, 0.0), side="left")
+    covers, apart = None, exists & False
+    if where.bodies is not None:
+        covers, apart = where.bodies.over(first, offset)
+    near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
+    near = near if covers is None else np.where(covers, np.minimum(near, 0.0), near)
+    steps = np.searchsorted(DISTANCES, np.where(exists, near, 0.0), side="left")
     found = {
         "distance": np.where(exists & solid, steps, -1),
         "place distance": np.where(of_place, steps, -1),
-        "vertical": _vertical(where, first, distance, offset[..., 2], exists),
+        "vertical": _vertical(where, first, near, offset[..., 2], exists, covers, apart),
     }
     itself = first[:, None] == np.arange(len(position))[None, :]
     found["itself"] = np.where(itself & solid, 0, -1)
-    found |= _sides(where, first, flat, exists & point & (distance >= SAME_SPOT))
+    found |= _sides(where, first, flat, exists & point & (near >= SAME_SPOT))
     found |= _orders(where, first, distance, exists, alike)
     if where.place[first].any():
         found |= _headed(where, first, exists)
@@ -116,9 +124,17 @@ _OVER, _BESIDE = (
 """Values of "vertical" for what is on the landmark's spot and what is not; an index below 0 counts from the end."""
 
 
-def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools) -> Ints:
+_BESIDE_IT = 0.7
+"""Units at least between things that are known to cover no part of one another."""
+
+
+def _vertical(
+    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools
+) -> Ints:
     # From -2, far below, to 2, far above; 0 is on a level.
     step = (up > 0.01).astype(np.int64) + (up > ONE_LEVEL) - (up < -0.01) - (up < -ONE_LEVEL)
+    if where.bodies is not None and covers is not None:
+        step = np.where(covers | apart, where.bodies.steps(first, covers), step)
     value = np.where(distance < SAME_SPOT, _OVER[step], _BESIDE[step])
     if where.ground[first].any():
         on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]

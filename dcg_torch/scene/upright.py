@@ -6,17 +6,21 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.scene.order import TIE, Floats
 
 _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
+_ROWS, _COLUMNS = 2, 3
+"""A wall of blocks is seldom so large; a page of pictures mostly is."""
 
 
 def laid_flat(position: Floats) -> Floats:
     """Positions (n, 3) in the viewer's frame; of an upright picture with what is higher farther away, all on a level.
 
-    A picture is what stands at one distance and at several heights, some of it over nothing: so it is no stack.
+    A picture is what stands at one distance and at several heights, some of it over nothing (so it is no stack), or in
+    rows and columns that are all full.
     """
     seen = position[np.isfinite(position).all(axis=1)]
     if len(seen) < 3 or np.ptp(seen[:, 0]) > TIE or np.ptp(seen[:, 2]) <= TIE or np.ptp(seen[:, 1]) <= TIE:
@@ -25,9 +29,20 @@ def laid_flat(position: Floats) -> Floats:
     beside = np.abs(seen[:, None, 1] - seen[None, :, 1]) <= spot
     below = seen[None, :, 2] < seen[:, None, 2] - TIE
     lowest = seen[:, 2] <= seen[:, 2].min() + TIE
-    if (lowest | (beside & below).any(axis=1)).all():
+    if (lowest | (beside & below).any(axis=1)).all() and not _is_full_grid(beside, seen[:, 2]):
         return position
     flat = position.copy()
     flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
+
+
+def _is_full_grid(beside: NDArray[np.bool_], height: Floats) -> bool:
+    """Whether things (n,) fill at least two rows of three, so that there are as many in every column.
+
+    Args:
+        beside: (n, n) which stand in one column.
+    """
+    rows = len(np.unique(np.round(height / TIE)))
+    deep = beside.sum(axis=1)
+    return bool(rows >= _ROWS and (deep == rows).all() and len(height) >= _COLUMNS * rows)

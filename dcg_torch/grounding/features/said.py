@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, color_evidence
 from dcg_torch.names.colors import color_scores
 from dcg_torch.names.evidence import evidence
+from dcg_torch.names.palette import named_rgb
 from dcg_torch.names.weights import FACTS, fact_weights
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase
 
@@ -92,7 +93,7 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += evidence(said.noun, thing.type)
     if look >= 0:
         found.append(LOOK_FACTS[look])
-    elif said.color is not None and thing.color is not None:
+    if (look < 0 or thing.rgb is None) and said.color is not None and thing.color is not None:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
@@ -102,13 +103,19 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
 def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:
     """How far each thing that shows its colour stays behind the one that the words fit best.
 
+    Where none shows it, the names of their colours say what they look like.
+
     Returns:
         (things,) numbers of `LOOK_FACTS`, -1 for what shows none; None where the words say nothing of colours.
     """
-    shown = [j for j, thing in enumerate(things) if thing.rgb is not None] if words else []
-    if not shown:
+    looks = {j: thing.rgb for j, thing in enumerate(things) if thing.rgb is not None} if words else {}
+    if words and not looks:
+        named = {j: named_rgb(thing.color) for j, thing in enumerate(things) if thing.color is not None}
+        looks = {j: rgb for j, rgb in named.items() if rgb is not None}
+    if not looks:
         return None
-    scores = color_scores(words, np.array([things[j].rgb for j in shown], dtype=np.float64))
+    shown = list(looks)
+    scores = color_scores(words, np.array(list(looks.values()), dtype=np.float64))
     if np.ptp(scores) <= 1e-9:
         return None
     found = np.full(len(things), -1, dtype=np.int64)

@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Mapping
+from typing import Final
 
-from dcg_torch.language import lexicon as lx
+import yaml
 
+from dcg_torch.english.dictionary import english, irregular, read
+
+_DATA: Final = yaml.safe_load(read("forms.yaml"))
+_NOUN_FORMS: Final[Mapping[str, str]] = _DATA["noun_forms"]
+_VERB_FORMS: Final[Mapping[str, str]] = _DATA["verb_forms"]
+_PLURAL_ENDINGS: Final[list[list[str]]] = _DATA["plural_endings"]
+_VERB_ENDINGS: Final[list[list[str]]] = _DATA["verb_endings"]
 _MUCH_COMMONER = 3  # in powers of two
 
 
 def parts(word: str) -> dict[str, int]:
     """Parts of speech that the dictionary has for a word as it stands."""
-    return dict(lx.english().get(word, {}))
+    return dict(english().get(word, {}))
 
 
 @functools.lru_cache(4096)
@@ -21,10 +30,10 @@ def singular(word: str) -> str:
     >>> [singular(word) for word in ("boxes", "zorps", "bus", "shelves", "glass", "people")]
     ['box', 'zorp', 'bus', 'shelf', 'glass', 'person']
     """
-    known = lx.english()
-    if word in lx.NOUN_FORMS:
-        return lx.NOUN_FORMS[word]
-    base = lx.irregular().get((word, "n"), word)
+    known = english()
+    if word in _NOUN_FORMS:
+        return _NOUN_FORMS[word]
+    base = irregular().get((word, "n"), word)
     if base != word and "n" in known.get(base, {}) and _commoner(base, word):
         return base
     if "n" in known.get(word, {}) and not word.endswith("s"):
@@ -33,7 +42,7 @@ def singular(word: str) -> str:
         return word
     if known.get(word, {}).get("n", 0) > 3 and "n" not in known.get(word[:-1], {}):
         return word
-    for old, new in lx.PLURAL_ENDINGS:
+    for old, new in _PLURAL_ENDINGS:
         stem = word[: len(word) - len(old)] + new
         if word.endswith(old) and "n" in known.get(stem, {}):
             return stem
@@ -43,8 +52,8 @@ def singular(word: str) -> str:
 
 
 def _commoner(base: str, word: str) -> bool:
-    """Whether an lx.irregular plural is meant and no noun of its own: "men", but "cola"."""
-    known = lx.english()
+    """Whether an irregular plural is meant and no noun of its own: "men", but "cola"."""
+    known = english()
     return "n" not in known.get(word, {}) or known[base]["n"] > known[word]["n"] + _MUCH_COMMONER
 
 
@@ -55,15 +64,15 @@ def verb(word: str) -> str:
     >>> [verb(word) for word in ("going", "picked", "sits", "held", "placing")]
     ['go', 'pick', 'sit', 'hold', 'place']
     """
-    if word in lx.VERB_FORMS:
-        return lx.VERB_FORMS[word]
-    known = lx.english()
+    if word in _VERB_FORMS:
+        return _VERB_FORMS[word]
+    known = english()
     if "v" in known.get(word, {}):
         return word
-    base = lx.irregular().get((word, "v"))
+    base = irregular().get((word, "v"))
     if base is not None:
         return base
-    for old, new in lx.VERB_ENDINGS:
+    for old, new in _VERB_ENDINGS:
         if not word.endswith(old) or len(word) - len(old) < 2:
             continue
         stem = word[: len(word) - len(old)] + new
@@ -80,25 +89,13 @@ def is_plural(word: str) -> bool:
     return singular(word) != word
 
 
-@functools.lru_cache(8192)
-def is_english(word: str) -> bool:
-    """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
-    if word in lx.english() or word in lx.PRONOUNS or word in lx.NUMBERS or word in lx.NORMAL:
-        return True
-    if any(word in words for words in (*lx.SETS.values(), *lx.PLACING.values())):
-        return True
-    if singular(word) in lx.english() or verb(word) in lx.english():
-        return True
-    return is_compared(word)
-
-
 def is_compared(word: str) -> bool:
     """Whether a word is an adjective's comparative or superlative."""
-    if lx.irregular().get((word, "a"), "") in lx.english():
+    if irregular().get((word, "a"), "") in english():
         return True
     for ending in ("er", "est"):
         stem = word.removesuffix(ending)
         stems = {stem, f"{stem}e", stem[:-1], f"{stem[:-1]}y"} if stem != word else set()
-        if any("a" in lx.english().get(base, {}) for base in stems):
+        if any("a" in english().get(base, {}) for base in stems):
             return True
     return False

@@ -7,11 +7,12 @@ import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
+from importlib.resources import files
 from typing import Any
 
 import yaml
 
-from dcg_torch.language.lexicon import NUMBERS, SETS, read
+from dcg_torch.language.lexicon import NUMBERS, SETS
 from dcg_torch.language.tokens import tokens
 
 
@@ -60,7 +61,7 @@ class Answer:
 
 @functools.cache
 def _data() -> Mapping[str, Any]:
-    found: dict[str, Any] = yaml.safe_load(read("requests.yaml"))
+    found: dict[str, Any] = yaml.safe_load(files(__package__).joinpath("data", "requests.yaml").read_text("utf-8"))
     return found
 
 

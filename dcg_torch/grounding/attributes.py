@@ -1,0 +1,128 @@
+"""What a command says of attributes by their keys: "with glasses", "the bearded one", "in the red shirt", "a woman".
+
+Where objects carry a key such as `glasses`, a noun phrase that names it is no landmark: it says that the object has it.
+It becomes a word of what it describes ("with glasses", "not with tie", "with dark hair"), which `names.attributes`
+compares with the values. A noun that states a value ("woman" where `gender` is given) becomes a word too.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from dcg_torch.names.attributes import HAS, NOT_, attribute_key, named_key, states_value
+from dcg_torch.names.evidence import is_generic
+from dcg_torch.names.weights import log_odds
+from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
+
+_POSSESSIVE = frozenset({"with", "wear", "in", "have", "of", "carry", "without"})
+_HAVING = frozenset({"have", "wear", "be", "with"})
+_NAMED = 0.0
+"""Log-odds from which a noun names a class that is there."""
+_ENDINGS = ("ed", "d")
+
+
+def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in which what is said of the attributes of the world's objects is words.
+
+    Args:
+        world: its objects' attributes are "key: value"; without any the tree comes back as it is.
+    """
+    given = {a for o in world.objects for a in o.attributes if a != LOOKED_ROUND}
+    keys = frozenset(attribute_key(a.partition(":")[0]) for a in given if ":" in a)
+    if not keys:
+        return tree
+    types = {o.type for o in world.objects if o.type is not None and not o.type.startswith(OPAQUE)}
+    colored = any(o.color is not None or o.rgb is not None for o in world.objects)
+    return _Speaking(keys, tuple(sorted(types)), colored).root(tree)
+
+
+class _Speaking:
+    """Reads trees by the keys and the classes that are there."""
+
+    def __init__(self, keys: frozenset[str], types: Sequence[str], colored: bool) -> None:
+        self.keys, self.types, self.colored = keys, types, colored
+
+    def root(self, tree: ParseTree) -> ParseTree:
+        """The whole tree: "he has dark hair and a tie", "glasses, no beard" name the thing by what it has."""
+        nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
+        had = [word for noun in nouns for word in self.possessed(noun, denied=False)]
+        owners = [noun for noun in nouns if not self.possessed(noun, denied=False)]
+        if had and (len(nouns) > 1 or not set(tree.phrase.words).isdisjoint(_HAVING) or not tree.phrase.words):
+            first = owners[0] if owners else ParseTree(Phrase(PhraseKind.NOUN, ""))
+            below = tuple(c for noun in nouns if self.possessed(noun, denied=False) for c in noun.children)
+            owner = _with_words(replace(first, children=(*first.children, *below)), had)
+            rest = [child for child in tree.children if all(child is not noun for noun in nouns)]
+            tree = replace(tree, children=(owner, *owners[1:], *rest))
+        return self.described(tree)
+
+    def described(self, tree: ParseTree) -> ParseTree:
+        """A node and all below it."""
+        children: list[ParseTree] = []
+        words: list[str] = []
+        for child in tree.children:
+            moved = list(self.moved(child)) if tree.phrase.kind is PhraseKind.NOUN else []
+            words += [word for word, _ in moved]
+            children += [below for _, of in moved for below in of] if moved else [child]
+        tree = replace(tree, children=tuple(self.described(child) for child in children))
+        if tree.phrase.kind is not PhraseKind.NOUN:
+            return tree
+        return _with_words(replace(tree, phrase=self.own_words(tree.phrase)), words)
+
+    def moved(self, place: ParseTree) -> Iterator[tuple[str, tuple[ParseTree, ...]]]:
+        """The words that a prepositional phrase says of its noun phrase, if its landmarks are no things.
+
+        With each word what is said of the landmark, which is then said of the whole ("the beard on the left").
+        """
+        name = place.phrase.words[0]
+        plain = name.removeprefix(NOT_)
+        if place.phrase.kind is not PhraseKind.PREPOSITION or plain not in _POSSESSIVE:
+            return
+        denied = (name != plain) != (plain == "without")
+        found = [(self.possessed(landmark, denied=denied), landmark.children) for landmark in place.children]
+        if all(words for words, _ in found):
+            for words, below in found:
+                yield from ((word, below if k == 0 else ()) for k, word in enumerate(words))
+
+    def possessed(self, noun: ParseTree, *, denied: bool) -> list[str]:
+        """The words that say that an object has what a noun phrase names; none if it names no key."""
+        phrase = noun.phrase
+        key = None if phrase.noun is None or self.names_a_class(phrase.noun) else named_key(phrase.noun, self.keys)
+        if key is None:
+            return []
+        like = [word for word in (phrase.color, *phrase.words) if word and not word.startswith(NOT_)]
+        denied = denied != ("no" in like)
+        values = [word for word in like if word != "no" and word not in _OWNED]
+        said = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
+        return [f"{NOT_}{word}" if denied else word for word in said]
+
+    def own_words(self, phrase: Phrase) -> Phrase:
+        """A noun phrase whose noun, colour and participles say what attributes hold: "woman", "grey-haired"."""
+        words = list(phrase.words)
+        color = phrase.color
+        for k, word in enumerate(phrase.words):
+            denied, (*like, stem) = word.startswith(NOT_), word.removeprefix(NOT_).split(" ")
+            key = next((named_key(stem.removesuffix(e), self.keys) for e in _ENDINGS if stem.endswith(e)), None)
+            if key is None or stem in self.keys:
+                continue
+            if not like and k and states_value(words[k - 1], frozenset({key})):
+                like = [words[k - 1]]  # "dark-haired"
+            words[k] = f"{NOT_ if denied else ''}{HAS}{' '.join((*like, key))}"
+        noun = phrase.noun
+        if noun is not None and states_value(noun, self.keys):
+            words.append(noun)
+            noun = noun if self.names_a_class(noun) else None
+        if color is not None and not self.colored:
+            words.append(color)
+        return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
+
+    def names_a_class(self, noun: str) -> bool:
+        """Whether a noun names a class of which something is there."""
+        return is_generic(noun) or any(log_odds(noun, type_) > _NAMED for type_ in self.types)
+
+
+_OWNED = frozenset({"your", "my", "his", "her", "their"})
+
+
+def _with_words(tree: ParseTree, words: Sequence[str]) -> ParseTree:
+    return replace(tree, phrase=replace(tree.phrase, words=tuple(dict.fromkeys((*tree.phrase.words, *words)))))

@@ -1,0 +1,114 @@
+"""What commands say of attributes by their keys: "with glasses", "the bearded man", "in the red shirt"."""
+
+from __future__ import annotations
+
+import pytest
+
+from dcg_torch.evaluation.episodes import EpisodeObject
+from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.language import parse_command, target_phrase
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.names.attributes import attribute_evidence, named_key
+from dcg_torch.types import Percept, Pose
+
+PEOPLE = (
+    {"gender: male", "glasses: yes", "beard: no", "hair: gray", "shirt: red"},
+    {"gender: male", "glasses: no", "beard: yes", "hair: dark", "shirt: blue"},
+    {"gender: female", "glasses: no", "beard: no", "hair: blond", "shirt: red"},
+    {"gender: female", "glasses: yes", "beard: no", "hair: dark", "shirt: green"},
+)
+KEYS = frozenset({"gender", "glasses", "beard", "hair", "shirt"})
+
+
+def _people() -> list[Percept]:
+    return [
+        Percept(f"p{k}", "person", None, (2.0, 0.5 * k, 0.0), attributes=frozenset(own)) for k, own in enumerate(PEOPLE)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("word", "attributes", "fact"),
+    [
+        ("with glasses", {"glasses: yes"}, "equal"),
+        ("with glasses", {"glasses: no"}, "contrary"),
+        ("not with glasses", {"glasses: no"}, "alike"),
+        ("not with glasses", {"glasses: yes"}, "contrary"),
+        ("with beard", {"hasBeard: no"}, "contrary"),
+        ("with dark hair", {"hair_colour: brown"}, "alike"),
+        ("with dark hair", {"hair: blond"}, "contrary"),
+        ("with red shirt", {"shirt: red"}, "equal"),
+        ("with red shirt", {"shirt: blue"}, "contrary"),
+        ("with hat", {"beard: yes"}, "silent"),
+        ("woman", {"gender: female"}, "alike"),
+        ("woman", {"gender: male"}, "contrary"),
+        ("smiling", {"smiling: no"}, "contrary"),
+        ("smiling", {"smiling: yes"}, "equal"),
+    ],
+)
+def test_facts_about_what_an_object_has(word: str, attributes: set[str], fact: str) -> None:
+    assert attribute_evidence([word], attributes) == (f"attribute: {fact}",)
+
+
+@pytest.mark.parametrize(
+    ("noun", "key"), [("spectacle", "glasses"), ("necktie", "tie"), ("table", None), ("beard", "beard")]
+)
+def test_nouns_name_keys(noun: str, key: str | None) -> None:
+    assert named_key(noun, frozenset({"glasses", "tie", "beard", "orientation"})) == key
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the man with glasses", "p0"),
+        ("the bearded man", "p1"),
+        ("a man who has no glasses", "p1"),
+        ("the woman without glasses", "p2"),
+        ("the blonde woman", "p2"),
+        ("the dark-haired woman", "p3"),
+        ("the woman in the red shirt", "p2"),
+        ("he has a beard", "p1"),
+        ("the woman wears spectacles", "p3"),
+        ("the grey haired guy", "p0"),
+        ("the person between the bearded man and the woman with glasses", "p2"),
+    ],
+)
+def test_the_shipped_model_finds_people_by_what_they_have(text: str, meant: str) -> None:
+    model = pretrained()
+    world = model.world_model(_people(), Pose(0.0, 0.0), looked=True)
+    answer = model.ground(text, world)
+    assert answer.object is not None
+    assert answer.object.id == meant
+
+
+def test_where_no_attribute_is_given_nothing_changes() -> None:
+    model = pretrained()
+    tree = parse_command("the man with glasses in the red shirt").tree
+    assert tree is not None
+    bare = [Percept("a", "person", "red", (1.0, 0.0, 0.0)), Percept("b", "glasses", None, (2.0, 0.0, 0.0))]
+    world = model.world_model(bare, Pose(0.0, 0.0), looked=True)
+    assert by_attributes(tree, world) == tree
+
+
+def test_a_thing_that_is_there_stays_a_landmark() -> None:
+    model = pretrained()
+    tree = parse_command("the person with the glasses").tree
+    assert tree is not None
+    world = model.world_model([*_people(), Percept("g", "glasses", None, (2.0, 0.1, 0.0))], Pose(0.0, 0.0), looked=True)
+    said = target_phrase(by_attributes(tree, world))
+    assert [child.phrase.noun for place in said.children for child in place.children] == ["glass"]
+
+
+def test_truths_of_an_episode_are_attributes() -> None:
+    one = EpisodeObject.model_validate(
+        {
+            "id": "a",
+            "type": "person",
+            "position": [0, 0],
+            "beard": False,
+            "held": True,
+            "hasTie": 1,
+            "hasHair": 0,
+            "row": 1,
+        }
+    )
+    assert one.attributes == {"beard: no", "held", "hasTie", "hasHair: no"}
