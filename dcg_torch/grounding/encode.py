@@ -197,6 +197,20 @@ class WorldEncoder:
         return rows.reshape(rows.shape[1:])
 
 
+class LastWorld:
+    """The encoder of the world that was last grounded in: what a command teaches is found by grounding there again."""
+
+    def __init__(self) -> None:
+        self._encoder: WorldEncoder | None = None
+
+    def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
+        """The one that there is if it is of this very world and under these columns, else a new one."""
+        last = self._encoder
+        if last is None or last.world is not world or last.features is not features:
+            last = self._encoder = WorldEncoder(features, world)
+        return last
+
+
 @dataclass(frozen=True)
 class _Labelled:
     """Labelled factors of one phrase.

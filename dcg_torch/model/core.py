@@ -30,7 +30,7 @@ from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
-from dcg_torch.model.followed import Followed
+from dcg_torch.model.followed import Followed, Kept
 from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
@@ -62,8 +62,7 @@ class GroundingModel:
         self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
         self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
         self.fitted: FitResult | None = None
-        self._statistics = Statistics(features.groups)
-        self._follows: Followed | None = None
+        self._kept = Kept(Statistics(features.groups))
 
     @classmethod
     def trained(
@@ -95,7 +94,7 @@ class GroundingModel:
         factor.set_weight(self.factor.weight.detach().clone())
         other = GroundingModel(self.variant, self.features, factor, self.learner)
         other.held, other.prior, other.fitted = self.held.copy(), self.prior.copy(), self.fitted
-        other._statistics = self._statistics.copy()
+        other._kept = Kept(self._kept.statistics.copy())
         return other
 
     def to(self, device: str) -> GroundingModel:
@@ -180,10 +179,11 @@ class GroundingModel:
         return Group.RELATION in self.variant.groups
 
     def _search(self, world: WorldModel) -> SharedSearch:
-        return SharedSearch(WorldEncoder(self.features, world), self.factor, self.variant.beam)
+        return SharedSearch(self._kept.last.encoder(self.features, world), self.factor, self.variant.beam)
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
+        encoder = encoder or self._kept.last.encoder(self.features, world)
         return FactorGraph(tree, world, encoder).solve(self.features, self.factor, beam=self.variant.beam)
 
     def learn(self, solution: Solution, experience: Experience | None = None) -> Learned:
@@ -254,11 +254,11 @@ class GroundingModel:
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
         examples, soft = self.learner.training_examples(self.features), self.learner.soft_labels(self.features)
         follows = Followed(self.features, self.factor.weight, self.prior, examples, soft, free)
-        if self._follows is not None and self.fitted is not None and self._follows.same(follows):
+        if self._kept.follows is not None and self.fitted is not None and self._kept.follows.same(follows):
             return self.fitted
-        designs = self._statistics.designs(examples, soft, self.features, self.factor.correspondences)
+        designs = self._kept.statistics.designs(examples, soft, self.features, self.factor.correspondences)
         fitted = self.fit_weights(designs, free=free, l2=self.variant.l2)
-        self._follows = replace(follows, weight=self.factor.weight)
+        self._kept.follows = replace(follows, weight=self.factor.weight)
         return fitted
 
     def teach(

@@ -1,24 +1,40 @@
-"""What the weights of a model follow from, so that it is not fitted again where nothing has changed."""
+"""What a model keeps between calls so that nothing is done twice: a fit, the features of examples and of a world."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.encode import LastWorld
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.statistics import SoftLabels
+from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.types import Example
 
 Mask = NDArray[np.bool_]
 
 
+@dataclass
+class Kept:
+    """Of one model; a copy of it starts with the statistics alone.
+
+    Attributes:
+        statistics: what features see of examples.
+        follows: what the weights follow from as they are; None: they have not been fitted.
+        last: the world that was last grounded in.
+    """
+
+    statistics: Statistics
+    follows: Followed | None = None
+    last: LastWorld = field(default_factory=LastWorld)
+
+
 @dataclass(frozen=True)
 class Followed:
-    """The inputs of a fit.
+    """The inputs of a fit: where nothing of them has changed, it would end where it did.
 
     Attributes:
         features: the columns.
