@@ -43,6 +43,9 @@ def _people() -> list[Percept]:
         ("woman", {"gender: male"}, "contrary"),
         ("smiling", {"smiling: no"}, "contrary"),
         ("smiling", {"smiling: yes"}, "equal"),
+        ("bald", {"beard: no", "hair: dark"}, "contrary"),
+        ("bald", {"beard: no", "hair: no"}, "alike"),
+        ("with facial hair", {"hair: dark", "facial hair: no"}, "contrary"),
     ],
 )
 def test_facts_about_what_an_object_has(word: str, attributes: set[str], fact: str) -> None:
@@ -112,3 +115,52 @@ def test_truths_of_an_episode_are_attributes() -> None:
         }
     )
     assert one.attributes == {"beard: no", "held", "hasTie", "hasHair: no"}
+
+
+def _told_apart(text: str, *things: tuple[str, str | None, set[str]]) -> list[str]:
+    """What the shipped model takes a command to mean; things stand from left to right, numbered from 0."""
+    model = pretrained()
+    percepts = [
+        Percept(f"o{k}", type_, color, (2.0, 1.0 - k, 0.0), attributes=frozenset(own))
+        for k, (type_, color, own) in enumerate(things)
+    ]
+    found = model.ground(text, model.world_model(percepts, Pose(0.0, 0.0), looked=True))
+    return [o.id for o in found.objects if not o.hypothetical]
+
+
+MUG, PLATE, BOTTLE = (
+    ("mug", None, {"material: steel"}),
+    ("plate", None, {"material: ceramic"}),
+    ("bottle", None, {"material: plastic"}),
+)
+
+
+@pytest.mark.parametrize("text", ["pick up the iron", "take the china"])
+def test_a_thing_is_not_what_another_is_made_of(text: str) -> None:
+    assert _told_apart(text, MUG, PLATE, BOTTLE) == []
+
+
+@pytest.mark.parametrize("text", ["the spoon made of wood", "the wooden spoon", "the spoon that is made from wood"])
+def test_what_things_are_made_of(text: str) -> None:
+    assert _told_apart(text, ("spoon", None, {"material: steel"}), ("spoon", None, {"material: wood"})) == ["o1"]
+
+
+def test_what_is_merely_true_is_heard() -> None:
+    people = ("person", None, {"beard"}), ("person", None, {"glasses", "hat"})
+    assert _told_apart("the person with glasses", *people) == ["o1"]
+    assert _told_apart("the bearded one", *people) == ["o0"]
+
+
+def test_a_side_is_a_place_where_things_are_turned_to_sides() -> None:
+    chairs = ("chair", None, {"orientation: right"}), ("chair", None, {"orientation: left"})
+    assert _told_apart("the chair on the left side", *chairs) == ["o0"]
+    assert _told_apart("the chair facing left", *chairs) == ["o1"]
+
+
+@pytest.mark.parametrize("text", ["the cube that is not red", "the non-red cube"])
+def test_a_color_that_is_denied(text: str) -> None:
+    assert _told_apart(text, ("cube", "red", set()), ("cube", "blue", set())) == ["o1"]
+
+
+def test_a_word_that_compares_colors_makes_no_thing_of_what_is_not_there() -> None:
+    assert _told_apart("the darkest unicorn", ("cube", "red", set()), ("cube", "blue", set())) == []

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import sys
 
 import numpy as np
 import pytest
@@ -151,3 +152,18 @@ def test_lessons_on_boards_are_read_as_orders() -> None:
             assert tree is not None, text
             in_line = bool(re.search(r"\b(row|column)\b", text))
             assert speaks_of_lines(to_factor_tree(tree, WorldModel(_TRIANGLE, _SEAT))) == in_line, text
+
+
+def test_groups_are_the_same_when_near_things_are_found_with_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(3)
+    for _ in range(20):
+        points = rng.uniform(0.0, 8.0, (int(rng.integers(5, 50)), 3)) * [1.0, 1.0, 0.2]
+        objects = [
+            Object(f"o{k}", "cube", known=True, position=(float(p[0]), float(p[1]), float(p[2])))
+            for k, p in enumerate(points)
+        ]
+        found = []
+        for many in (512, 3):
+            monkeypatch.setattr(sys.modules["dcg_torch.scene.groups"], "_MANY", many)
+            found.append({group.id for group in (*groups(objects), *lines_of_all(objects))})
+        assert found[0] == found[1]

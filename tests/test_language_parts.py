@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dcg_torch.english.spelling import Speller
+from dcg_torch.language import parse_command
 from dcg_torch.language.colors import color_names, match_color, normal_color
 
 
@@ -46,3 +47,8 @@ def test_match_color(text: str, color: str | None, length: int) -> None:
 def test_color_names_are_normal_and_many() -> None:
     assert len(color_names()) > 900
     assert all(normal_color(name) == name for name in color_names())
+
+
+def test_many_small_words_are_read_in_one_pass() -> None:
+    parse = parse_command("so " * 190 + "go to the cube")
+    assert parse.noun == "cube"

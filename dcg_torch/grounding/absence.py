@@ -46,7 +46,9 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     nothing.
     """
     objects = encoder.world.objects
-    if not judges_absence(encoder) or phrase.look:
+    if not judges_absence(encoder):
+        return None
+    if phrase.look and any(o.rgb is not None for o in objects):
         return None
     if in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None

@@ -11,25 +11,29 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.attributes import HAS, NOT_, attribute_key, named_key, states_value
-from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.weights import log_odds
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
-_POSSESSIVE = frozenset({"with", "wear", "in", "have", "of", "carry", "without"})
+HELD = "held"
+_POSSESSIVE = frozenset({"with", "wear", "in", "have", "of", "from", "carry", "without"})
 _HAVING = frozenset({"have", "wear", "be", "with"})
-_NAMED = 0.0
-"""Log-odds from which a noun names a class that is there."""
+_MADE = frozenset({"of", "from", "in"})
+"""Prepositions before what a thing is made of."""
+_OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
+"""Keys whose values people use as nouns: "the woman", "the blonde", "the ball"; "the iron" is no thing of iron."""
 _ENDINGS = ("ed", "d")
+"""Of "bearded", "blue-eyed": what is left is tried as a key."""
 
 
 def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
     """A tree in which what is said of the attributes of the world's objects is words.
 
     Args:
-        world: its objects' attributes are "key: value"; without any the tree comes back as it is.
+        world: its objects' attributes are "key: value", or a key that is merely true. What is held is no such key.
+            Without any the tree comes back as it is.
     """
     given = {a for o in world.objects for a in o.attributes if a != LOOKED_ROUND}
-    keys = frozenset(attribute_key(a.partition(":")[0]) for a in given if ":" in a)
+    keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {HELD})
     if not keys:
         return tree
     types = {o.type for o in world.objects if o.type is not None and not o.type.startswith(OPAQUE)}
@@ -79,15 +83,28 @@ class _Speaking:
         if place.phrase.kind is not PhraseKind.PREPOSITION or plain not in _POSSESSIVE:
             return
         denied = (name != plain) != (plain == "without")
+        made = self.material(place) if plain in _MADE else None
+        if made is not None:
+            yield f"{NOT_}{made}" if denied else made, ()
+            return
         found = [(self.possessed(landmark, denied=denied), landmark.children) for landmark in place.children]
         if all(words for words, _ in found):
             for words, below in found:
                 yield from ((word, below if k == 0 else ()) for k, word in enumerate(words))
 
+    def material(self, place: ParseTree) -> str | None:
+        """The value of "(made) of wood", "(a mug) of steel", where some key has such values."""
+        said = place.children[0].phrase if len(place.children) == 1 else Phrase(PhraseKind.NOUN, "")
+        word = said.noun or said.color
+        bare = word is not None and not (said.words or place.children[0].children) and not said.text.startswith("the ")
+        return word if bare and word is not None and states_value(word, self.keys - _OF_LOOKS) else None
+
     def possessed(self, noun: ParseTree, *, denied: bool) -> list[str]:
         """The words that say that an object has what a noun phrase names; none if it names no key."""
         phrase = noun.phrase
-        key = None if phrase.noun is None or self.names_a_class(phrase.noun) else named_key(phrase.noun, self.keys)
+        if phrase.noun is None or names_one_of(phrase.noun, self.types):
+            return []
+        key = named_key(phrase.noun, self.keys)
         if key is None:
             return []
         like = [word for word in (phrase.color, *phrase.words) if word and not word.startswith(NOT_)]
@@ -110,15 +127,13 @@ class _Speaking:
             words[k] = f"{NOT_ if denied else ''}{HAS}{' '.join((*like, key))}"
         noun = phrase.noun
         if noun is not None and states_value(noun, self.keys):
-            words.append(noun)
-            noun = noun if self.names_a_class(noun) else None
+            named = names_one_of(noun, self.types)
+            if named or states_value(noun, self.keys & _OF_LOOKS):
+                words.append(noun)
+                noun = noun if named else None
         if color is not None and not self.colored:
             words.append(color)
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
-
-    def names_a_class(self, noun: str) -> bool:
-        """Whether a noun names a class of which something is there."""
-        return is_generic(noun) or any(log_odds(noun, type_) > _NAMED for type_ in self.types)
 
 
 _OWNED = frozenset({"your", "my", "his", "her", "their"})

@@ -27,7 +27,7 @@ from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.weights import log_odds
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import ParseTree, PhraseKind, WorldModel
 
@@ -202,10 +202,7 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
 def _speaks_of_others(tree: ParseTree, types: set[str]) -> bool:
     """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
     _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
-    return any(
-        any(log_odds(noun.noun, type_) > 0.0 for type_ in types) if noun.noun else noun.text.endswith(" one")
-        for noun in others
-    )
+    return any(names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") for noun in others)
 
 
 def _words(text: str) -> tuple[str, ...]:

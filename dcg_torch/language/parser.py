@@ -232,6 +232,8 @@ def bearing(text: str, vocabulary: Collection[str]) -> Hashable:
 
     That is how misspelt words are mended, and the nouns that the text may speak of.
     """
+    if len(text) > MAX_CHARACTERS:
+        return text, frozenset()  # it is refused, whatever is known
     known, words = frozenset(normal_noun(noun) for noun in vocabulary), tokens(text)
     mended = mend(words, known | names(text)) if len(words) <= MAX_WORDS else words
     said = {form for word in (*words, *mended) for form in (word, singular(word))}

@@ -90,7 +90,10 @@ def stated_values(words: Sequence[str]) -> tuple[str, ...]:
     for n in (4, 3, 2):
         for k in range(len(words) - n + 1):
             span = " ".join(words[k : k + n])
-            if span in meanings and not any(taken[k : k + n]):
+            placed = (
+                n == 2 and words[k + 1] == "side" and k > 0 and words[k - 1] == "the"
+            )  # "on the left side" is a place
+            if span in meanings and not placed and not any(taken[k : k + n]):
                 found.append(span)
                 taken[k : k + n] = [True] * n
     return tuple(dict.fromkeys(found))
@@ -124,7 +127,9 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
     meant = meanings.get(word)
     if meant is None:
         return None
-    true = {one for key, value in pairs for one in _of_key(meanings.get(value, frozenset()), key)}
+    # "No" says something of its own key alone: without a beard nobody is bald.
+    own = [(key, value) for key, value in pairs if value not in _absent() or states_value(value, frozenset({key}))]
+    true = {one for key, value in own for one in _of_key(meanings.get(value, frozenset()), key)}
     if meant & true:
         return "attribute: alike"
     # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
@@ -134,9 +139,10 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
 
 def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
     """Of "glasses" or "dark hair" that an object is said to have."""
-    key, value = next(((k, v) for k, v in pairs if f" {said}".endswith(f" {k}")), (None, ""))
-    if key is None:
+    named = [(k, v) for k, v in pairs if f" {said}".endswith(f" {k}")]
+    if not named:
         return "attribute: silent"
+    key, value = max(named, key=lambda pair: (len(pair[0]), pair))
     like = said.removesuffix(key).strip()
     if not like or value in _absent():
         return "attribute: contrary" if value in _absent() else "attribute: equal"
@@ -169,6 +175,8 @@ def attribute_key(key: str) -> str:
     ('beard', 'hair', 'orientation')
     """
     words = normalise(key).split(" ")
+    if words == ["sex"]:
+        return "gender"
     while len(words) > 1 and words[0] in ("has", "ha", "is", "with", "wears", "wear", "wearing"):
         words = words[1:]
     return " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)

@@ -10,9 +10,9 @@ from use starts from them.
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 
-from dcg_torch.names.evidence import FORMS, KINDS, evidence
+from dcg_torch.names.evidence import FORMS, KINDS, evidence, is_generic
 from dcg_torch.names.normal import read_data
 
 FACTS = FORMS + KINDS
@@ -23,6 +23,11 @@ WEIGHTS = "weights.yaml"
 def fact_weights() -> Mapping[str, float]:
     """The shipped weight of each fact, as log-odds."""
     return {str(fact): float(weight) for fact, weight in read_data(WEIGHTS).items()}
+
+
+def names_one_of(noun: str, classes: Iterable[str]) -> bool:
+    """Does a noun name one of some classes, or may it be said of whatever there is?"""
+    return is_generic(noun) or any(log_odds(noun, name) > 0.0 for name in classes)
 
 
 @functools.lru_cache(maxsize=65536)

@@ -39,6 +39,8 @@ _FEW = 40
 """Points up to which all distances are sorted."""
 _CHUNK = 1024
 """Steps that are looked at together."""
+_MANY, _NEIGHBOURS = 512, 33
+"""Things from which near ones are found with a tree, and how many of them are looked at."""
 _APART = 1.25
 """A group's nearest neighbour is at least so many times as far as its members are from one another."""
 
@@ -126,19 +128,7 @@ def _even_rows(points: Floats) -> Iterable[list[int]]:
     """Maximal runs of at least `_LEAST` in a straight line on one level, one step apart."""
     if len(points) < _LEAST:
         return
-    offset = points[None, :, :] - points[:, None, :]  # i -> j
-    distance = np.hypot(offset[..., 0], offset[..., 1])
-    level = np.abs(offset[..., 2]) < SAME_SPOT
-    apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
-    nearest = apart.min(axis=1)
-    steps = np.argwhere(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
-    follow: dict[tuple[int, int], int] = {}  # (i, j) -> the one after j
-    for part in np.split(steps, range(_CHUNK, len(steps), _CHUNK)):
-        i, j = part.T
-        miss = np.linalg.norm(points[None] - (points[j] + offset[i, j])[:, None], axis=2)
-        best = miss.argmin(axis=1)
-        due = miss[np.arange(len(part)), best] < _UNEVEN * apart[i, j]
-        follow.update(zip(map(tuple, part[due].tolist()), best[due].tolist(), strict=True))
+    follow = _next_steps(points)
     for i, j in follow:
         if (j, i) in follow:
             continue  # this is not an end of the row
@@ -147,6 +137,53 @@ def _even_rows(points: Floats) -> Iterable[list[int]]:
             run.append(after)
         if run[0] < run[-1]:
             yield run
+
+
+def _next_steps(points: Floats) -> dict[tuple[int, int], int]:
+    """Which thing stands one more step on, of each step (i, j) between two that are next to each other on a level."""
+    i, j = _steps(points)
+    due = 2.0 * points[j] - points[i]
+    length = np.hypot(*(points[j] - points[i])[:, :2].T)
+    best, miss = _nearest_to(points, due)
+    kept = miss < _UNEVEN * length
+    pairs = zip(i[kept].tolist(), j[kept].tolist(), strict=True)
+    return dict(zip(pairs, best[kept].tolist(), strict=True))
+
+
+def _steps(points: Floats) -> tuple[Ints, Ints]:
+    """The pairs of things on one level that are about as near to each other as either is to any."""
+    if len(points) <= _MANY:
+        offset = points[None, :, :] - points[:, None, :]
+        distance = np.hypot(offset[..., 0], offset[..., 1])
+        level = np.abs(offset[..., 2]) < SAME_SPOT
+        apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
+        nearest = apart.min(axis=1)
+        i, j = np.nonzero(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
+        return i, j
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    tree = cKDTree(points[:, :2])
+    distance, others = tree.query(points[:, :2], k=min(_NEIGHBOURS, len(points)))
+    level = np.abs(points[others, 2] - points[:, None, 2]) < SAME_SPOT
+    apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
+    nearest = apart.min(axis=1)
+    i, k = np.nonzero(apart < _STEP * np.minimum(nearest[:, None], nearest[others]) + 1e-6)
+    return i, others[i, k]
+
+
+def _nearest_to(points: Floats, places: Floats) -> tuple[Ints, Floats]:
+    """The thing nearest to each of some places, and how far it is from it."""
+    if len(points) > _MANY:
+        from scipy.spatial import cKDTree  # here: few worlds are so large
+
+        distance, number = cKDTree(points).query(places)
+        return number, distance
+    found, missed = [], []
+    for part in np.split(places, range(_CHUNK, len(places), _CHUNK)):
+        miss = np.linalg.norm(points[None] - part[:, None], axis=2)
+        found.append(miss.argmin(axis=1))
+        missed.append(miss[np.arange(len(part)), found[-1]])
+    return np.concatenate(found), np.concatenate(missed)
 
 
 def _clusters(points: Floats) -> Iterable[list[int]]:
@@ -213,28 +250,50 @@ _LINES = {LINE_ACROSS: (0, "top", "bottom"), LINE_ALONG: (1, "left", "right")}
 def _parted(value: Floats, kept: Ints) -> Iterable[list[int]]:
     """Those that are kept, parted where one's value is too far from the mean of those before it."""
     line: list[int] = []
+    total = 0.0
     for k in kept[np.argsort(value[kept], kind="stable")].tolist():
-        if line and value[k] - value[line].mean() > SAME_SPOT:
+        if line and value[k] - total / len(line) > SAME_SPOT:
             yield line
-            line = []
+            line, total = [], 0.0
         line.append(k)
+        total += float(value[k])
     yield line
 
 
 def _uncovered(position: Floats) -> Ints:
     """The numbers of things with none over them: of a stack one counts."""
-    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
-    higher = position[None, :, 2] > position[:, None, 2] + 0.01
-    return np.flatnonzero(~(over & higher).any(axis=1))
+    i, j = _over(position)
+    free = np.ones(len(position), dtype=np.bool_)
+    free[np.where(position[i, 2] > position[j, 2], j, i)] = False
+    return np.flatnonzero(free)
 
 
 def _stacks(position: Floats) -> Iterable[frozenset[int]]:
     """Things over one another."""
-    over = np.linalg.norm(position[None, :, :2] - position[:, None, :2], axis=2) < SAME_SPOT
-    higher = np.abs(position[None, :, 2] - position[:, None, 2]) > 0.01
     stack = {j: {j} for j in range(len(position))}
-    for i, j in np.argwhere(np.triu(over & higher)).tolist():
+    for i, j in zip(*(numbers.tolist() for numbers in _over(position)), strict=True):
         if stack[i] is not stack[j]:
             stack[i] |= stack[j]
             stack |= dict.fromkeys(stack[j], stack[i])
     return dict.fromkeys(frozenset(of) for of in stack.values() if len(of) >= 2)
+
+
+def _over(position: Floats) -> tuple[Ints, Ints]:
+    """The pairs of things of which one is over the other, the lower number first, in the order of their numbers."""
+    i, j = _close_pairs(position[:, :2], SAME_SPOT)
+    apart = np.abs(position[i, 2] - position[j, 2]) > 0.01
+    return i[apart], j[apart]
+
+
+def _close_pairs(points: Floats, reach: float) -> tuple[Ints, Ints]:
+    """The pairs of points (n, 2) that are less than so far apart, the lower number first, in the order of numbers."""
+    if len(points) <= _MANY:
+        i, j = np.nonzero(np.triu(np.linalg.norm(points[None] - points[:, None], axis=2) < reach, 1))
+        return i, j
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    i, j = cKDTree(points).query_pairs(reach, output_type="ndarray").T
+    near = np.linalg.norm(points[i] - points[j], axis=1) < reach
+    i, j = i[near], j[near]
+    order = np.lexsort((j, i))
+    return i[order], j[order]

@@ -18,8 +18,9 @@ from dcg_torch.names.colors import color_scores
 from dcg_torch.names.evidence import evidence
 from dcg_torch.names.palette import named_rgb
 from dcg_torch.names.weights import FACTS, fact_weights
-from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase
+from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, Phrase
 
+_SAME_COLOR = frozenset({"color: equal", "color: same hue", "color: alike"})
 _TRUST = 0.6
 """Share of the facts' log-odds that is believed: a parser's noun is wrong more often than a list of nouns is."""
 _ABSENT = "name: absent"
@@ -97,7 +98,15 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
+    if look < 0 and thing.color is not None and any(_denies(word, thing.color) for word in said.words):
+        found = list(dict.fromkeys([*found, "attribute: contrary"]))
     return [f"said {name}" for name in found]
+
+
+def _denies(word: str, name: str) -> bool:
+    """Does a word such as "not red" rule out a colour's name?"""
+    color = word.removeprefix(f"{NOT} ")
+    return color != word and not _SAME_COLOR.isdisjoint(color_evidence(color, name))
 
 
 def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:
