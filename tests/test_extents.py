@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from dcg_torch.lessons.furnished import furnished_scene, table_top_scene
+from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
 from dcg_torch.scene.layout import layout
 from dcg_torch.scene.relations import RELATION_NAMES, relations
-from dcg_torch.types import Object, Pose, WorldModel
+from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 Three = tuple[float, float, float]
 BED, TABLE = (2.0, 1.6, 0.5), (1.4, 0.9, 0.75)
@@ -80,3 +81,16 @@ def test_lessons_mean_what_is_there(maker: object) -> None:
         for text, meant in scene.commands:
             assert meant
             assert all(kinds[i] in text for i in meant)
+
+
+@pytest.mark.parametrize("text", ["the nightstand with the lamp on it", "the nightstand with a lamp on top of it"])
+def test_what_has_a_thing_on_it_is_under_it(text: str) -> None:
+    model = pretrained()
+    stands = [Percept(f"n{k}", "nightstand", None, (3.0, 1.5 - 3.0 * k, 0.3), (0.4, 0.4, 0.6)) for k in range(2)]
+    lamps = [
+        Percept("l0", "lamp", None, (3.0, -1.5, 0.8), (0.2, 0.2, 0.4)),
+        Percept("l1", "lamp", None, (2.4, 1.5, 0.2), (0.2, 0.2, 0.4)),
+    ]
+    answer = model.ground(text, model.world_model([*stands, *lamps], Pose(0.0, 0.0), looked=True))
+    assert answer.object is not None
+    assert answer.object.id == "n1"

@@ -100,11 +100,14 @@ def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
 
 
 def _sided(tree: ParseTree) -> ParseTree:
-    """ "In the bottom row" is closest to the bottom; "your side of the table" is where you are."""
+    """ "Your side of the table" is where you are, what has a lamp on it is under the lamp, rows are lines of the scene."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
+    if name == "with" and len(landmark.children) == 1 and _on_it(landmark.children[0]):
+        bearing = replace(tree.phrase, words=("under", *tree.phrase.words[1:]))
+        return ParseTree(bearing, (replace(landmark, children=()),))
     line = _line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
         words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
@@ -115,6 +118,12 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     who = ParseTree(replace(phrase, noun=owner, words=()))
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
+
+
+def _on_it(place: ParseTree) -> bool:
+    """The "on it" of "the nightstand with the lamp on it"."""
+    below = place.children[0].phrase if len(place.children) == 1 else None
+    return place.phrase.words[0] in ("on", "on top of") and below is not None and below.text in ("it", "them")
 
 
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
