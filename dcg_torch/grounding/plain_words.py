@@ -100,7 +100,7 @@ def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
 
 
 def _sided(tree: ParseTree) -> ParseTree:
-    """ "Your side of the table" is where you are, what has a lamp on it is under the lamp, rows are lines of the scene."""
+    """ "Your side of the table" is where you are; what has a lamp on it is under the lamp; rows are lines of all."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
         return tree
     landmark = tree.children[0]
