@@ -14,9 +14,12 @@ from dcg_torch.names.attributes import HAS, NOT_, attribute_key, named_key, stat
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
-HELD = "held"
+_HELD = "held"
+"""What is in the gripper: a state, and no key that a noun names."""
 _POSSESSIVE = frozenset({"with", "wear", "in", "have", "of", "from", "carry", "without"})
+"""Prepositions before what a thing has."""
 _HAVING = frozenset({"have", "wear", "be", "with"})
+"""Verbs whose object is what a thing has: "he has a beard"."""
 _MADE = frozenset({"of", "from", "in"})
 """Prepositions before what a thing is made of."""
 _OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
@@ -33,7 +36,7 @@ def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
             Without any the tree comes back as it is.
     """
     given = {a for o in world.objects for a in o.attributes if a != LOOKED_ROUND}
-    keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {HELD})
+    keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {_HELD})
     if not keys:
         return tree
     types = {o.type for o in world.objects if o.type is not None and not o.type.startswith(OPAQUE)}

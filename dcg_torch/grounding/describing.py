@@ -28,7 +28,7 @@ just the name and of another colour is still described well, but not where one o
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
-"""By how much two landmarks are the less likely meant, for each unit that they are farther apart than others: people
+"""Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
 speak of two things at once that stand together."""
 _LANDMARKS = 8
 """Landmarks that are weighed where several are meant together."""

@@ -88,9 +88,8 @@ def is_edge_of(noun: Item, edge: Item, place: Item) -> bool:
     ordered = any(
         word in SETS["ordinals"] or (is_superlative(word) and place.words == ("from",)) for word in noun.words
     )
-    if place.words != (
-        "from",
-    ):  # "the third on the left", but "the third from the top, the second highest on the left"
+    if place.words != ("from",):
+        # "The third on the left" counts from there, "the second highest on the left" does not.
         along = any(word[:5] == "from " or word == "last" or _is_end(word) for word in noun.words)
         if along or edge.noun not in SETS["left_right"] or edge.words:
             return False

@@ -19,10 +19,10 @@ from dcg_torch.lessons.selections import half_scene, size_scene
 
 
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
-    """So many lessons on relations, and a third as many in each other kind of scene; the same for the same arguments.
+    """So many lessons on relations, and a part of that in each other kind of scene; the same for the same arguments.
 
-    Half as many on cluttered tables, where "behind" and "right of" are of what is near alone, among things that say how
-    large they are, and on how tall, how high and how far apart things are.
+    Boards of things that look alike have a quarter as many. Cluttered tables, things that say how large they are, and
+    how tall, high and far apart things are have a sixth each. All others have a third.
 
     Args:
         parse: reads commands.

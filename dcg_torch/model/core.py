@@ -30,8 +30,8 @@ from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
-from dcg_torch.model.followed import Followed, Kept
 from dcg_torch.model.growth import start_as_the_last, widened
+from dcg_torch.model.kept import Followed, Kept
 from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.teacher import Told, interpret
@@ -250,7 +250,7 @@ class GroundingModel:
         free = self.learner.trainable(self.features)
         if free is None:
             start_as_the_last(self.factor, self.features, before, self.symbols.values())
-        if free is not None and self.held.any():
+        elif self.held.any():
             free = free & (~self.held | rows_mask(self.features, self.learner.open_words))
         examples, soft = self.learner.training_examples(self.features), self.learner.soft_labels(self.features)
         follows = Followed(self.features, self.factor.weight, self.prior, examples, soft, free)
