@@ -32,6 +32,7 @@ HAS, NOT_ = "with ", "not "
 _KEY_ODDS = 1.5
 """Log-odds from which a noun names a key."""
 _FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
+_NONE, _SOME = "none", "has it"  # the first words of the values of a thing that an object has or has not
 _ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
 
 
@@ -40,7 +41,8 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
-    del data["absent"]
+    for name in ("absent", "present", "part_of"):
+        del data[name]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
     for key, k, words in values:
@@ -53,9 +55,14 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
         for key, lists in data.items()
         for j in range(len(lists))
         for k in range(len(lists))
-        if j != k and key not in _FREE
+        if j != k and key not in _FREE and not (_had(lists) and 1 in (j, k) and 0 not in (j, k))
     }
     return {word: frozenset(meant) for word, meant in found.items()}, frozenset(pairs | {(k, j) for j, k in pairs})
+
+
+def _had(lists: Sequence[Sequence[str]]) -> bool:
+    """Are these the values of a thing that an object has or has not, as of `beard`?"""
+    return len(lists) > 1 and (lists[0][0], lists[1][0]) == (_NONE, _SOME)
 
 
 def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> tuple[str, ...]:
@@ -107,7 +114,7 @@ def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
     pairs = [_pair(attribute) for attribute in attributes]
     if word.startswith(HAS):
         return _possession_fact(word.removeprefix(HAS), pairs)
-    if any(word == value or (word == key and value not in _absent()) for key, value in pairs):
+    if any(word == value or (word == key and value not in _words_of("absent")) for key, value in pairs):
         return "attribute: equal"
     if any(word == key for key, _ in pairs):
         return "attribute: contrary"
@@ -127,14 +134,23 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
     meant = meanings.get(word)
     if meant is None:
         return None
-    # "No" says something of its own key alone: without a beard nobody is bald.
-    own = [(key, value) for key, value in pairs if value not in _absent() or states_value(value, frozenset({key}))]
-    true = {one for key, value in own for one in _of_key(meanings.get(value, frozenset()), key)}
+    true = {one for key, value in pairs for one in _held(key, value)}
     if meant & true:
         return "attribute: alike"
     # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
     contrary = any((one, other) in excluded for one in meant for other in true)
     return "attribute: contrary" if contrary else "attribute: silent"
+
+
+@functools.lru_cache(maxsize=4096)
+def _held(key: str, value: str) -> frozenset[tuple[str, int]]:
+    """What the value of a key says. "No" says something of its own key alone: without a beard nobody is bald."""
+    meanings, _ = _meanings()
+    own = {v for v in meanings[normalise(_SOME)] if v[0] in key.split(" ")}
+    if value in _words_of("absent"):
+        return frozenset(v for v in meanings[normalise(_NONE)] if v[0] in key.split(" "))
+    told = frozenset() if value in _words_of("present") else _of_key(meanings.get(value, frozenset()), key)
+    return told if own and told & meanings[normalise(_NONE)] else told | own
 
 
 def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
@@ -144,8 +160,12 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         return "attribute: silent"
     key, value = max(named, key=lambda pair: (len(pair[0]), pair))
     like = said.removesuffix(key).strip()
-    if not like or value in _absent():
-        return "attribute: contrary" if value in _absent() else "attribute: equal"
+    if not like or value in _words_of("absent"):
+        return "attribute: contrary" if value in _words_of("absent") else "attribute: equal"
+    if value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
+        whole = read_data("values.yaml")["part_of"].get(key)
+        told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
+        return _possession_fact(f"{like} {whole}", told) if told else "attribute: silent"
     if like == value:
         return "attribute: equal"
     fact = _value_fact(like, [(key, value)]) if states_value(like, frozenset({key})) else None
@@ -156,9 +176,9 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
 
 
 @functools.cache
-def _absent() -> frozenset[str]:
-    """Values that say that an object has not what the key names."""
-    return frozenset(map(str, read_data("values.yaml")["absent"]))
+def _words_of(what: str) -> frozenset[str]:
+    """Values that say that what the key names is "absent" or "present"."""
+    return frozenset(map(str, read_data("values.yaml")[what]))
 
 
 def _pair(attribute: str) -> tuple[str, str]:
