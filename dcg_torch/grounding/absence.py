@@ -5,10 +5,12 @@ compared with one of which both are true: how far do its log-odds of the noun, a
 thing that stays behind least decides. Where it stands among others and to landmarks says nothing here: people are less
 exact about places than about names, and of a thing that is not there nobody knows the place.
 
-    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) )
+    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary * attributes denied )
 """
 
 from __future__ import annotations
+
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
@@ -29,6 +32,8 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
+_CONTRARY = 4.0
+"""Of each word that an attribute of the thing contradicts: "with a hat" said of who wears none."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
@@ -58,7 +63,15 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
-    return _RARE + float((strange + odd)[seen].min())
+    denied = np.array([_contradicted(phrase.words, o) for o in objects])
+    return _RARE + float((strange + odd + _CONTRARY * denied)[seen].min())
+
+
+def _contradicted(words: Sequence[str], thing: Object) -> int:
+    """How many words the attributes of a thing contradict."""
+    if not thing.attributes:
+        return 0
+    return sum("attribute: contrary" in attribute_evidence((word,), thing.attributes) for word in words)
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:
