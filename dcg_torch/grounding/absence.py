@@ -5,7 +5,7 @@ compared with one of which both are true: how far do its log-odds of the noun, a
 thing that stays behind least decides. Where it stands among others and to landmarks says nothing here: people are less
 exact about places than about names, and of a thing that is not there nobody knows the place.
 
-    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary * attributes denied )
+    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary )
 """
 
 from __future__ import annotations
@@ -63,8 +63,9 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
-    denied = np.array([_contradicted(phrase.words, o) for o in objects])
-    return _RARE + float((strange + odd + _CONTRARY * denied)[seen].min())
+    if phrase.words:
+        odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
+    return _RARE + float((strange + odd)[seen].min())
 
 
 def _contradicted(words: Sequence[str], thing: Object) -> int:

@@ -118,7 +118,7 @@ def comparison_set(
 
 def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...]:
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
-    given = {o.attributes for o in encoder.world.objects}
+    given = {o.attributes for o in encoder.world.objects} if words else ()
     told = {word: {fact for own in given for fact in attribute_evidence((word,), own)} for word in words}
     return tuple(word for word in words if told[word] - {"attribute: silent"} or word.startswith(f"{NOT} "))
 
