@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from dcg_torch.names.vocabulary import MIDDLE_LINE
+from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.order import TIE, Alike, signatures
@@ -116,7 +117,7 @@ def _values(where: Layout) -> Floats:
         z = x  # of what lies on one level, or of a picture, the lowest is what is seen lowest: the nearest
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
-    volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
+    volume, height = np.array([bulk(s) for s in sizes]), np.array([s[2] for s in sizes])
     nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
