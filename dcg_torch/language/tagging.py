@@ -144,7 +144,7 @@ class _Lattice:
         found = match_color(self.words, i)
         if found is not None and found[1] > i + 1:
             out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
-        for part in (self._prepositions, self._phrases, self._compounds, self._names):
+        for part in (self._prepositions, self._phrases, self._compounds):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
@@ -164,26 +164,25 @@ class _Lattice:
         match = lx.match_preposition(self.joined, self.offsets[i])
         word = self.words[i]
         if match is not None:
-            stop = i + match.length
-            if not match.normal:  # "all the way" of "all the way to"
-                out.append((Token(i, stop, "ADV", match.raw, ("",)), 0.5))
+            raw, normal, more = match
+            stop = i + raw.count(" ") + 1
+            if not normal:  # "all the way" of "all the way to"
+                out.append((Token(i, stop, "ADV", raw, ("",)), 0.5))
             else:
-                rule = "long_preposition" if match.length > 1 else "preposition"
-                out.append(self._new(i, stop, "P", rule, (match.normal,), match.weight))
-            if match.length > 1 and word in lx.PLACING["single"]:
+                out.append(self._new(i, stop, "P", "long_preposition" if " " in raw else "preposition", (normal,), more))
+            if " " in raw and word in lx.PLACING["single"]:
                 out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
-        if word == "to":
-            out.append(self._new(i, i + 1, "INF", "infinitive"))
         return out
 
     def _phrases(self, i: int) -> list[tuple[Token, float]]:
-        """How a thing stands, and ordinals of several words."""
+        """How a thing stands, numbers that are names, ordinals of several words."""
         out = []
         for pattern, tag, value, weight in lx.PHRASES:
             match = pattern.match(self.joined, self.offsets[i])
             if match is not None:
                 way = match.groupdict().get("way", "")
-                words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
+                way = str(lx.NUMBERS.get(way, lx.NORMAL.get(way, way)))
+                words = tuple(part.replace("<way>", way) for part in value)
                 out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
         return out
 
@@ -196,12 +195,3 @@ class _Lattice:
             if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
                 return [self._new(i, i + length, tag, "compound", name) for tag in ("N", "NM")]
         return []
-
-    def _names(self, i: int) -> list[tuple[Token, float]]:
-        """ "(cube) number 3"."""
-        if self.words[i] not in lx.SETS["names"] or i + 1 >= len(self.words):
-            return []
-        number = self.words[i + 1]
-        if not (number.isdecimal() or number in lx.NUMBERS):
-            return []
-        return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(lx.NUMBERS.get(number, number)),)), 1.0)]
