@@ -8,7 +8,7 @@ from dcg_torch.english.forms import is_plural, parts, singular
 from dcg_torch.language.colors import PLURALS
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
-from dcg_torch.language.selection import normal_words
+from dcg_torch.language.predicates import normal_words
 from dcg_torch.language.tagging import Reader, Token
 
 _HEADS = frozenset({"N", "SIDE", "ONE"})

@@ -139,7 +139,8 @@ class _Lattice:
             if not normal:  # "all the way" of "all the way to"
                 out.append((Token(i, stop, "ADV", raw, ("",)), 0.5))
             else:
-                out.append(self._new(i, stop, "P", "long_preposition" if " " in raw else "preposition", (normal,), more))
+                rule = "long_preposition" if " " in raw else "preposition"
+                out.append(self._new(i, stop, "P", rule, (normal,), more))
             if " " in raw and word in lx.PLACING["single"]:
                 out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
         return out
