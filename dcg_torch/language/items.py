@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from dcg_torch.language.lexicon import GRAMMAR, SETS
+from dcg_torch.language.lexicon import GRAMMAR, listed
 
 
 class Kind(enum.Enum):
@@ -79,7 +79,7 @@ END: Final = Item(Kind.STOP, 0, 0, "")
 def _feature(text: str) -> tuple[str, bool, frozenset[str], bool]:
     """ "-noun:sides|ends": the attribute, whether it is to hold, the words that it is looked for among."""
     name, _, lists = text.removeprefix("-").replace("=", ":=").partition(":")
-    words = frozenset().union(*(SETS[each] for each in lists.removeprefix("=").split("|") if lists))
+    words = listed(lists.removeprefix("=").split("|") if lists else ())
     return name, not text.startswith("-"), words, lists.startswith("=")
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from typing import Any, Final
 
@@ -42,6 +42,13 @@ SETS: Final[Mapping[str, frozenset[str]]] = {
     "commands": frozenset().union(*(VERBS[name] for name in ("put", "take", "go", "reach", "look"))),
 }
 """Closed classes of words by name."""
+
+
+def listed(names: Iterable[str]) -> frozenset[str]:
+    """The words of several lists, of closed classes or of verbs."""
+    return frozenset().union(*({**VERBS, **SETS}[name] for name in names))
+
+
 PLACING: Final[Mapping[str, frozenset[str]]] = {
     name: frozenset(part.strip() for part in text.split(";")) for name, text in GRAMMAR["prepositions"].items()
 }

@@ -16,7 +16,7 @@ from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, SETS, VERBS
 from dcg_torch.language.phrases import items
 from dcg_torch.language.references import correct
@@ -177,14 +177,10 @@ class _Command:
 
     def unread(self) -> tuple[str, ...]:
         """The content words of the last reading that are in no phrase."""
-        used: set[int] = set()
+        nodes = [item for item in self.items if item.said or item.kind not in _CONTENT]
         for clause in self.clauses:
-            for item in (clause.verb, *clause.objects, *clause.places):
-                for node in item.walk() if item is not None else ():
-                    used.update(range(node.start, node.stop))
-        for item in self.items:
-            if item.said or item.kind not in _CONTENT:
-                used.update(range(item.start, item.stop))
+            nodes += [node for top in (clause.verb or END, *clause.objects, *clause.places) for node in top.walk()]
+        used = {i for node in nodes for i in range(node.start, node.stop)}
         return tuple(word for i, word in enumerate(self.words) if i not in used and is_content(word))
 
     def reason(self) -> str:
@@ -205,12 +201,9 @@ def _named(found: Sequence[Path]) -> dict[str, Path]:
 
 def _supplied(groups: Sequence[Sequence[Item]]) -> int:
     """The number of the last clause that puts "it" somewhere, so that those before need no destination; -1: none."""
-    for n in range(len(groups) - 1, -1, -1):
-        verb = next((item for item in groups[n] if item.kind is Kind.VERB), None)
-        noun = next((item for item in groups[n] if item.kind is Kind.NOUN), None)
-        if verb and noun and verb.words[0] in VERBS["put"] and noun.pronoun and noun.color is None:
-            return n
-    return -1
+    firsts = [{item.kind: item for item in reversed(group)} for group in groups]
+    puts = [first.get(Kind.VERB, END).is_a("putting") and first.get(Kind.NOUN, END).is_a("it") for first in firsts]
+    return max((n for n, put in enumerate(puts) if put), default=-1)
 
 
 def _shape(tree: ParseTree) -> Hashable:
