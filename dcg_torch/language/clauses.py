@@ -65,7 +65,9 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
-            while clauses[-1] and clauses[-1][-1].kind in (_JOINTS if tail and tail[0].kind in _JOINTS else _BEFORE_VERB):
+            while clauses[-1] and clauses[-1][-1].kind in (
+                _JOINTS if tail and tail[0].kind in _JOINTS else _BEFORE_VERB
+            ):
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
@@ -133,10 +135,9 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     lemma = item.words[0].split()[0]
     if before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
         return False
-    if item.participle and before.words[:1] == ("be",):
-        # "the block being held", "the cube is placed on ...", but "you are looking for"
-        if second.kind is Kind.NOUN and second.text not in SETS["people"]:
-            return False
+    passive = item.participle and before.words[:1] == ("be",) and second.kind is Kind.NOUN
+    if passive and second.text not in SETS["people"]:
+        return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
         joined = before.kind in _BEFORE_VERB - {Kind.NEGATION}

@@ -7,7 +7,7 @@ import functools
 import gc
 import math
 from collections.abc import Collection, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dcg_torch.english.dictionary import english
 from dcg_torch.english.forms import singular
@@ -130,7 +130,7 @@ class Parser:
                 nothing, reason = decisions.log_weight, command.reason()
             if len(found) == k:
                 break
-        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing or not found:
+        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing:
             return Parse(text, problem=reason, refused=reason)
         return Parse(text, _normalised(list(found.values())))
 
@@ -158,8 +158,6 @@ class _Command:
         if mended not in self.tagged:
             self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), [] if begin else talk(words)
         tagged, self.parts = self.tagged[mended]
-        if not tagged:
-            return None
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
         path = tagged[decisions.choose("words", weights)]
         self.items = items([token for token in path.tokens if token.start >= begin])
@@ -167,10 +165,9 @@ class _Command:
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         stops = [item.start for item in self.items if item.kind is Kind.STOP]
-        back = [n + 1 for n, at in enumerate(stops) if words[at] in SETS["corrections"]]
         for clause, group in zip(self.clauses, groups, strict=True):
             clause.sentence = bisect.bisect(stops, group[0].start)
-            clause.corrects = clause.sentence in back
+            clause.corrects = clause.sentence > 0 and words[stops[clause.sentence - 1]] in SETS["corrections"]
             refuse(clause, group, self.parts, words)
         correct(self.clauses)
         return root(self.clauses, decisions)
@@ -193,8 +190,7 @@ class _Command:
 
 def _named(found: Sequence[Path]) -> dict[str, Path]:
     """Paths by a number and the tags that not all of them have: what they take words for."""
-    all_tokens = [{id(token) for token in path.tokens} for path in found]
-    common = set.intersection(*all_tokens) if found else set()
+    common = set.intersection(*({id(token) for token in path.tokens} for path in found))
     differing = ["+".join(token.tag for token in path.tokens if id(token) not in common) for path in found]
     return {f"{tags or 'same'} {n}": path for n, (tags, path) in enumerate(zip(differing, found, strict=True))}
 
@@ -208,9 +204,7 @@ def _supplied(groups: Sequence[Sequence[Item]]) -> int:
 
 def _shape(tree: ParseTree) -> Hashable:
     """A tree without its texts: two readings of one shape are one."""
-    phrase = tree.phrase
-    said = (phrase.kind, phrase.words, phrase.noun, phrase.color, phrase.plural, phrase.count)
-    return said, tuple(_shape(child) for child in tree.children)
+    return replace(tree.phrase, text=""), tuple(_shape(child) for child in tree.children)
 
 
 def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:

@@ -98,9 +98,7 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
     """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
     blocks", "this group") all that was said of it there."""
     earlier: list[Item] = []
-    for clause in clauses:
-        if clause is own:
-            break
+    for clause in clauses[: clauses.index(own)]:
         main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
         # What a sentence is about is rather meant again than what it only places that by.
         earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
@@ -110,7 +108,7 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
         if node.kind is not Kind.NOUN or not _names_again(node) or (node is target and node.pronoun):
             continue
         named = [noun for noun in reversed(earlier) if noun.start < before and _may_be(node, noun)]
-        named = [noun for noun in named if all(below is not node for below in noun.walk())]
+        named = [noun for noun in named if node not in noun.walk()]
         if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
             named = [noun for noun in named if noun.words or noun.color or noun.children]
         if named:
@@ -127,18 +125,14 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     if placed or own.action not in VERBS["take"]:
         return
     goal: Item | None = None
-    for clause in clauses[: next(k for k, clause in enumerate(clauses) if clause is own)]:
+    for clause in clauses[: clauses.index(own)]:
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
-        led = [clause.places[k].children[0] for k in range(len(clause.places)) if _leads(clause.places[k])]
+        led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
         named = (noun for noun in (main_object(clause), *led) if noun is not None)
         goal = next((noun for noun in named if noun.noun not in apart and noun.noun and not noun.plural), goal)
     if goal is not None and decisions.choose("route", CHOICES["route"]) == "there":
         target.children.append(goal.copy().behind("near"))
-
-
-def _leads(place: Item) -> bool:
-    return place.words[0] in PLACING["goals"] and place.words[0] not in PLACING["away"]
 
 
 def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:

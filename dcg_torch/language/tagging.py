@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Final, TypeAlias
 
 from dcg_torch.english.forms import singular
@@ -70,7 +71,8 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
 def _best(starts: Mapping[str, list[_Start]], tag: str, k: int) -> list[_Start]:
     """The `k` likeliest beginnings before a token of a tag."""
     found = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
-    return sorted(found, key=lambda start: -round(start[0], 6))[:k]  # equal ones as they come, whatever rounding does
+    found = [(round(score, 6), path) for score, path in found]  # so that equal ones are equal, and stay as they come
+    return sorted(found, key=itemgetter(0), reverse=True)[:k]
 
 
 class Reader:

@@ -39,11 +39,9 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
-            child = place.children[0]
-            if child.is_a("no_goal"):
-                continue
-            score = _place_score(place.words[0], clause.action, target is not None)
-            found.append(Mention(child, clause, score + penalty, place))
+            if not place.children[0].is_a("no_goal"):
+                score = _place_score(place.words[0], clause.action, target is not None)
+                found.append(Mention(place.children[0], clause, score + penalty, place))
     return found
 
 
@@ -58,12 +56,8 @@ def _object_score(clause: Clause, target: Item) -> float:
 
 
 def _place_score(name: str, verb: str, beside_object: bool) -> float:
-    if name in PLACING["aside"]:
-        return TARGETS["aside_place"]
-    if name in PLACING["away"]:
-        return TARGETS["away_place"]
-    score = TARGETS["strong_place" if name in PLACING["toward"] else "goal_place"]
-    score = score if name in PLACING["goals"] else TARGETS["place"]
+    kinds = (kind for kind in CHOICES["target_places"].split() if name in PLACING[kind])
+    score = next((TARGETS[f"{kind}_place"] for kind in kinds), TARGETS["place"])
     return min(score, TARGETS["beside_object"]) if verb in VERBS["look"] or beside_object else score
 
 
@@ -77,8 +71,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
-    verb = chosen.clause.verb
-    places = chosen.clause.places
+    verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
     else:
@@ -97,11 +90,10 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     best = max(choice.score for choice in found)
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
-    step = CHOICES["target_step"]
     options = {f"likeliest {first}": 0.0}
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
-            name, weight = _relation(choice, found[first]), step * (choice.score - best - 1.0)
+            name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
             if name == _FIRST_ORDER and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
