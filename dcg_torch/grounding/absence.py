@@ -10,6 +10,8 @@ exact about places than about names, and of a thing that is not there nobody kno
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from dcg_torch.grounding.encode import WorldEncoder
@@ -17,6 +19,7 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
@@ -29,6 +32,8 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
+_UNMARKED = 8.0
+"""What it says where a mark was named that a thing has not: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
@@ -58,7 +63,7 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
-    return _RARE + float((strange + odd)[seen].min())
+    return _RARE + float((strange + odd + _mark_gap(encoder, phrase))[seen].min())
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:
@@ -101,6 +106,24 @@ def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     best = tables.log_odds_of(color, [_like(None, phrase.color), _like(known, phrase.color, known=known is not None)])
     gap = best[[int(o.known) for o in objects]] - tables.log_odds(encoder, color)
     return np.where([o.color is not None for o in objects], np.maximum(0.0, gap), 0.0)
+
+
+def named_marks(words: Iterable[str]) -> tuple[str, ...]:
+    """Those of the words of a phrase that say what is written or printed on a thing."""
+    return tuple(word for word in words if OF_KEY in word and not word.startswith(NOT_))
+
+
+def _mark_gap(encoder: WorldEncoder, phrase: Phrase) -> Floats:
+    """(objects,) how much it says that a thing has not the marks that were named."""
+    marks = named_marks(phrase.words)
+    objects = encoder.world.objects
+    if not marks:
+        return np.zeros(len(objects))
+    lacks = [any(attribute_evidence((m,), o.attributes) != _BORNE for m in marks) for o in objects]
+    return np.where(lacks, _UNMARKED, 0.0)
+
+
+_BORNE = ("attribute: equal",)
 
 
 def _like(type_: str | None, color: str | None, *, known: bool = False) -> Object:

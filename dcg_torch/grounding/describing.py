@@ -14,6 +14,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import told_of_attributes
 from dcg_torch.names.vocabulary import RANKING
 from dcg_torch.types import NOT, Correspondence, ParseTree, PhraseKind
 
@@ -100,7 +101,7 @@ def comparison_set(
 
     Or as many as it says that there are: "the middle one of the five on the left".
     """
-    table = tables.unranked(encoder, replace(tree.phrase, words=()))
+    table = tables.unranked(encoder, replace(tree.phrase, words=told_of_attributes(tree.phrase.words)))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]

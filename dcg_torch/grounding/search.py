@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
+from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence, named_marks
 from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
@@ -278,9 +278,8 @@ class Search:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
-        bare = replace(
-            tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
-        )
+        words = tree.phrase.words if in_group(tree.phrase) else named_marks(tree.phrase.words)
+        bare = replace(tree.phrase, text="", words=words, context=(), among=None)
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
