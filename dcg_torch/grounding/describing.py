@@ -14,7 +14,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import told_of_attributes
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.vocabulary import RANKING
 from dcg_torch.types import NOT, Correspondence, ParseTree, PhraseKind
 
@@ -101,7 +101,7 @@ def comparison_set(
 
     Or as many as it says that there are: "the middle one of the five on the left".
     """
-    table = tables.unranked(encoder, replace(tree.phrase, words=told_of_attributes(tree.phrase.words)))
+    table = tables.unranked(encoder, replace(tree.phrase, words=of_attributes(tree.phrase.words, encoder)))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
@@ -114,6 +114,13 @@ def comparison_set(
         return found
     described: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
     return described
+
+
+def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...]:
+    """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
+    given = {o.attributes for o in encoder.world.objects} if words else ()
+    told = {word: {fact for own in given for fact in attribute_evidence((word,), own)} for word in words}
+    return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
 
 
 def highest(values: Floats, count: int) -> NDArray[np.int64]:

@@ -10,8 +10,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence, named_marks
-from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
+from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
+from dcg_torch.grounding.describing import (
+    comparison_set,
+    highest,
+    is_to_a_place,
+    modifier_factor,
+    of_attributes,
+    ranks,
+    ranks_from,
+)
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.patterns import Patterns
@@ -278,8 +286,7 @@ class Search:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
-        words = tree.phrase.words if in_group(tree.phrase) else named_marks(tree.phrase.words)
-        bare = replace(tree.phrase, text="", words=words, context=(), among=None)
+        bare = replace(tree.phrase, text="", words=self._told(tree.phrase), context=(), among=None)
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
@@ -291,6 +298,10 @@ class Search:
         if not np.isfinite(shift):
             return found
         return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
+
+    def _told(self, phrase: Phrase) -> tuple[str, ...]:
+        """The words of a noun phrase that say something of groups or attributes."""
+        return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""

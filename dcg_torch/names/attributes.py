@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Sequence
 from typing import Final
 
 import numpy as np
@@ -91,15 +91,6 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
     said = (word if HAS in word or OF_KEY in word else normalise(word) for word in words)
     found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
-
-
-def told_of_attributes(words: Iterable[str]) -> tuple[str, ...]:
-    """Those of the words of a phrase that say what a thing has or is called, and rank nothing.
-
-    >>> told_of_attributes(("second", "with glasses", "shape: t"))
-    ('with glasses', 'shape: t')
-    """
-    return tuple(word for word in words if OF_KEY in word or word.removeprefix(NOT_).startswith(HAS))
 
 
 def stated_values(words: Sequence[str]) -> tuple[str, ...]:
