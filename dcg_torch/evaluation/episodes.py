@@ -48,7 +48,7 @@ def _is_truth(key: str, value: object) -> bool:
     return isinstance(value, bool) or (_ASKING.match(key) is not None and value in (0, 1))
 
 
-_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol", "no", "nr"})
+_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
 """Keys whose numbers are names: "block 7"."""
 
 
@@ -84,7 +84,9 @@ class EpisodeObject(_Record):
         Of numbers 1 and 0 are such where the key asks for yes or no ("hasBeard"); all else is not used.
         """
         further = {**(self.model_extra or {}), "size": self.size}
-        named = {f"{key}: {value}" for key, value in further.items() if isinstance(value, str) or _is_number(key, value)}
+        named = {
+            f"{key}: {value}" for key, value in further.items() if isinstance(value, str) or _is_number(key, value)
+        }
         truths = {key: bool(value) for key, value in further.items() if _is_truth(key, value)}
         return frozenset(named | {key if true else f"{key}: no" for key, true in truths.items()})
 

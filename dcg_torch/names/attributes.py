@@ -198,7 +198,11 @@ def describes(key: str, value: str) -> bool:
     """
     meanings, _ = _meanings()
     plain = normalise(value)
-    return plain in meanings or plain in _words_of("absent") | _words_of("present") or not _keys().isdisjoint(key.split(" "))
+    return (
+        plain in meanings
+        or plain in _words_of("absent") | _words_of("present")
+        or not _keys().isdisjoint(key.split(" "))
+    )
 
 
 @functools.cache

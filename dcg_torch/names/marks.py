@@ -19,7 +19,6 @@ from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
 from dcg_torch.names.evidence import evidence, unheard_of
 from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.palette import region
-from dcg_torch.types import OPAQUE
 
 _WORD: Final = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 _JOINED: Final = 4  # words of a text that may be one mark
@@ -217,19 +216,18 @@ def _told_apart(types: Sequence[str]) -> tuple[dict[str, list[str]], str]:
 
     Also the word that they have in common, if they have one.
     """
-    types = [type_ for type_ in types if not type_.startswith(OPAQUE)]
     head = _shared(types)
     named = {type_: [word for word in words_of(type_) if word != head] for type_ in types}
     board = {type_: words for type_, words in named.items() if words and head in words_of(type_)}
     colors = [words for words in board.values() if region(" ".join(words)) is not None]
     if len(board) >= max(_BOARD, _MOST * len(types)) and len(colors) < 0.5 * len(board):
         return board, head
-    strange = [type_ for type_ in types if len(type_) == 1 or all(map(_is_strange, words_of(type_)))]
-    named = len(strange) >= max(_BOARD, _SOME * len(types))
-    return {type_: words_of(type_) for type_ in types if named}, ""
+    strange = [type_ for type_ in types if len(type_) == 1 or all(map(is_strange, words_of(type_)))]
+    return {type_: words_of(type_) for type_ in types if len(strange) >= max(_BOARD, _SOME * len(types))}, ""
 
 
-def _is_strange(word: str) -> bool:
+def is_strange(word: str) -> bool:
+    """Is it a number or a word that nobody knows?"""
     return word.isdecimal() or unheard_of(word)
 
 
