@@ -19,7 +19,7 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import attribute_evidence
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
@@ -34,6 +34,8 @@ _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
 _CONTRARY = 4.0
 """Of each word that an attribute of the thing contradicts: "with a hat" said of who wears none."""
+_UNMARKED = 2.0
+"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
@@ -68,11 +70,12 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     return _RARE + float((strange + odd)[seen].min())
 
 
-def _contradicted(words: Sequence[str], thing: Object) -> int:
-    """How many words the attributes of a thing contradict."""
-    if not thing.attributes:
-        return 0
-    return sum("attribute: contrary" in attribute_evidence((word,), thing.attributes) for word in words)
+def _contradicted(words: Sequence[str], thing: Object) -> float:
+    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
+    told = [(word, attribute_evidence((word,), thing.attributes)) for word in words]
+    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
+    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
+    return others + _UNMARKED * marks
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:

@@ -14,7 +14,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import attribute_evidence, size_side
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, size_side
 from dcg_torch.names.vocabulary import RANKING
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
@@ -189,7 +189,7 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
     given = {o.attributes for o in encoder.world.objects} if words else ()
     told = {word: {fact for own in given for fact in attribute_evidence((word,), own)} for word in words}
-    return tuple(word for word in words if told[word] - {"attribute: silent"} or word.startswith(f"{NOT} "))
+    return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
 
 
 def highest(values: Floats, count: int) -> NDArray[np.int64]:

@@ -29,6 +29,8 @@ COLOR_FACTS: Final = (
 )
 HAS, NOT_ = "with ", "not "
 """How words say that an object has what a key names: "with glasses", "with dark hair", "not with tie"."""
+OF_KEY = ": "
+"""Between key and values, "|" between these, of a word that states just that: "brand: shell", "digit: 7|8"."""
 _KEY_ODDS = 1.5
 """Log-odds from which a noun names a key."""
 _COMPARED = ("er", "est")
@@ -61,6 +63,13 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     return {word: frozenset(meant) for word, meant in found.items()}, frozenset(pairs | {(k, j) for j, k in pairs})
 
 
+@functools.cache
+def _keys() -> frozenset[str]:
+    """Those whose values are listed, but for shapes: letters are shapes as well."""
+    meanings, _ = _meanings()
+    return frozenset(key for values in meanings.values() for key, _ in values) - {"shape"}
+
+
 def _had(lists: Sequence[Sequence[str]]) -> bool:
     """Are these the values of a thing that an object has or has not, as of `beard`?"""
     return len(lists) > 1 and (lists[0][0], lists[1][0]) == (_NONE, _SOME)
@@ -80,7 +89,7 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
         Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
         "contrary" too.
     """
-    said = (word if HAS in word else normalise(word) for word in words)
+    said = (word if HAS in word or OF_KEY in word else normalise(word) for word in words)
     found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
 
@@ -113,6 +122,11 @@ def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
         found = _attribute_fact(word.removeprefix(NOT_), attributes)
         return _DENIED.get(found or "", found)
     pairs = [_pair(attribute) for attribute in attributes]
+    if OF_KEY in word:
+        key, _, stated = word.partition(OF_KEY)
+        own = {value for of, value in pairs if of == key}
+        held = not own.isdisjoint(stated.split("|"))
+        return "attribute: equal" if held else "attribute: contrary" if own else "attribute: silent"
     if word.startswith(HAS):
         return _possession_fact(word.removeprefix(HAS), pairs)
     if any(word == value or (word == key and value not in _words_of("absent")) for key, value in pairs):
@@ -174,6 +188,22 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         near = not {"color: equal", "color: same hue", "color: alike"}.isdisjoint(color_evidence(like, value))
         fact = "attribute: alike" if near else "attribute: contrary"
     return fact or "attribute: silent"
+
+
+@functools.lru_cache(maxsize=4096)
+def describes(key: str, value: str) -> bool:
+    """Does the value of a key say how a thing looks, stands or is made, or yes or no, rather than what it is called?
+
+    Args:
+        key: as `attribute_key` has it.
+    """
+    meanings, _ = _meanings()
+    plain = normalise(value)
+    return (
+        plain in meanings
+        or plain in _words_of("absent") | _words_of("present")
+        or not _keys().isdisjoint(key.split(" "))
+    )
 
 
 @functools.cache
