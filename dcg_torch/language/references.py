@@ -31,6 +31,22 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
                 noun.children += [child for child in more.children if child not in noun.children]
 
 
+def describe_landmarks(clauses: Sequence[Clause]) -> None:
+    """ "The laptop on the desk. The desk near the door.": what names a landmark again says more of it."""
+    for k, clause in enumerate(clauses):
+        more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else None
+        if more is None or not more.definite or more.noun is None:
+            continue
+        tops = [top for other in clauses[:k] for top in (*other.objects, *other.places)]
+        below = [node for top in tops for child in top.children for node in child.walk()]
+        again = [node for node in below if node.noun == more.noun and None in (node.color, more.color)]
+        if again and all(top.noun != more.noun for top in tops):
+            again[-1].color = again[-1].color or more.color
+            again[-1].words += more.words
+            again[-1].children += more.children
+            clause.objects = []
+
+
 def exists(clause: Clause) -> bool:
     """ "There is a cone by the door": a clause that says what is there."""
     return clause.action in SETS["be"] and not clause.statement
