@@ -20,6 +20,7 @@ from dcg_torch.grounding.factor_tree import (
     to_factor_tree,
 )
 from dcg_torch.grounding.frames import from_the_other_side
+from dcg_torch.grounding.grids import by_cells
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
@@ -56,7 +57,7 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
     told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
-    return [Reading(tree, weight, tuple(rules)) for tree, weight, rules in told]
+    return [Reading(by_cells(tree, world), weight, tuple(rules)) for tree, weight, rules in told]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
