@@ -20,6 +20,7 @@ _BESIDE = frozenset({"next to", "touching", "beside"})
 _ANY, _FEW = 3, 6
 """Neighbours at least of what is surrounded, and landmarks up to which "left of the white one" is read in a grid."""
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
+_SPOTS = ("corner", "side", "edge", "end")
 _SAME = frozenset({"color: equal", "color: same hue", "color: alike"})
 
 
@@ -76,7 +77,7 @@ class _Speaking:
         if phrase.kind is not PhraseKind.NOUN:
             return replace(tree, children=tuple(self.node(child) for child in tree.children))
         lines = [line for child in tree.children for line in self.lines(child)]
-        kept = [self.node(child) for child in tree.children if not list(self.lines(child))]
+        kept = [self.node(child) for place in tree.children for child in self.others(place)]
         found: set[Cell] | None = None
         for cells in lines:
             found = cells if found is None else found & cells
@@ -87,6 +88,7 @@ class _Speaking:
             if cells:
                 found = (cells if found is None else found & cells) or cells
                 phrase = replace(phrase, words=tuple(w for w in phrase.words if not _number((w,))), count=None)
+        found = found or self.corner(phrase, tree.children)
         if found:
             phrase = replace(phrase, words=(*phrase.words, f"{CELL}{OF_KEY}{'|'.join(map(_name, sorted(found)))}"))
         return ParseTree(phrase, tuple(kept))
@@ -101,6 +103,17 @@ class _Speaking:
                 yield cells
                 for below in landmark.children:
                     yield from self.lines(below)
+
+    def others(self, place: ParseTree) -> Iterable[ParseTree]:
+        """A place, or of a row or column what else is said of the thing in it: "in the third row on the left"."""
+        if not list(self.lines(place)):
+            yield place
+            return
+        for landmark in place.children:
+            if self.line(landmark.phrase) is None:
+                yield replace(place, children=(landmark,))
+            else:
+                yield from (other for below in landmark.children for other in self.others(below))
 
     def line(self, phrase: Phrase) -> set[Cell] | None:
         """The cells of a row or column that is told by its number or its end; None for what is none."""
@@ -141,6 +154,21 @@ class _Speaking:
             return phrase, cells
         said = tuple(w for w in phrase.words if w not in LINE_ENDS and w != "middle" and _number((w,)) is None)
         return replace(phrase, words=said, count=None), {row[at]}
+
+    def corner(self, phrase: Phrase, places: Sequence[ParseTree]) -> set[Cell] | None:
+        """The cell of "the top left drawer", "in the bottom right corner", if what stands there is so."""
+        words = {*phrase.words}
+        for place in places:
+            if place.phrase.words[:1] and place.phrase.words[0] in _WITHIN and len(place.children) == 1:
+                landmark = place.children[0]
+                if landmark.phrase.noun in (*_SPOTS, *LINE_ENDS) and not landmark.children:
+                    words |= {*landmark.phrase.words, landmark.phrase.noun or ""}
+        ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
+        if len(ends) != 2 or {axis for axis, _ in ends} != {0, 1} or _number(words) is not None:
+            return None
+        (_, down), (_, across) = sorted(ends, key=lambda end: end[0] or 0)
+        cell = (0 if down > 0 else self.grid.rows - 1, 0 if across > 0 else self.grid.columns - 1)
+        return self.fitting(phrase, {cell}) or None
 
     def beside(self, phrase: Phrase, place: ParseTree) -> set[Cell] | None:
         """The cells that a preposition to landmarks in the grid means; None where it means none for certain."""

@@ -182,12 +182,16 @@ class GroundingModel:
         return Group.RELATION in self.variant.groups
 
     def _search(self, world: WorldModel) -> SharedSearch:
-        return SharedSearch(self._kept.last.encoder(self.features, world), self.factor, self.variant.beam)
+        encoder = self._kept.last.encoder(self.features, world)
+        return SharedSearch(encoder, self._kept.phrases(self.features, self.factor), self.variant.beam)
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
         encoder = encoder or self._kept.last.encoder(self.features, world)
-        return FactorGraph(tree, world, encoder).solve(self.features, self.factor, beam=self.variant.beam)
+        tables = self._kept.phrases(self.features, self.factor)
+        return FactorGraph(tree, world, encoder).solve(
+            self.features, self.factor, beam=self.variant.beam, tables=tables
+        )
 
     def learn(self, solution: Solution, experience: Experience | None = None) -> Learned:
         """Learn from the outcome of a command that was carried out, and retrain (lines 16 to 25).

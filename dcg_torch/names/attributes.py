@@ -33,6 +33,7 @@ OF_KEY = ": "
 """Between key and values, "|" between these, of a word that states just that: "brand: shell", "digit: 7|8"."""
 _KEY_ODDS = 1.5
 """Log-odds from which a noun names a key."""
+_COMPARED = ("er", "est")
 _FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
 _NONE, _SOME = "none", "has it"  # the first words of the values of a thing that an object has or has not
 _ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
@@ -247,6 +248,19 @@ def states_value(word: str, keys: frozenset[str]) -> bool:
     """May a word state the value of one of some keys: "bald" of `hair`, "woman" of `gender`?"""
     meanings, _ = _meanings()
     return any(key in of.split(" ") for key, _ in meanings.get(normalise(word), ()) for of in keys)
+
+
+@functools.lru_cache(maxsize=4096)
+def size_side(word: str) -> int | None:
+    """Does a word say that a thing is large (1), small (-1) or between (0)? None for others and for "largest".
+
+    >>> size_side("huge"), size_side("tiny"), size_side("medium"), size_side("bigger"), size_side("tall")
+    (1, -1, 0, None, None)
+    """
+    meant = dict(_meanings()[0].get(word, ()))
+    if word.endswith(_COMPARED) or set(meant) != {"size"}:
+        return None
+    return meant["size"] - 1
 
 
 def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str, int]]:

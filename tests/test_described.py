@@ -1,4 +1,4 @@
-"""What is said not to be meant, and attributes that say among what a thing ranks; with the shipped model."""
+"""What is said not to be meant; attributes and sizes say among what a thing ranks; with the shipped model."""
 
 import pytest
 
@@ -33,5 +33,39 @@ def test_ranks_are_among_what_the_attributes_describe(text: str, meant: str) -> 
     ]
     model = pretrained()
     answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    assert answer.object is not None
+    assert answer.object.id == meant
+
+
+def _disc(id_: str, at: tuple[float, float], size: float, color: str) -> Percept:
+    return Percept(id_, "circle", color, (2.0, *at), (0.0, size, size))
+
+
+DISCS = [
+    _disc("a", (1.5, 0.4), 0.22, "black"),
+    _disc("b", (1.2, 0.9), 0.10, "black"),
+    _disc("c", (0.2, 1.6), 0.10, "white"),
+    _disc("d", (-0.1, 1.2), 0.22, "gray"),
+    _disc("e", (-0.6, -1.1), 0.14, "black"),
+    _disc("f", (-1.1, 0.3), 0.22, "white"),
+    _disc("g", (-1.3, 0.1), 0.08, "gray"),
+    _disc("h", (-0.9, -1.4), 0.22, "white"),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the upper large white one", "f"),
+        ("the lower of the two big white ones", "h"),
+        ("the big circle near the top", "d"),
+        ("the leftmost small circle", "b"),
+        ("the lowest circle", "h"),
+        ("the highest circle", "c"),
+    ],
+)
+def test_places_pick_among_things_of_a_size(text: str, meant: str) -> None:
+    model = pretrained()
+    answer = model.ground(text, model.world_model(DISCS, Pose(0.0, 0.0), looked=True))
     assert answer.object is not None
     assert answer.object.id == meant
