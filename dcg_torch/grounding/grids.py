@@ -1,4 +1,4 @@
-"""Commands that speak of the rows, columns and neighbours of a grid: "row 3, column 2", "two to the right of the red one".
+"""What commands say of the rows, columns and neighbours of a grid: "row 3, column 2", "two below the red one".
 
 In a grid such words mean cells, and nothing else is as likely. So a noun phrase that speaks of them gets a word for the
 cells ("cell: 2 1|2 2"), which is compared with the cell that each thing stands in (`with_cells`).
@@ -20,7 +20,8 @@ _BESIDE = frozenset({"next to", "touching", "beside"})
 _ANY, _FEW = 3, 6
 """Neighbours at least of what is surrounded, and landmarks up to which "left of the white one" is read in a grid."""
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
-_SPOTS = ("corner", "side", "edge", "end")
+_MIDDLES = frozenset({"middle", "center", "central", "middlemost"})
+_SPOTS = frozenset({"corner", "side", "edge", "end", "middle", "center"})
 _SAME = frozenset({"color: equal", "color: same hue", "color: alike"})
 
 
@@ -59,11 +60,13 @@ class _Speaking:
         self.things = {grid.cells[o.id]: o for o in objects if o.id in grid.cells}
 
     def root(self, tree: ParseTree) -> ParseTree:
-        """The whole tree: "directly under the red one" is one that is there; "row 2 and column 3" are both of a thing."""
+        """The whole tree: "directly under the red one" is a thing; "row 2 and column 3" are both of one thing."""
         children = list(tree.children)
         first = children[0].phrase if children else tree.phrase
         if not tree.phrase.words and first.kind is PhraseKind.PREPOSITION and first.words[0] in CELL_STEPS:
             children = [ParseTree(Phrase(PhraseKind.NOUN, ""), tuple(children))]
+        if children and first.noun in _MIDDLES and not children[0].children:
+            children[0] = ParseTree(replace(first, noun=None, words=(*first.words, "middle")))
         if children and children[0].phrase.kind is PhraseKind.NOUN:
             lines = [c for c in children[1:] if self.line(c.phrase) is not None]
             inside = [ParseTree(Phrase(PhraseKind.PREPOSITION, "in", ("in",)), (line,)) for line in lines]
@@ -81,12 +84,15 @@ class _Speaking:
         found: set[Cell] | None = None
         for cells in lines:
             found = cells if found is None else found & cells
-        if found:
+        if found and (ends := self.aside(tree)):
+            fitting = sorted(self.fitting(phrase, found), key=lambda cell: -ends[0][1] * cell[ends[0][0] or 0])
+            found = set(fitting[-1:]) or found
+        elif found:
             phrase, found = self.counted(phrase, found, across=lines[0])
         for child in kept:
-            cells = self.beside(phrase, child) if child.phrase.kind is PhraseKind.PREPOSITION else None
-            if cells:
-                found = (cells if found is None else found & cells) or cells
+            near = self.beside(phrase, child) if child.phrase.kind is PhraseKind.PREPOSITION else None
+            if near:
+                found = (near if found is None else found & near) or near
                 phrase = replace(phrase, words=tuple(w for w in phrase.words if not _number((w,))), count=None)
         found = found or self.corner(phrase, tree.children)
         if found:
@@ -104,6 +110,11 @@ class _Speaking:
                 for below in landmark.children:
                     yield from self.lines(below)
 
+    def aside(self, tree: ParseTree) -> list[tuple[int | None, int]]:
+        """At which end of a line a thing is: "in the third row on the left" is the leftmost there."""
+        said = [c.phrase for place in tree.children for c in place.children if self.line(c.phrase) is not None]
+        return [LINE_ENDS[word] for p in said for word in p.words if _is_aside(word, 0 if p.noun != "column" else 1)]
+
     def others(self, place: ParseTree) -> Iterable[ParseTree]:
         """A place, or of a row or column what else is said of the thing in it: "in the third row on the left"."""
         if not list(self.lines(place)):
@@ -119,8 +130,8 @@ class _Speaking:
         """The cells of a row or column that is told by its number or its end; None for what is none."""
         if phrase.kind is not PhraseKind.NOUN or phrase.noun not in LINE_OF or phrase.color is not None:
             return None
-        told = [LINE_ENDS[word] for word in phrase.words if word in LINE_ENDS]
         axis = 0 if phrase.noun != "column" else 1
+        told = [LINE_ENDS[word] for word in phrase.words if word in LINE_ENDS and not _is_aside(word, axis)]
         if axis == 0 and told and all(of == 1 for of, _ in told if of is not None) and told[0][0] == 1:
             axis = 1  # "the left row" is a column
         ends = [end for of, end in told if of in (axis, None)]
@@ -137,7 +148,7 @@ class _Speaking:
         return found or None
 
     def counted(self, phrase: Phrase, cells: set[Cell], across: set[Cell]) -> tuple[Phrase, set[Cell]]:
-        """A phrase without its ordinal, and the cell that it counts to in a line: "the second drawer", "the last one"."""
+        """A phrase without its ordinal, and the cell in a line that it counts to: "the second drawer", "the last"."""
         axis = 1 if len({r for r, _ in across}) == 1 else 0
         told = [LINE_ENDS[word] for word in phrase.words if word in LINE_ENDS]
         number = _number(phrase.words)
@@ -156,19 +167,29 @@ class _Speaking:
         return replace(phrase, words=said, count=None), {row[at]}
 
     def corner(self, phrase: Phrase, places: Sequence[ParseTree]) -> set[Cell] | None:
-        """The cell of "the top left drawer", "in the bottom right corner", if what stands there is so."""
-        words = {*phrase.words}
+        """The cells of "the top left drawer", "on the right edge", "in the very middle", if what stands there is so."""
+        words, edge = {*phrase.words}, False
         for place in places:
             if place.phrase.words[:1] and place.phrase.words[0] in _WITHIN and len(place.children) == 1:
                 landmark = place.children[0]
-                if landmark.phrase.noun in (*_SPOTS, *LINE_ENDS) and not landmark.children:
+                if landmark.phrase.noun in _SPOTS | LINE_ENDS.keys() and not landmark.children:
                     words |= {*landmark.phrase.words, landmark.phrase.noun or ""}
-        ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
-        if len(ends) != 2 or {axis for axis, _ in ends} != {0, 1} or _number(words) is not None:
+                    edge = edge or landmark.phrase.noun == "edge"
+        if phrase.plural or _number(words) is not None:
             return None
-        (_, down), (_, across) = sorted(ends, key=lambda end: end[0] or 0)
-        cell = (0 if down > 0 else self.grid.rows - 1, 0 if across > 0 else self.grid.columns - 1)
-        return self.fitting(phrase, {cell}) or None
+        if words & _MIDDLES and words <= _MIDDLES:
+            return self.fitting(phrase, self.central())
+        ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
+        if len(ends) != 1 + (not edge) or len({axis for axis, _ in ends} & {0, 1}) != len(ends):
+            return None
+        size = (self.grid.rows, self.grid.columns)
+        at = {axis or 0: 0 if end > 0 else size[axis or 0] - 1 for axis, end in ends}
+        return self.fitting(phrase, {cell for cell in self.things if all(cell[a] == k for a, k in at.items())}) or None
+
+    def central(self) -> set[Cell]:
+        """The cell in the middle, or those around it."""
+        rows, columns = ({(n - 1) // 2, n // 2} for n in (self.grid.rows, self.grid.columns))
+        return {(r, c) for r in rows for c in columns}
 
     def beside(self, phrase: Phrase, place: ParseTree) -> set[Cell] | None:
         """The cells that a preposition to landmarks in the grid means; None where it means none for certain."""
@@ -199,18 +220,18 @@ class _Speaking:
         return set()
 
     def amid(self, name: str, phrase: Phrase, marks: Sequence[set[Cell]]) -> set[Cell] | None:
-        """The cells between neighbours, or with neighbours all around."""
-        found = set()
+        """The cells between neighbours, or with neighbours all around: on most sides."""
+        found: dict[Cell, int] = {}
         one, other = marks[0], marks[-1]
         for r, c in self.fitting(phrase, set(self.things)):
+            around = [cell for dr, dc in _AROUND if (cell := (r + dr, c + dc)) in self.things]
             if name == "between":
                 sides = [((r - dr, c - dc), (r + dr, c + dc)) for dr, dc in _AROUND]
-                inside = any(a in one and b in other for a, b in sides)
-            else:
-                around = [cell for dr, dc in _AROUND if (cell := (r + dr, c + dc)) in self.things]
-                inside = len(around) >= _ANY and all(cell in one for cell in around)
-            found |= {(r, c)} if inside else set()
-        return found or None
+                found |= {(r, c): 0} if any(a in one and b in other for a, b in sides) else {}
+            elif len(around) >= _ANY and all(cell in one for cell in around):
+                found[r, c] = len(around)
+        most = max(found.values(), default=0)
+        return {cell for cell, times in found.items() if times == most} or None
 
     def fitting(self, phrase: Phrase, cells: Collection[Cell]) -> set[Cell]:
         """Those of some cells whose things have the name, colour and marks that a phrase says."""
@@ -220,11 +241,16 @@ class _Speaking:
 def _fits(phrase: Phrase, thing: Object, cell: Cell) -> bool:
     if phrase.noun is not None and not (thing.type is None or names_one_of(phrase.noun, (thing.type,))):
         return False
-    if phrase.color is not None and thing.color is not None:
-        if _SAME.isdisjoint(color_evidence(phrase.color, thing.color)):
-            return False
+    colored = phrase.color is not None and thing.color is not None
+    if colored and _SAME.isdisjoint(color_evidence(phrase.color or "", thing.color or "")):
+        return False
     own = thing.attributes - {LOOKED_ROUND} | {f"{CELL}{OF_KEY}{_name(cell)}"}
     return not any("attribute: contrary" in attribute_evidence((w,), own) for w in phrase.words if OF_KEY in w)
+
+
+def _is_aside(word: str, axis: int) -> bool:
+    """Is a word such as "from the left" about the other axis than that of a line of a row or column?"""
+    return word.startswith("from ") and word in LINE_ENDS and LINE_ENDS[word][0] != axis
 
 
 def _number(words: Iterable[str]) -> int | None:

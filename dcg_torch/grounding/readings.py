@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import (
     coordinated,
@@ -56,7 +57,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
-    told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
+    trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
+    told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
     return [Reading(by_cells(tree, world), weight, tuple(rules)) for tree, weight, rules in told]
 
 

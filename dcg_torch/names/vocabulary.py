@@ -67,7 +67,7 @@ LINE_ENDS: dict[str, tuple[int | None, int]] = {
     **dict.fromkeys(("right", "rightmost", "from the right"), (1, -1)),
     "last": (None, -1),
 }
-"""Word -> whether it is said of rows (0), columns (1) or both, and whether they are counted from it (1) or to it (-1)."""
+"""Word -> is it an end of rows (0), of columns (1) or of both, and is it the first (1) or the last (-1)?"""
 CELL = "cell"
 """The key of the row and the column that a thing stands in, where things stand in a grid."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}

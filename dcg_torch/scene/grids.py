@@ -1,4 +1,4 @@
-"""Racks and boards of things in even rows and columns, some of whose cells may be empty: where each thing stands in it."""
+"""Racks and boards of things in even rows and columns, of which some cells may be empty: the cell of each thing."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def _numbered(values: Floats) -> Ints | None:
     middles = np.array([line.mean() for line in lines])
     steps = np.diff(middles)
     spread = max(float(np.ptp(line)) for line in lines)
-    if len(steps) > 1 and steps.max() > _EVEN * steps.min() or spread > _ASIDE * steps.min():
+    if (len(steps) > 1 and steps.max() > _EVEN * steps.min()) or spread > _ASIDE * steps.min():
         return None
     found: Ints = np.abs(values[:, None] - middles[None]).argmin(axis=1)
     return found

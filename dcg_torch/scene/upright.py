@@ -41,7 +41,7 @@ def laid_flat(position: Floats) -> Floats:
 
 
 def _next_row(height: Floats) -> float:
-    """How far below a thing the next must be at most that bears it: where rows are even, one that is two below bears none."""
+    """How far below a thing what bears it is at most; where rows are even, one that is two rows below bears none."""
     steps = np.diff(np.unique(np.round(height / TIE))) * TIE
     even = len(steps) >= _ROWS and steps.max() <= _EVEN * steps.min()
     return 1.5 * float(steps.max()) if even else np.inf
