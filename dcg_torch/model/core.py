@@ -19,6 +19,7 @@ from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
+from dcg_torch.grounding.grids import with_cells
 from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
@@ -169,6 +170,7 @@ class GroundingModel:
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
+        world = with_cells(world, [reading.tree for reading in readings])
         frames = self.learner.frames if self._related else None
         facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)
