@@ -37,6 +37,9 @@ from dcg_torch.types import (
     WorldModel,
 )
 
+KindColumns = dict[Hashable, list[int]]
+"""What things are apart from their types -> the grounding columns of that."""
+
 
 @dataclass(frozen=True)
 class FeatureSet:
@@ -217,20 +220,22 @@ class FeatureSet:
         names = (f"kind: {GroundingKind.OBJECT}", *self.object_names(thing, colors), *states)
         return self._columns(names)
 
-    def object_columns(self, things: Sequence[Object], states: Sequence[tuple[str, ...]]) -> list[list[int]]:
+    def object_columns(
+        self, things: Sequence[Object], states: Sequence[tuple[str, ...]], kinds: KindColumns
+    ) -> list[list[int]]:
         """The same of several objects: what has nothing to do with their types is looked up once for those alike.
 
         Args:
             states: of each, names of what else is true of it.
+            kinds: what was found before under these columns; more is added.
         """
-        alike: dict[Hashable, list[int]] = {}
         rows = []
         for thing, own in zip(things, states, strict=True):
             key = thing.known, thing.hypothetical, thing.color, thing.attributes, own
             column = self.grounding.get(f"type: {thing.type}") if thing.known else None
-            common = alike.get(key)
+            common = kinds.get(key)
             if common is None:
-                common = alike[key] = [c for c in self.thing_columns(thing, own) if c != column]
+                common = kinds[key] = [c for c in self.thing_columns(thing, own) if c != column]
             rows.append(common if column is None else sorted((*common, column)))
         return rows
 
