@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import (
     coordinated,
@@ -21,6 +22,7 @@ from dcg_torch.grounding.factor_tree import (
     to_factor_tree,
 )
 from dcg_torch.grounding.frames import from_the_other_side
+from dcg_torch.grounding.grids import by_cells
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -55,8 +57,9 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
-    told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
-    return [Reading(tree, weight, tuple(rules)) for tree, weight, rules in told]
+    trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
+    told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
+    return [Reading(by_cells(tree, world), weight, tuple(rules)) for tree, weight, rules in told]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

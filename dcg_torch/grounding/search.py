@@ -11,7 +11,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
-from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
+from dcg_torch.grounding.describing import (
+    comparison_set,
+    highest,
+    is_sized,
+    is_to_a_place,
+    modifier_factor,
+    of_attributes,
+    ranks,
+    ranks_from,
+)
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.patterns import Patterns, spread
@@ -185,21 +194,23 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = parts and len(others) < len(own)
-        compared = comparison_set(tree, parts, self.encoder, self._tables) if some else None
+        some = (parts or is_sized(tree.phrase)) and len(others) < len(own)
+        compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
     def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
         modifiers = self._all_modifiers(tree)
-        compared = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
-        table = self._tables.noun(self.encoder, tree.phrase, compared)
+        picks = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
+        compared, phrase = (None, tree.phrase) if picks is None else (picks.among, picks.phrase)
+        table = self._tables.noun(self.encoder, phrase, compared)
         correspondences = self._tables.factor.correspondences
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
         scores = np.array([sum([h.log_score for h in combo]) for combo in combos])
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + scores)[:, None]
-        placed = np.zeros(len(active))
+        placed = np.zeros(len(active)) if picks is None else picks.log_size
+        base = base + placed
         for modifier in modifiers:
             base = base + modifier.log_psi
             placed = placed + modifier.log_psi
@@ -274,9 +285,7 @@ class Search:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
-        bare = replace(
-            tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
-        )
+        bare = replace(tree.phrase, text="", words=self._told(tree.phrase), context=(), among=None)
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
@@ -288,6 +297,10 @@ class Search:
         if not np.isfinite(shift):
             return found
         return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
+
+    def _told(self, phrase: Phrase) -> tuple[str, ...]:
+        """The words of a noun phrase that say something of groups or attributes."""
+        return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
