@@ -55,6 +55,18 @@ def test_what_is_not_there_is_not_meant(model: GroundingModel, text: str, things
     assert _absent(solution) > 0.5
 
 
+def test_knowing_more_types_makes_absence_no_likelier_where_colours_are_shown(model: GroundingModel) -> None:
+    shades = [(40, 60, 200), (150, 170, 230), (200, 40, 40)]
+    patches = [Percept(f"{k}", "patch", None, (1.0, 1.0 - k, 0.0), rgb=rgb) for k, rgb in enumerate(shades)]
+    learned = model.copy()
+    for k in range(40):
+        learned.learner = learned.learner.told(f"gnrx{k}", f"gadget {k}")
+    learned.train()
+    few, many = (_ground(one, "the pale blue one", patches) for one in (model, learned))
+    assert sum(o.hypothetical for o in many.world.objects) > sum(o.hypothetical for o in few.world.objects) + 30
+    assert _absent(many) == pytest.approx(_absent(few), abs=0.02)
+
+
 @pytest.mark.parametrize(
     ("text", "things", "meant"),
     [
