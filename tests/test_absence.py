@@ -9,6 +9,7 @@ import pytest
 
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose
+from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson
@@ -65,6 +66,19 @@ def test_knowing_more_types_makes_absence_no_likelier_where_colours_are_shown(mo
     few, many = (_ground(one, "the pale blue one", patches) for one in (model, learned))
     assert sum(o.hypothetical for o in many.world.objects) > sum(o.hypothetical for o in few.world.objects) + 30
     assert _absent(many) == pytest.approx(_absent(few), abs=0.02)
+
+
+def test_a_class_met_elsewhere_does_not_change_what_is_said_of_a_place(model: GroundingModel) -> None:
+    """Who has met tables still hears of the middle of the one that the cubes stand on; unless one may stand unseen."""
+    travelled = model.copy()
+    travelled.learner = travelled.learner.told("table", "table")
+    command = parse_command("take the cube in the middle of the table").readings[0].tree
+    landmarks = []
+    for one, looked in ((model, True), (travelled, True), (travelled, False)):
+        world = one.world_model(_things("red cube", "red cube"), robot=Pose(0.0, 0.0), looked=looked)
+        assert ("table" in world.classes) == (one is travelled and not looked)
+        landmarks.append([node.phrase.noun for node in to_factor_tree(command, world).walk()][-1])
+    assert landmarks == ["middle", "middle", "table"]
 
 
 @pytest.mark.parametrize(

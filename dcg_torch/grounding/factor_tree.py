@@ -72,7 +72,7 @@ def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
     objects = () if world is None else world.objects
     heights = [o.position[2] for o in objects if o.position is not None]
     flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    tree = in_plain_words(tree, heads(o.type for o in objects if o.type), flat=flat)
+    tree = in_plain_words(tree, heads(frozenset() if world is None else world.classes), flat=flat)
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)
