@@ -7,10 +7,10 @@
          or refusals (why it is no order about a thing)
 
 Every word list, pattern and weight is data: `data/words.yaml` (closed classes), `patterns.yaml` (prepositions, how
-things stand, what is refused), `grammar.yaml` (tags, transitions, choices), `compounds.txt`, `colors.txt`, and an
-English dictionary made from WordNet (`english.tsv`, `irregular.tsv`). A learned word makes a noun surer, and changes
-how nothing else is read. Wherever a sentence can be read in several ways a run of the parser takes a weighted choice
-(`decisions`); a reading is a run, and its `rules` name the choices, so that their weights can be learned.
+things stand, what is refused), `grammar.yaml` (tags, transitions, choices, kinds of phrases), `compounds.txt`,
+`colors.txt`, and an English dictionary made from WordNet (`english.tsv`, `irregular.tsv`). A learned word makes a noun
+surer, and changes how nothing else is read. Wherever a sentence can be read in several ways a run of the parser takes a
+weighted choice (`decisions`); a reading is a run, and its `rules` name the choices, whose weights can be learned.
 
 The root of a tree is a verb phrase (empty for a bare "the red cube"). Its first child holds the object meant:
 a noun phrase ("find the cone") or a preposition with one ("to the cone"); `target_phrase` returns that noun phrase.

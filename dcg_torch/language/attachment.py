@@ -10,43 +10,35 @@ from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import last_thing, settle_each_other, settle_nothing, settle_part, settle_row
+from dcg_torch.language.predicates import is_superlative, last_thing, settle_words
 from dcg_torch.language.saying import NounPhrases
-from dcg_torch.language.selection import is_superlative
 
 
 def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause:
     """The clause of a list of items. `supplied`: a later clause says where the object goes ("and put it on ...")."""
-    return _Builder(items).run(supplied, decisions)
+    builder = _Builder(items)
+    for item, after in zip(items, (*items[1:], END), strict=True):
+        builder.step(item, after)
+    builder.deny_colors()
+    settle(builder.clause, builder.pending, supplied, decisions)
+    for noun in builder.nouns:
+        settle_words(noun)
+    return builder.clause
 
 
 class _Builder(NounPhrases):
     """Walks over the items of a clause and notes what each could belong to."""
 
-    def run(self, supplied: bool, decisions: Decisions) -> Clause:
-        """Read the items."""
-        for k, item in enumerate(self.items):
-            self.step(item, self.items[k + 1] if k + 1 < len(self.items) else None)
-        self.deny_colors()
-        settle(self.clause, self.pending, supplied, decisions)
-        for noun in self.nouns:
-            settle_nothing(noun)
-            settle_each_other(noun)
-            settle_row(noun)
-            settle_part(noun)
-            noun.noun = "thing" if noun.noun in SETS["nothing"] else noun.noun
-        return self.clause
-
-    def step(self, item: Item, after: Item | None) -> None:
+    def step(self, item: Item, after: Item) -> None:
         """Read one item; `after` is the next."""
         if item.kind is Kind.NEGATION:
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
             self.relative = self.forced = True
-        elif self.is_exception(item, after):
+        elif item.text == "but" and after.kind is Kind.NOUN and self.last.is_a("all"):  # "anything but the cone"
             self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
@@ -65,35 +57,24 @@ class _Builder(NounPhrases):
     def deny_colors(self) -> None:
         """Say of the object, which may have no name, which colours it has not: "blue, not purple"."""
         if (self.not_colors or self.denials) and not self.clause.objects and not self.pending:
-            first = self.items[0]
-            unnamed = Item(Kind.NOUN, first.start, first.start, "", tuple(self.denials), pronoun=True)
-            self.clause.objects = [unnamed]
+            first = self.items[0].start
+            self.clause.objects = [Item(Kind.NOUN, first, first, "", tuple(self.denials), pronoun=True)]
         if self.not_colors and self.clause.objects:
             self.clause.objects[0].words += tuple(self.not_colors)
 
-    def is_exception(self, item: Item, after: Item | None) -> bool:
-        """The "but" of "all cubes but the red one", "anything but the cone"."""
-        if item.text != "but" or after is None or after.kind is not Kind.NOUN or not self.nouns:
-            return False
-        last = self.nouns[-1]
-        return not SETS["excepting"].isdisjoint(last.words) or last.noun in SETS["nothing"] | SETS["all_things"]
-
-    def negation(self, item: Item, after: Item | None) -> None:
+    def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
+        contrast = any(other.text == "but" for other in self.items)  # "go not to the cube but to the cone"
         if self.nouns and (self.forced or item.text == "nor"):
             self.denied = self.forced = True  # "the cube that is not ...", "neither red nor blue"
-        elif after is not None and after.kind is Kind.PREPOSITION and (self.nouns or self.contrasts()):
+        elif after.kind is Kind.PREPOSITION and (self.nouns or contrast):
             self.denied = True  # "the cube not on the table"
-        elif after is not None and after.kind is Kind.NOUN and after.noun not in SETS["someone"]:
+        elif after.kind is Kind.NOUN and after.noun not in SETS["someone"]:
             self.excluded = True  # "the cube, not the sphere"
-        elif after is not None and self.nouns and (after.kind is Kind.ADVERB or after.participle):
+        elif self.nouns and (after.kind is Kind.ADVERB or after.participle):
             self.denied = True  # "the blonde, not wearing glasses"
         else:
             self.clause.negated = True
-
-    def contrasts(self) -> bool:
-        """ "Go not to the cube but to the cone"."""
-        return any(item.kind is Kind.AND and item.text == "but" for item in self.items)
 
     def place(self, item: Item) -> None:
         """A preposition, which waits for its noun phrase."""
@@ -102,59 +83,57 @@ class _Builder(NounPhrases):
             return
         # "the cube closest to ..." can't be where the cube goes, nor can "the cube not on ...".
         forced = self.forced or self.denied or (item.words[0] in PLACING["extremes"] and bool(self.nouns))
-        last = self.nouns[-1].words if self.nouns else ()
-        extreme = next((word for word in last if word in SETS["extremes"]), None)
+        extreme = next((word for word in self.last.words if word in SETS["extremes"]), None)
         if extreme and item.words[0] in PLACING["of_extremes"]:  # "the closest cone to you"
-            self.nouns[-1].words = tuple(word for word in last if word != extreme)
+            self.last.words = tuple(word for word in self.last.words if word != extreme)
             item.words, forced = (f"{extreme} {item.words[0]}",), True
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
-        self.preposition = item
-        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.await_noun(item, forced, self.joined)
         self.forced = self.joined = False
 
-    def adverb(self, item: Item, after: Item | None) -> None:
+    def await_noun(self, item: Item, forced: bool, joined: bool) -> None:
+        """Note a preposition, and what it may belong to."""
+        self.preposition = item
+        self.pending.append(Pending(item, list(self.nouns), forced, joined))
+
+    def adverb(self, item: Item, after: Item) -> None:
         """A word by itself: said of a noun phrase, or of the way the verb is done."""
         name = item.words[0]
         if not self.nouns or self.preposition is not None:
             return
-        bare = self.joined or self.clause.verb is None
-        # "the cube that is biggest", "the cube, big"
-        predicate = self.forced or self.copula or (bare and name not in SETS["sides"])
-        ranked = is_superlative(name) and name not in SETS["ordinals"]
-        predicate = (
-            name == "alone" or item.words[-1] == "each other" or ranked or (predicate and name not in SETS["adverbs"])
-        )
-        before_rank = after is not None and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
-        if name in SETS["ordinals"] and before_rank:
-            predicate = True  # "the cone second from the left", "... second closest to the sphere"
-            if self.joined and self.nouns[-1].noun in SETS["places"]:  # "top row, second from the left"
-                self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
-                return
-        if predicate or name.startswith("facing ") or (name in SETS["bare_sides"] and self.says_where()):
+        ranks = item.is_a("ordered") and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
+        if ranks and self.joined and self.last.is_a("place"):  # "top row, second from the left"
+            self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
+            return
+        # "the cube that is biggest", "the cube, big", "the cone second from the left", "... second closest to the cone"
+        bare = self.copula or (name not in SETS["sides"] and (self.joined or self.clause.verb is None))
+        predicate = name not in SETS["adverbs"] and (self.forced or bare)
+        apart = name == "alone" or item.words[-1] == "each other"
+        where = name in SETS["bare_sides"] and self.says_where()
+        if predicate or ranks or where or apart or is_superlative(name) or name[:7] == "facing ":
             item.said = True
             self.say(last_thing(self.nouns), item.words)
 
-    def is_subject(self, item: Item, after: Item | None) -> bool:
+    def is_subject(self, item: Item, after: Item) -> bool:
         """The "you" of "the block that you hold", with and without "that"."""
+        acts = after.kind is Kind.VERB
         if self.preposition is not None:
             return False
-        acts = after is not None and after.kind is Kind.VERB
-        if item.text in SETS["stands_for"] and self.nouns and after is not None and acts:
+        if item.text in SETS["stands_for"] and self.nouns and acts:
             self.relative = self.relative or after.words[0] == "be"
             return self.relative
         if item.noun in SETS["holders"] and self.relative and self.forced and acts:
             return True  # "the block that the arm is holding"
         if item.noun not in SETS["someone"]:
             return False
-        if self.nouns and not self.joined and acts:
-            self.relative = True
+        self.relative = self.relative or (bool(self.nouns) and not self.joined and acts)
         return self.relative
 
-    def verb(self, item: Item, after: Item | None) -> None:
+    def verb(self, item: Item, after: Item) -> None:
         """A verb: the clause's own, or one that says something of a noun phrase."""
         name = item.words[0]
-        direct = after is not None and after.kind is Kind.NOUN and after.noun not in SETS["measures"]
+        direct = after.kind is Kind.NOUN and after.noun not in SETS["measures"]
         main = not (item.participle or item.finite or self.relative or name == "be")
         if self.clause.verb is None and (main or not self.nouns):
             self.clause.verb = item
@@ -166,8 +145,7 @@ class _Builder(NounPhrases):
             if self.joined and self.copula:  # "it is on the left and is touching the cone"
                 self.nouns += self.clause.objects[:1]
             self.copula = self.forced = True
-            if self.clause.verb is None and not self.relative:
-                self.clause.statement = True
+            self.clause.statement |= self.clause.verb is None and not self.relative
         elif name in VERBS["hold"] and self.nouns and not direct:
             item.said = True
             self.say(last_thing(self.nouns), ("held",))  # "the block you are holding"
@@ -185,5 +163,4 @@ class _Builder(NounPhrases):
         if self.denied:
             name = "without" if name == "with" else f"not {name}"
         self.denied, item.said = False, True
-        self.preposition = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,))
-        self.pending.append(Pending(self.preposition, list(self.nouns), True, False))
+        self.await_noun(Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,)), True, False)

@@ -12,10 +12,12 @@ from typing import Final
 from dcg_torch.english.dictionary import irregular
 from dcg_torch.english.forms import is_compared, is_plural, parts, singular, verb
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, listed
 
 _OPEN: Final = GRAMMAR["open"]
-_CLOSED: Final = tuple(name for name in GRAMMAR["lists"] if name not in GRAMMAR["open_lists"].split())
+_CLOSED: Final = listed(GRAMMAR["lists"].keys() - GRAMMAR["open_lists"].split())
+_FIXED: Final = listed(GRAMMAR["fixed_lists"].split())
+_EMPTY: Final = listed(GRAMMAR["empty_lists"].split())
 _LONGEST: Final = 40
 
 
@@ -43,21 +45,19 @@ def candidates(word: str) -> tuple[tuple[str, float], ...]:
 
 def is_fixed(word: str) -> bool:
     """Whether a word is grammar and nothing else: "the", "and", "me"."""
-    closed = word in PRONOUNS or word in NUMBERS or word in PLACING["single"]
-    return closed or any(word in SETS[name] for name in GRAMMAR["fixed_lists"].split())
+    return word in _FIXED or word in PRONOUNS or word in NUMBERS or word in PLACING["single"]
 
 
 @functools.lru_cache(4096)
 def is_plain_noun(word: str) -> bool:
     """Whether nothing in the language of commands is called by a word, so that it can only name things."""
-    closed = any(word in SETS[name] for name in _CLOSED) or verb(word) in SETS["commands"]
+    closed = word in _CLOSED or verb(word) in SETS["commands"]
     return not (closed or is_fixed(word) or normal_color(word) in single_colors())
 
 
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
-    empty = any(word in SETS[name] for name in GRAMMAR["empty_lists"].split())
-    return not (is_fixed(word) or empty or singular(word) in SETS["measures"] or not word[:1].isalpha())
+    return not (is_fixed(word) or word in _EMPTY or singular(word) in SETS["measures"] or not word[:1].isalpha())
 
 
 def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) -> None:
@@ -124,6 +124,6 @@ def _add_inflected(found: dict[str, float], word: str) -> None:
 def _noun_penalty(word: str) -> float:
     if word in SETS["ordinals"]:
         return float(_OPEN["ordinal_noun"])
-    if any(word in SETS[name] for name in _CLOSED):
+    if word in _CLOSED:
         return float(_OPEN["closed_noun"])
     return float(_OPEN["unused_noun"]) if singular(word) in SETS["commands"] else 0.0

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import SETS
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
@@ -39,11 +40,7 @@ class Clause:
 
 def main_object(clause: Clause) -> Item | None:
     """The direct object that is a thing: not the robot itself, a person spoken to, a measure or a direction."""
-    for noun in clause.objects:
-        direction = noun.noun in SETS["directions"] and not noun.children
-        if not direction and noun.noun not in SETS["robot"] | SETS["no_objects"]:
-            return noun
-    return None
+    return next((noun for noun in clause.objects if not noun.is_a("no_object")), None)
 
 
 def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> list[list[Item]]:
@@ -51,7 +48,6 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
     clauses: list[list[Item]] = [[]]
     relative = False
     for k, item in enumerate(items):
-        before = items[k - 1] if k else None
         if item.kind is Kind.STOP:
             relative = False
             said = clauses[-1] and any(start <= clauses[-1][0].start < stop for start, stop, _ in talk)
@@ -69,33 +65,26 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
-            while clauses[-1] and clauses[-1][-1].kind in (_BEFORE_VERB if not _joins(tail) else _JOINTS):
+            while clauses[-1] and clauses[-1][-1].kind in (
+                _JOINTS if tail and tail[0].kind in _JOINTS else _BEFORE_VERB
+            ):
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
-        elif item.kind is Kind.NOUN and before is not None and before.kind is Kind.NOUN and _subject(items, k):
+        elif item.kind is Kind.NOUN and _subject(items[k - 1] if k else END, item, items[k + 1 :]):
             relative = True  # "the block you are holding"
         clauses[-1].append(item)
     return [clause for clause in clauses if clause]
 
 
-def _joins(items: Sequence[Item]) -> bool:
-    return bool(items) and items[0].kind in _JOINTS
-
-
 def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
-    first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), None)
-    for item in after:
-        if item.kind is Kind.STOP:
-            break
-        if item.kind in _CARRY_ON:
-            return False
-    if first is None:
+    first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
+    sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
+    if any(item.kind in _CARRY_ON for item in sentence):
         return False
-    denied = after[0].kind is Kind.NEGATION  # "Blue. Not the dark one."
-    described = first.kind is Kind.NOUN and first.pronoun and bool(first.color or first.words)
-    described = described and (denied or not first.determined)
+    # "Blue. Not the dark one."
+    described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)
     return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or described
 
 
@@ -108,10 +97,9 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
         return items[k - 1].kind is Kind.AND and _is_statement(
             clause[: clause.index(verbs[0])], items, items.index(verbs[0])
         )
-    after = items[k + 1] if k + 1 < len(items) else None
-    named = after is not None and after.kind is Kind.NOUN and after.noun is not None
+    named = k + 1 < len(items) and items[k + 1].noun is not None
     named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
-    return not named and any(item.kind is Kind.NOUN and item.noun not in SETS["someone"] for item in clause)
+    return not named and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
@@ -120,13 +108,14 @@ def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
     return verb.words[0] == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
 
 
-def _subject(items: Sequence[Item], k: int) -> bool:
-    after = items[k + 1] if k + 1 < len(items) else None
-    if after is None or after.kind is not Kind.VERB or items[k - 1].stop != items[k].start:
+def _subject(before: Item, item: Item, rest: Sequence[Item]) -> bool:
+    """The "you" of "the block you are holding"."""
+    after = rest[0] if rest else END
+    if before.kind is not Kind.NOUN or after.kind is not Kind.VERB or before.stop != item.start:
         return False
-    if items[k].text in SETS["stands_for"]:
+    if item.text in SETS["stands_for"]:
         return after.words[0] == "be"  # "the ball it is on the cube"
-    return items[k].noun in SETS["someone"] and items[k - 1].noun not in SETS["robot"]
+    return item.is_a("someone") and before.noun not in SETS["robot"]
 
 
 def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
@@ -142,25 +131,22 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     item = items[k]
     if _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
-    before = items[k - 1] if k else None
+    second, before = (END, END, *items[:k])[-2:]
     lemma = item.words[0].split()[0]
-    if before is not None and before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
+    if before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
         return False
-    if item.participle and k > 1 and before is not None and before.words[:1] == ("be",):
-        # "the block being held", "the cube is placed on ...", but "you are looking for"
-        subject = items[k - 2]
-        if subject.kind is Kind.NOUN and subject.text not in SETS["people"]:
-            return False
+    passive = item.participle and before.words[:1] == ("be",) and second.kind is Kind.NOUN
+    if passive and second.text not in SETS["people"]:
+        return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
-        joined = before is not None and before.kind in _BEFORE_VERB - {Kind.NEGATION}
+        joined = before.kind in _BEFORE_VERB - {Kind.NEGATION}
         return joined and not item.participle and lemma in SETS["commands"]
-    if before is not None and before.kind is Kind.ADVERB and k > 1:
-        before = items[k - 2]
-    if lemma == "be" and before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]:
+    before = second if before.kind is Kind.ADVERB else before
+    after_noun = before.kind is Kind.NOUN and not before.is_a("someone")
+    if lemma == "be" and after_noun:
         # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
         since = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
         if any(other.kind is Kind.VERB for other in since):
             return False
-    after_noun = before is not None and before.kind is Kind.NOUN and before.noun not in SETS["someone"]
     return not (after_noun and (item.participle or item.finite or lemma == "have"))

@@ -1,10 +1,13 @@
-"""The phrases of a command before they have a place in the tree."""
+"""The phrases of a command before they have a place in the tree, and what kinds of phrases there are."""
 
 from __future__ import annotations
 
 import enum
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from typing import Final
+
+from dcg_torch.language.lexicon import GRAMMAR, SETS, listed
 
 
 class Kind(enum.Enum):
@@ -49,6 +52,48 @@ class Item:
         for child in self.children:
             yield from child.walk()
 
+    @property
+    def long(self) -> bool:
+        """Is it of several words?"""
+        return self.stop - self.start > 1
+
+    @property
+    def definite(self) -> bool:
+        """Has it a definite article?"""
+        return self.text.partition(" ")[0] in SETS["definite"]
+
     def copy(self) -> Item:
         """The same with all below it, to stand somewhere else as well."""
         return replace(self, children=[child.copy() for child in self.children])
+
+    def behind(self, preposition: str) -> Item:
+        """A preposition with this noun phrase, which nobody said so."""
+        return Item(Kind.PREPOSITION, self.start, self.stop, self.text, (preposition,), children=[self])
+
+    def is_a(self, kind: str) -> bool:
+        """Whether the item is of a kind of `grammar.yaml`: one of its rows holds."""
+        return any(all(self._has(*feature) for feature in row) for row in _KINDS[kind])
+
+    def _has(self, name: str, wanted: bool, words: frozenset[str], all_of_them: bool) -> bool:
+        value = getattr(self, name)
+        if words:
+            values = value if isinstance(value, tuple) else (value,)
+            value = words.issuperset(values) if all_of_them else not words.isdisjoint(values)
+        return bool(value) is wanted
+
+
+END: Final = Item(Kind.STOP, 0, 0, "")
+"""What stands before the first item and behind the last."""
+
+
+def _feature(text: str) -> tuple[str, bool, frozenset[str], bool]:
+    """ "-noun:sides|ends": the attribute, whether it is to hold, the words that it is looked for among."""
+    name, _, lists = text.removeprefix("-").replace("=", ":=").partition(":")
+    words = listed(lists.removeprefix("=").split("|") if lists else ())
+    return name, not text.startswith("-"), words, lists.startswith("=")
+
+
+_KINDS: Final = {
+    kind: [[_feature(text) for text in row.split()] for row in rows.split(";")]
+    for kind, rows in GRAMMAR["kinds"].items()
+}

@@ -7,8 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from importlib import resources
 from typing import Any, Final
 
@@ -43,6 +42,13 @@ SETS: Final[Mapping[str, frozenset[str]]] = {
     "commands": frozenset().union(*(VERBS[name] for name in ("put", "take", "go", "reach", "look"))),
 }
 """Closed classes of words by name."""
+
+
+def listed(names: Iterable[str]) -> frozenset[str]:
+    """The words of several lists, of closed classes or of verbs."""
+    return frozenset().union(*({**VERBS, **SETS}[name] for name in names))
+
+
 PLACING: Final[Mapping[str, frozenset[str]]] = {
     name: frozenset(part.strip() for part in text.split(";")) for name, text in GRAMMAR["prepositions"].items()
 }
@@ -72,43 +78,30 @@ PHRASES: Final = tuple(
     (re.compile(rf"(?:{_filled(pattern)})(?= |$)"), tag, value.split(";"), weight)
     for pattern, tag, value, weight in _PATTERNS["phrases"]
 )
+"""Words that are one token: a pattern, the tag, the words in normal form, the log-weight."""
 REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
 TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
 """Those of the refusals that hold for a clause after another as well."""
 MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
 GREETING: Final = re.compile(_PATTERNS["greeting"])
 SAME: Final[Mapping[str, str]] = _PATTERNS["same"]
-_NORMALS: Final = tuple(row[1] for row in _PATTERNS["prepositions"])
-_WEIGHTS: Final = tuple(row[2] if len(row) > 2 else 0.0 for row in _PATTERNS["prepositions"])
 _PREPOSITION: Final = re.compile(
     "|".join(f"(?P<p{i}>(?:{_filled(row[0])})(?= |$))" for i, row in enumerate(_PATTERNS["prepositions"]))
 )
 
 
-@dataclass(frozen=True, slots=True)
-class PrepositionMatch:
-    """A preposition of a command: its words, their number, its normal form (empty: only says how exactly).
+def match_preposition(joined: str, offset: int) -> tuple[str, str, float] | None:
+    """The preposition that begins at a letter of a command's words joined by spaces, or None.
 
-    `weight` is what the pattern adds to the log-weight of a preposition.
+    Its words, its normal form (empty: only says how exactly), what its pattern adds to a preposition's log-weight.
     """
-
-    raw: str
-    length: int
-    normal: str
-    weight: float
-
-
-def match_preposition(joined: str, offset: int) -> PrepositionMatch | None:
-    """The preposition that begins at a letter of a command's words joined by spaces, or None."""
     match = _PREPOSITION.match(joined, offset)
     if match is None:
         return None
-    raw, compass = match.group(), match["compass"]
-    at = next(i for i in range(len(_NORMALS)) if match[f"p{i}"] is not None)
-    normal = _NORMALS[at]
-    if normal == "=":
-        normal = SAME.get(raw, raw)
-    return PrepositionMatch(raw, raw.count(" ") + 1, normal.replace("<compass>", compass or ""), _WEIGHTS[at])
+    raw = match.group()
+    _, normal, *weight = _PATTERNS["prepositions"][int(str(match.lastgroup)[1:])]
+    normal = SAME.get(raw, raw) if normal == "=" else normal.replace("<compass>", match["compass"] or "")
+    return raw, normal, sum(weight)
 
 
 @functools.cache

@@ -8,11 +8,12 @@ from dcg_torch.english.forms import is_plural, parts, singular
 from dcg_torch.language.colors import PLURALS
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
-from dcg_torch.language.selection import normal_words
+from dcg_torch.language.predicates import normal_words
 from dcg_torch.language.tagging import Reader, Token
 
 _HEADS = frozenset({"N", "SIDE", "ONE"})
 _DESCRIBING = frozenset({"COL", "MOD"})
+_NOUNS = frozenset({"ORD", "NM", "ONE", "N", "SIDE"})
 _STARTS = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE"})
 _LONGEST_NUMBER = 3
 
@@ -20,7 +21,8 @@ _LONGEST_NUMBER = 3
 class NounPhrase(Reader):
     """Reads the noun phrase that begins at a token; `at` is the token behind it.
 
-    `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one.
+    `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one. A method for each tag
+    says how many tokens it takes: 0 where the noun phrase ends.
     """
 
     def __init__(self, tokens: Sequence[Token], start: int, alone: bool) -> None:
@@ -39,9 +41,12 @@ class NounPhrase(Reader):
                  "ONE": self._one, "NAME": self._name, "POS": self._possessive, "P": self._of, "NEG": self._denial,
                  "AND": self._joint, "COMMA": self._joint, "PRO": self._them}  # fmt: skip
         while self.at < len(tokens) and not self.closed:
-            part = parts.get(tokens[self.at].tag)
-            if part is None or not part(tokens[self.at]):
+            tag = tokens[self.at].tag
+            late = self.headed if tag in _DESCRIBING | _NOUNS else self.nouns and tag in _STARTS
+            taken = 0 if late or tag not in parts else parts[tag](tokens[self.at])
+            if not taken:
                 break
+            self.at += taken
         self._settle()
 
     @property
@@ -49,147 +54,124 @@ class NounPhrase(Reader):
         """Whether the noun has its last word."""
         return bool(self.nouns) and self.nouns[-1].tag in _HEADS
 
-    def _take(self, number: int = 1) -> bool:
-        self.at += number
-        return True
-
-    def _determiner(self, token: Token) -> bool:
-        if self.nouns or (self.at > self.start and self.tag(self.at - 1) not in {"Q", "DET", "P"}):
-            return False
+    def _determiner(self, token: Token) -> int:
+        if self.at > self.start and self.tag(self.at - 1) not in {"Q", "DET", "P"}:
+            return 0
         self.negative = self.negative or token.text in SETS["none"]
         if token.text in SETS["owned"]:
             self.words.append(token.text)
         self.determined = True
-        return self._take()
+        return 1
 
-    def _quantifier(self, token: Token) -> bool:
-        if self.nouns:
-            return False
-        several = token.text in SETS["of_many"] and not self.picked
-        self.plural = self.plural or several
+    def _quantifier(self, token: Token) -> int:
         self.count = 2 if token.text == "both" else self.count
         if not self.picked:  # "the biggest of all the cubes"
             self.words.append(token.text)
-        return self._take()
+            self.plural = self.plural or token.text in SETS["of_many"]
+        return 1
 
-    def _number(self, token: Token) -> bool:
-        if self.nouns:
-            return False
+    def _number(self, token: Token) -> int:
         short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
         number = NUMBERS.get(token.text) or (int(token.text) if short else None)
         if self.group is not None:
             self.of = number
-            return self._take()
-        after = self.tokens[self.at + 1] if self.at + 1 < len(self.tokens) else None
-        if not self.determined and after is not None and singular(after.text) in SETS["measures"]:
+            return 1
+        if not self.determined and singular(self.text(self.at + 1)) in SETS["measures"]:
             behind = self.tag(self.at + 2)
             if behind not in _STARTS - {"DET", "SIDE"} or self.text(self.at + 2) in SETS["directions"]:
                 self.is_measure = self.closed = True
-                return self._take(2)
+                return 2
         self.count = self.count if self.picked else number
-        self._take()
-        if token.text == "one" and self.text(self.at) == "of":
+        if token.text == "one" and self.text(self.at + 1) == "of":
             self.words.append("one of")
-        elif token.text == "one" and self.tag(self.at) not in _STARTS:
+        elif token.text == "one" and self.tag(self.at + 1) not in _STARTS:
             self.pronoun = self.closed = True
-        return True
+        return 1
 
-    def _describe(self, token: Token) -> bool:
-        if self.headed:
-            return False
-        if token.text in SETS["color_fillers"] and not self.words:
-            return self._take()
-        self.words += token.value
-        return self._take()
+    def _describe(self, token: Token) -> int:
+        if self.words or token.text not in SETS["color_fillers"]:
+            self.words += token.value
+        return 1
 
-    def _color(self, token: Token) -> bool:
-        if self.headed:
-            return False
+    def _color(self, token: Token) -> int:
         after = self.text(self.at + 1)
         if self.tag(self.at + 1) == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
             self.words.append(f"{token.value[0]} {after}")  # "white-haired", "red-tipped": it is no colour of the whole
-            return self._take(2)
-        if self.color is None:
-            self.color = token.value[0]
-        else:
+            return 2
+        if self.color is not None:
             self.words.append(token.value[0])  # "the red and blue tower": the first is its colour
-        if self.text(self.at + 1) in SETS["color_fillers"]:
-            self._take()
-        return self._take()
+        self.color = self.color or token.value[0]
+        return 1 + (after in SETS["color_fillers"])
 
-    def _noun(self, token: Token) -> bool:
-        if self.headed:
-            return False
+    def _noun(self, token: Token) -> int:
         if token.text in PLURALS and self.determined and self.color is None and not self.nouns:
-            self.color, self.plural, self.pronoun = PLURALS[token.text], True, True  # "the reds"
-            self.closed = True
-            return self._take()
-        if token.text in SETS["color_fillers"] and (self.words or self.color) and self.tag(self.at + 1) in _STARTS:
-            return self._take()  # "the dark coloured ball"
-        self.nouns.append(token)
-        return self._take()
+            self.color, self.plural = PLURALS[token.text], True  # "the reds"
+            self.pronoun = self.closed = True
+            return 1
+        filler = token.text in SETS["color_fillers"] and (self.words or self.color)  # "the dark coloured ball"
+        if not (filler and self.tag(self.at + 1) in _STARTS):
+            self.nouns.append(token)
+        return 1
 
-    def _one(self, token: Token) -> bool:
+    def _one(self, token: Token) -> int:
         """ "The red one"; "the one red cube"."""
-        if self.headed:
-            return False
-        if self.tag(self.at + 1) in {"COL", "N", "NM"} and self.determined and token.text == "one":
+        one = token.text == "one"
+        if one and self.determined and self.tag(self.at + 1) in {"COL", "N", "NM"}:
             self.count = 1
-            return self._take()
-        if token.text == "one" and self.text(self.at + 1) == "of" and not (self.determined or self.words):
+        elif one and self.text(self.at + 1) == "of" and not (self.determined or self.words):
             self.words.append("one of")
-            return self._take()
-        self.pronoun = self.closed = True
-        self.plural = self.plural or token.text == "ones"
-        return self._take()
+        else:
+            self.pronoun = self.closed = True
+            self.plural = self.plural or not one
+        return 1
 
-    def _name(self, token: Token) -> bool:
+    def _name(self, token: Token) -> int:
         """ "Cube 3": a number that is part of a name."""
         if not self.headed or singular(self.text(self.at + 1)) in SETS["measures"]:
-            return False
+            return 0
         self.words += token.value
-        return self._take()
+        return 1
 
-    def _denial(self, token: Token) -> bool:
+    def _denial(self, token: Token) -> int:
         """ "The not blue cube", "a non red one"."""
         after = self.tag(self.at + 1)
         if not (self.determined or self.words) or self.nouns or after not in _DESCRIBING:
-            return False
+            return 0
         self.words.append(f"not {self.tokens[self.at + 1].value[0]}")
-        return self._take(2)
+        return 2
 
-    def _joint(self, token: Token) -> bool:
+    def _joint(self, token: Token) -> int:
         """The "and" and commas of "the red, white and blue tower"."""
         if self.nouns or not (self.color or self.words) or self.picked:
-            return False
+            return 0
         at = self.at + 1 + (self.text(self.at + 1) == "and")
         follows = self.tag(at + 1) in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
         if self.tag(at) not in _DESCRIBING or not follows:
-            return False
-        return self._take(at - self.at)
+            return 0
+        return at - self.at
 
-    def _possessive(self, token: Token) -> bool:
+    def _possessive(self, token: Token) -> int:
         """ "The robot's cube" is the cube, "the robot's left" your left."""
         if not self.nouns or self.tag(self.at + 1) not in _STARTS:
-            return False
+            return 0
         if self.tag(self.at + 1) == "SIDE" and self.nouns[-1].text in SETS["robot"]:
             self.words.append("your")
         self.nouns, self.color = [], None
-        return self._take()
+        return 1
 
-    def _of(self, token: Token) -> bool:
+    def _of(self, token: Token) -> int:
         """What "of" makes of a group ("the row of cubes"), a place ("the position of the cube"), a pick."""
         if token.text != "of" or self.at == self.start:
-            return False
+            return 0
         return self._group_of() or self._pick_of()
 
-    def _group_of(self) -> bool:
+    def _group_of(self) -> int:
         if not self.headed or self.tag(self.at + 1) not in _STARTS:
-            return False
+            return 0
         last = self.nouns[-1].text
         unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
         if unit not in SETS["groups"] | SETS["carriers"]:
-            return False
+            return 0
         self.words += [t.text for t in self.nouns[:-1]]
         self.nouns = []
         if unit in SETS["pairs"]:
@@ -199,48 +181,44 @@ class NounPhrase(Reader):
             self.group = unit
             self.plural = True
             self.count = self.count if self.picked else None  # "two rows of cubes" are not two cubes
-        self._take()
-        while self.tag(self.at) == "DET":
-            self._take()
-        return True
+        return self._behind_determiners() - self.at
 
-    def _pick_of(self) -> bool:
-        """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
-        picker = self.tokens[self.at - 1]
-        if self.headed and not (self.nouns[-1].tag == "SIDE" and self._picks_side()):
-            return False
-        if not self.headed and (self.nouns or picker.tag not in {"Q", "NUM", "ORD", "MOD", "ONE"}):
-            return False
+    def _behind_determiners(self) -> int:
+        """The token behind this one and the determiners that follow it."""
         after = self.at + 1
         while self.tag(after) == "DET":
             after += 1
+        return after
+
+    def _pick_of(self) -> int:
+        """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
+        picker = self.tokens[self.at - 1]
+        # "The middle of the three cones", but "the middle of the table".
+        counted = self.tag(self._behind_determiners()) == "NUM" and picker.text in SETS["counted_middles"]
+        if self.headed and not (picker.tag == "SIDE" and counted):
+            return 0
+        if not self.headed and (self.nouns or picker.tag not in {"Q", "NUM", "ORD", "MOD", "ONE"}):
+            return 0
+        after = self._behind_determiners()
         bare_group = self.text(after) in SETS["groups"] and self.text(after + 1) != "of"
-        if bare_group or (
-            self.tag(self.at + 1) not in _STARTS and self.text(self.at + 1) not in SETS["group_pronouns"]
-        ):
+        several = self.tag(self.at + 1) in _STARTS or self.text(self.at + 1) in SETS["group_pronouns"]
+        if bare_group or not several:
             self.closed = True  # "the last of the row": the row is no such thing
-            return False
+            return 0
         if self.nouns:
             self.words.append(self.nouns.pop().text)
         if picker.text in {"one", "either"} or picker.tag in {"ORD", "MOD", "SIDE"}:
             self.count = 1
         self.picked = True
-        return self._take()
+        return 1
 
-    def _picks_side(self) -> bool:
-        """ "The middle of the three cones", but "the middle of the table"."""
-        after = self.at + 1
-        while self.tag(after) == "DET":
-            after += 1
-        return self.tag(after) == "NUM" and self.nouns[-1].text in SETS["counted_middles"]
-
-    def _them(self, token: Token) -> bool:
+    def _them(self, token: Token) -> int:
         """ "All of them"."""
         if not self.picked or self.nouns or token.text not in SETS["group_pronouns"]:
-            return False
+            return 0
         self.pronoun = self.closed = True
         self.plural = self.plural or self.count != 1
-        return self._take()
+        return 1
 
     def _settle(self) -> None:
         """Whether the words are a noun phrase, once they have been read."""
@@ -269,10 +247,9 @@ class NounPhrase(Reader):
         if "both" in self.words and self.nouns and not is_plural(last) and self.text(self.at) == "and":
             self.words.remove("both")  # "both the cube and the cone"
             self.count, self.plural = None, False
-        text = " ".join(token.text for token in self.tokens[self.start : self.at])
-        item = Item(Kind.NOUN, self.tokens[self.start].start, self.tokens[self.at - 1].stop, text)
-        item.words = normal_words(self.words)
-        item.noun, item.color, item.count = noun, self.color, self.count
+        part = self.tokens[self.start : self.at]
+        item = Item(Kind.NOUN, part[0].start, part[-1].stop, " ".join(token.text for token in part))
+        item.words, item.noun, item.color, item.count = normal_words(self.words), noun, self.color, self.count
         item.plural = (self.plural or (self.count or 0) > 1) and self.count != 1
         item.pronoun = self.pronoun or noun is None
         item.determined, item.negative = self.determined, self.negative

@@ -7,7 +7,7 @@ import functools
 import gc
 import math
 from collections.abc import Collection, Hashable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from dcg_torch.english.dictionary import english
 from dcg_torch.english.forms import singular
@@ -16,7 +16,7 @@ from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, SETS, VERBS
 from dcg_torch.language.phrases import items
 from dcg_torch.language.references import correct
@@ -130,7 +130,7 @@ class Parser:
                 nothing, reason = decisions.log_weight, command.reason()
             if len(found) == k:
                 break
-        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing or not found:
+        if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing:
             return Parse(text, problem=reason, refused=reason)
         return Parse(text, _normalised(list(found.values())))
 
@@ -158,8 +158,6 @@ class _Command:
         if mended not in self.tagged:
             self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), [] if begin else talk(words)
         tagged, self.parts = self.tagged[mended]
-        if not tagged:
-            return None
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
         path = tagged[decisions.choose("words", weights)]
         self.items = items([token for token in path.tokens if token.start >= begin])
@@ -167,24 +165,19 @@ class _Command:
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         stops = [item.start for item in self.items if item.kind is Kind.STOP]
-        back = [n + 1 for n, at in enumerate(stops) if words[at] in SETS["corrections"]]
         for clause, group in zip(self.clauses, groups, strict=True):
             clause.sentence = bisect.bisect(stops, group[0].start)
-            clause.corrects = clause.sentence in back
+            clause.corrects = clause.sentence > 0 and words[stops[clause.sentence - 1]] in SETS["corrections"]
             refuse(clause, group, self.parts, words)
         correct(self.clauses)
         return root(self.clauses, decisions)
 
     def unread(self) -> tuple[str, ...]:
         """The content words of the last reading that are in no phrase."""
-        used: set[int] = set()
+        nodes = [item for item in self.items if item.said or item.kind not in _CONTENT]
         for clause in self.clauses:
-            for item in (clause.verb, *clause.objects, *clause.places):
-                for node in item.walk() if item is not None else ():
-                    used.update(range(node.start, node.stop))
-        for item in self.items:
-            if item.said or item.kind not in _CONTENT:
-                used.update(range(item.start, item.stop))
+            nodes += [node for top in (clause.verb or END, *clause.objects, *clause.places) for node in top.walk()]
+        used = {i for node in nodes for i in range(node.start, node.stop)}
         return tuple(word for i, word in enumerate(self.words) if i not in used and is_content(word))
 
     def reason(self) -> str:
@@ -197,27 +190,21 @@ class _Command:
 
 def _named(found: Sequence[Path]) -> dict[str, Path]:
     """Paths by a number and the tags that not all of them have: what they take words for."""
-    all_tokens = [{id(token) for token in path.tokens} for path in found]
-    common = set.intersection(*all_tokens) if found else set()
+    common = set.intersection(*({id(token) for token in path.tokens} for path in found))
     differing = ["+".join(token.tag for token in path.tokens if id(token) not in common) for path in found]
     return {f"{tags or 'same'} {n}": path for n, (tags, path) in enumerate(zip(differing, found, strict=True))}
 
 
 def _supplied(groups: Sequence[Sequence[Item]]) -> int:
     """The number of the last clause that puts "it" somewhere, so that those before need no destination; -1: none."""
-    for n in range(len(groups) - 1, -1, -1):
-        verb = next((item for item in groups[n] if item.kind is Kind.VERB), None)
-        noun = next((item for item in groups[n] if item.kind is Kind.NOUN), None)
-        if verb and noun and verb.words[0] in VERBS["put"] and noun.pronoun and noun.color is None:
-            return n
-    return -1
+    firsts = [{item.kind: item for item in reversed(group)} for group in groups]
+    puts = [first.get(Kind.VERB, END).is_a("putting") and first.get(Kind.NOUN, END).is_a("it") for first in firsts]
+    return max((n for n, put in enumerate(puts) if put), default=-1)
 
 
 def _shape(tree: ParseTree) -> Hashable:
     """A tree without its texts: two readings of one shape are one."""
-    phrase = tree.phrase
-    said = (phrase.kind, phrase.words, phrase.noun, phrase.color, phrase.plural, phrase.count)
-    return said, tuple(_shape(child) for child in tree.children)
+    return replace(tree.phrase, text=""), tuple(_shape(child) for child in tree.children)
 
 
 def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:

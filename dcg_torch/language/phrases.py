@@ -78,7 +78,7 @@ class _Phrases(Reader):
 
     def ordered(self) -> bool:
         """Whether the last phrase counts along something: "the second cone (from ...)"."""
-        return self.previous() is Kind.NOUN and not SETS["ordinals"].isdisjoint(self.out[-1].words)
+        return self.previous() is Kind.NOUN and self.out[-1].is_a("ordered")
 
     def verb(self, i: int) -> int:
         token = self.tokens[i]
@@ -87,46 +87,35 @@ class _Phrases(Reader):
         item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
         after = self.text(i + 1)
-        stop = i + 1
         if base in PARTICLE_VERBS.get(after, ()):
-            item.words, stop = (f"{base} {after}",), i + 2
-        elif after == "for" and base in VERBS["seek"]:
-            item.words, stop = (f"{base} for",), i + 2
-        elif after == "at" and base in VERBS["look"]:
-            item.words, stop = (f"{base} at",), i + 2
+            item.words, item.stop = (f"{base} {after}",), self.tokens[i + 1].stop
+            item.text += f" {after}"
         elif after == "for" and base in VERBS["head"]:
             self.add(Kind.PREPOSITION, i + 1, i + 2, ("to",))
-            return i + 2
-        item.stop = self.tokens[stop - 1].stop
-        item.text = " ".join(t.text for t in self.tokens[i:stop])
-        return stop
+        else:
+            return i + 1
+        return i + 2
 
     def adverb(self, i: int) -> None:
         value = self.tokens[i].value
-        if not value[0]:
-            return  # "right" of "right behind"
-        if value[0] == "view":  # "(on the left) from my point of view" is on my left
-            if self.previous() is Kind.NOUN:
-                self.out[-1].words += value[1:]
-                self.out[-1].stop = self.tokens[i].stop
-            return
-        self.add(Kind.ADVERB, i, i + 1, value)
+        if value[0] == "view" and self.previous() is Kind.NOUN:
+            self.out[-1].words += value[1:]  # "(on the left) from my point of view" is on my left
+            self.out[-1].stop = self.tokens[i].stop
+        elif value[0] not in {"", "view"}:  # but "right" of "right behind"
+            self.add(Kind.ADVERB, i, i + 1, value)
 
     def pronoun(self, i: int) -> None:
-        if self.text(i) in SETS["questions_as_things"]:
-            item = self.add(Kind.NOUN, i, i + 1)  # "(drop) what you are holding"
-            item.pronoun = item.determined = True
-            self.add(Kind.RELATIVE, i, i + 1)
-            return
-        noun = PRONOUNS[self.text(i)]
         item = self.add(Kind.NOUN, i, i + 1)
-        item.noun, item.pronoun = noun, noun is None
+        item.noun = PRONOUNS.get(self.text(i))
+        item.pronoun = item.noun is None
+        if self.text(i) not in PRONOUNS:  # "(drop) what you are holding"
+            item.determined = True
+            self.add(Kind.RELATIVE, i, i + 1)
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
         if self.text(i) in SETS["reciprocal_starts"] and self.text(i + 1) in SETS["reciprocal_ends"]:
-            item = self.add(Kind.NOUN, i, i + 2, ("each other",))
-            item.pronoun = True
+            self.add(Kind.NOUN, i, i + 2, ("each other",)).pronoun = True
             return i + 2
         phrase = NounPhrase(self.tokens, i, self.first)
         if phrase.is_measure:

@@ -19,25 +19,32 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
         if clause is own or not clause.objects or clause.refused == TAKEN_BACK or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
-        if _only_places(more) and len(clause.objects) == 1:
+        if more.is_a("where") and len(clause.objects) == 1:
             noun.children += more.children  # "Top left? The big black one."
-            continue
-        if there and about_it(more) and more.noun is not None and more.start > noun.start and own.action in told:
-            noun.children.append(Item(Kind.PREPOSITION, more.start, more.start, "", ("with",), children=[more]))
-            continue
-        stands = more.text in SETS["stands_for"]
-        if not (more.pronoun or stands) or not (clause.statement or there or len(clause.objects) == 1):
-            continue
-        if "other" not in more.words and (stands or more.color is None or noun.color is None):
-            noun.color = noun.color or more.color
-            noun.words += more.words
-            noun.children += [child for child in more.children if child not in noun.children]
+        elif there and about_it(more) and more.noun is not None and more.start > noun.start and own.action in told:
+            noun.children.append(more.behind("with"))
+        elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
+            same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
+            if same and "other" not in more.words:
+                noun.color = noun.color or more.color
+                noun.words += more.words
+                noun.children += [child for child in more.children if child not in noun.children]
 
 
-def _only_places(noun: Item) -> bool:
-    """Whether a noun phrase says but where something is: "in the corner", "top left"."""
-    named = noun.noun or noun.color or noun.words or noun.plural or noun.count
-    return noun.pronoun and not named and not noun.text and bool(noun.children)
+def describe_landmarks(clauses: Sequence[Clause]) -> None:
+    """ "The laptop on the desk. The desk near the door.": what names a landmark again says more of it."""
+    for k, clause in enumerate(clauses):
+        more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else None
+        if more is None or not more.definite or more.noun is None:
+            continue
+        tops = [top for other in clauses[:k] for top in (*other.objects, *other.places)]
+        below = [node for top in tops for child in top.children for node in child.walk()]
+        again = [node for node in below if node.noun == more.noun and None in (node.color, more.color)]
+        if again and all(top.noun != more.noun for top in tops):
+            again[-1].color = again[-1].color or more.color
+            again[-1].words += more.words
+            again[-1].children += more.children
+            clause.objects = []
 
 
 def exists(clause: Clause) -> bool:
@@ -52,24 +59,19 @@ def about_it(noun: Item) -> bool:
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
-    several = [noun for noun in _mentions(clauses) if noun.noun is not None and noun.start < one.start]
-    several = [noun for noun in several if noun.plural or ("other" in one.words and noun.noun not in SETS["someone"])]
-    if (
-        not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses)
-    ):  # "The sofa. The bigger one."
-        several = [noun for noun in map(main_object, clauses) if noun and noun.noun and noun.start < one.start]
-    several = [noun for noun in several if all(node is not one for node in noun.walk())]
-    several = [noun for noun in several if noun not in {node for child in one.children for node in child.children}]
+    below = [node for child in one.children for node in child.children]
+    named = [noun for noun in _mentions(clauses) if noun.noun and noun.start < one.start and noun not in below]
+    named = [noun for noun in named if one not in noun.walk()]
+    several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
+    if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
+        several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if not several:
         return
     group = max(several, key=lambda noun: noun.start).copy()
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
     _in_the_middle(one, group)
-    if SETS["groups"].isdisjoint(group.words):
-        one.children += group.children
-    else:
-        one.children.append(Item(Kind.PREPOSITION, group.start, group.stop, "in", ("in",), children=[group]))
+    one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 
 def correct(clauses: Sequence[Clause]) -> None:
@@ -102,10 +104,9 @@ TAKEN_BACK = "it takes a command back"
 def _in_the_middle(one: Item, several: Item) -> None:
     """ "(There are five cones.) The one in the middle" is the middle one of the five."""
     for place in one.children:
-        if place.words == ("in",) and len(place.children) == 1 and place.children[0].noun in SETS["middles"]:
-            if not (place.children[0].children or place.children[0].words):
-                one.children.remove(place)
-                one.words += ("middle", *((f"of {several.count}",) if (several.count or 0) > 2 else ()))
+        if place.words == ("in",) and len(place.children) == 1 and place.children[0].is_a("middle"):
+            one.children.remove(place)
+            one.words += ("middle", *((f"of {several.count}",) if (several.count or 0) > 2 else ()))
             return
 
 
@@ -113,9 +114,7 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
     """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
     blocks", "this group") all that was said of it there."""
     earlier: list[Item] = []
-    for clause in clauses:
-        if clause is own:
-            break
+    for clause in clauses[: clauses.index(own)]:
         main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
         # What a sentence is about is rather meant again than what it only places that by.
         earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
@@ -125,7 +124,7 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
         if node.kind is not Kind.NOUN or not _names_again(node) or (node is target and node.pronoun):
             continue
         named = [noun for noun in reversed(earlier) if noun.start < before and _may_be(node, noun)]
-        named = [noun for noun in named if all(below is not node for below in noun.walk())]
+        named = [noun for noun in named if node not in noun.walk()]
         if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
             named = [noun for noun in named if noun.words or noun.color or noun.children]
         if named:
@@ -142,18 +141,14 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     if placed or own.action not in VERBS["take"]:
         return
     goal: Item | None = None
-    for clause in clauses[: next(k for k, clause in enumerate(clauses) if clause is own)]:
+    for clause in clauses[: clauses.index(own)]:
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
-        led = [clause.places[k].children[0] for k in range(len(clause.places)) if _leads(clause.places[k])]
+        led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
         named = (noun for noun in (main_object(clause), *led) if noun is not None)
         goal = next((noun for noun in named if noun.noun not in apart and noun.noun and not noun.plural), goal)
     if goal is not None and decisions.choose("route", CHOICES["route"]) == "there":
-        target.children.append(Item(Kind.PREPOSITION, goal.start, goal.start, "", ("near",), children=[goal.copy()]))
-
-
-def _leads(place: Item) -> bool:
-    return place.words[0] in PLACING["goals"] and place.words[0] not in PLACING["away"]
+        target.children.append(goal.copy().behind("near"))
 
 
 def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:
@@ -164,32 +159,25 @@ def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:
 
 
 def _names_again(node: Item) -> bool:
-    first = node.text.split()[0] if node.text else ""
+    first = node.text.split(" ")[0]
     if node.pronoun and node.noun is None:
-        bare = node.color is None and not node.words and not node.children
-        return bare and (first in SETS["stands_for"] or first in SETS["demonstratives"])
-    bare = not (node.color or node.words or node.children or node.count)
-    return first in SETS["demonstratives"] or (bare and first == "the")
+        return node.is_a("empty") and first in SETS["stands_for"] | SETS["demonstratives"]
+    return first in SETS["demonstratives"] or (first == "the" and node.is_a("empty") and not node.count)
 
 
 def _may_be(node: Item, noun: Item) -> bool:
     """Whether a noun phrase may be what another names again."""
-    if noun.noun is None or noun.noun in SETS["places"] | SETS["someone"] or noun.pronoun:
+    if noun.noun is None or noun.is_a("somewhere") or noun.pronoun:
         return False
-    if node.noun in SETS["groups"]:
-        return noun.plural
-    same = node.noun is None or node.noun in SETS["anything"] or _one_head(node.noun, noun.noun)
-    if not same:
-        return False
-    return node.color in (None, noun.color) and (node.plural == noun.plural or node.noun is None)
-
-
-def _one_head(one: str, other: str) -> bool:
-    return f" {other}".endswith(f" {one}") or f" {one}".endswith(f" {other}")  # "my tape", "the measuring tape"
+    if node.noun is None or node.noun in SETS["groups"]:
+        return noun.plural if node.noun else node.color in (None, noun.color)
+    one, other = f" {node.noun}", f" {noun.noun}"  # "my tape", "the measuring tape"
+    same = node.noun in SETS["anything"] or one.endswith(other) or other.endswith(one)
+    return same and node.color in (None, noun.color) and node.plural == noun.plural
 
 
 def _take_over(node: Item, noun: Item) -> None:
-    grouped = node.noun in SETS["groups"] and SETS["groups"].isdisjoint(noun.words)
+    grouped = node.noun in SETS["groups"] and not noun.is_a("grouped")
     group = (node.noun, *((f"of {noun.count}",) if noun.count else ())) if grouped else ()
     node.noun = node.noun if f" {node.noun}".endswith(f" {noun.noun}") else noun.noun
     node.color, node.count, node.plural = noun.color, noun.count, noun.plural

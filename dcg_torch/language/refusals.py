@@ -18,9 +18,7 @@ def talk(words: Sequence[str]) -> list[tuple[int, int, str]]:
     out: list[tuple[int, int, str]] = []
     for start, stop in sentences(words):
         said = " ".join(words[start:stop])
-        reason = next((reason for pattern, reason in REFUSALS if pattern.search(said)), None)
-        if MEETING[0].search(said):
-            reason = MEETING[1]
+        reason = next((reason for pattern, reason in (MEETING, *REFUSALS) if pattern.search(said)), None)
         if reason is not None:
             out.append((start, stop, reason))
     return out
@@ -32,14 +30,8 @@ def sentences(words: Sequence[str]) -> list[tuple[int, int]]:
     start = 0
     for i, word in enumerate([*words, "."]):
         if word in SETS["stops"]:
-            first = start
-            while first < i and words[first] in SETS["before_sentences"]:
-                first += 1
-            last = i
-            while last > first and words[last - 1] in SETS["before_sentences"]:
-                last -= 1
-            if first < last:
-                out.append((first, last))
+            said = [k for k in range(start, i) if words[k] not in SETS["before_sentences"]]
+            out += [(said[0], said[-1] + 1)] if said else []
             start = i + 1
     return out
 
@@ -56,14 +48,13 @@ def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int
     A clause is within one of the `parts`, unless an order begins in it; or it is talk by itself.
     """
     first = next((item for item in items if item.kind not in _BEFORE), items[0])
+    own = not first.start or words[first.start - 1] not in SETS["subordinates"]
     for start, stop, reason in parts:
         if start <= first.start < stop:
             acts = clause.verb is not None and not clause.verb.participle
             ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
-            own = words[first.start - 1] not in SETS["subordinates"]
             later = first.start > start and own and ordered and reason is not MEETING[1]
             clause.refused = None if later else reason
-    own = not first.start or words[first.start - 1] not in SETS["subordinates"]
     if clause.verb is first and clause.refused is None and own:
         said = " ".join(words[first.start : items[-1].stop])
         clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)

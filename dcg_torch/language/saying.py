@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin
-from dcg_torch.language.predicates import is_edge_of, is_side, last_thing, only_color, share_noun
+from dcg_torch.language.predicates import is_edge_of, last_thing, share_noun
 
 
 class NounPhrases:
@@ -31,145 +31,141 @@ class NounPhrases:
         self.not_colors: list[str] = []  # "(blue), not orange, not pink"
         self.denials: list[str] = []  # "not the bright one", which is no word of another thing
 
+    @property
+    def last(self) -> Item:
+        """The noun phrase just before."""
+        return self.nouns[-1] if self.nouns else END
+
     def noun(self, item: Item) -> None:
         """A noun phrase: a landmark, an object of the verb, or more of what was said before."""
-        place = self.preposition
         if item.words == ("each other",) and self.nouns:
             other = last_thing(self.nouns)
             item.noun, item.color = other.noun, other.color
-        if self.is_about_color(item, place):
-            return
-        if place is not None and (self.joined or not place.children):
-            self.landmark(item, place)
-        elif self.excluded and item.pronoun and (item.color or item.words):
+        if self.is_about_color(item) or self.is_rank(item):
             item.said = True
-            found = self.denials if item.determined else self.not_colors
-            found += [f"not {word}" for word in (item.color, *item.words) if word]
-            self.nouns += [item] if item.determined else []
+        elif self.preposition is not None and (self.joined or not self.preposition.children):
+            self.landmark(item, self.preposition)
         elif self.excluded:
-            item.said = True
-            self.nouns.append(item)  # what is said of it goes with it
-        elif self.is_inverted(item):
-            self.clause.objects.append(item)
-            self.nouns.append(item)
+            self.exclude(item)
+        elif self.nouns and item.noun and self.copula and not (self.clause.objects or self.relative):
+            self.mention(item)  # "behind the cube is a cone"
             for pending in self.pending:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
-            counts = item.pronoun and not SETS["ordinals"].isdisjoint(item.words)
-            self.merge(last_thing(self.nouns) if counts else self.nouns[-1], item)  # "... on the left that is second"
-        elif self.nouns and is_side(item) and not (self.and_joined and self.joined and is_side(self.nouns[-1])):
+            counts = item.pronoun and item.is_a("ordered")
+            self.merge(last_thing(self.nouns) if counts else self.last, item)  # "... on the left that is second"
+        elif self.nouns and item.is_a("side") and not (self.and_joined and self.joined and self.last.is_a("side")):
             self.side(item)  # but "on the left and right"
-        elif self.nouns and (self.is_bare_place(item) or self.is_bare_part(item)):
-            name = "with" if item.noun in SETS["parts"] else "in"
-            where = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,), children=[item])
-            last_thing(self.nouns).children.append(where)
+        elif self.nouns and self.is_bare(item):
+            last_thing(self.nouns).children.append(item.behind("with" if item.noun in SETS["parts"] else "in"))
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
             conjoin(item, self.nouns, self.pending, self.clause)
         elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
             self.leading_place(item)
-            self.clause.objects.append(item)
-            self.nouns.append(item)
+            self.mention(item)
+
+    def mention(self, item: Item) -> None:
+        """A noun phrase that the clause is about."""
+        self.clause.objects.append(item)
+        self.nouns.append(item)
+
+    def exclude(self, item: Item) -> None:
+        """The cube of "not the cube", and what "not the bright one", "not pink" says of the object."""
+        item.said = True
+        if item.is_a("color_word"):
+            found = self.denials if item.determined else self.not_colors
+            found += [f"not {word}" for word in (item.color, *item.words) if word]
+        if item.determined or not item.is_a("color_word"):
+            self.nouns.append(item)  # what is said of it goes with it
 
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
-        last, things = self.nouns[-1], SETS["anything"] | {None}
-        if last.noun not in things or item.noun in things | SETS["places"] | SETS["someone"] | SETS["measures"]:
+        things = SETS["anything"] | {None}
+        if self.last.noun not in things or item.noun in things | SETS["places"] | SETS["someone"] | SETS["measures"]:
             return False
-        told = last in self.clause.objects and last.text not in SETS["stands_for"] and item.color in {None, last.color}
-        return told and item.determined and self.joined and not self.and_joined
+        told = self.last in self.clause.objects and self.last.text not in SETS["stands_for"]
+        return told and item.color in {None, self.last.color} and item.determined and self.comma()
 
-    def is_bare_place(self, item: Item) -> bool:
-        """ "(blue fan,) top row": where the thing is, without a preposition."""
-        somewhere = item.noun in SETS["place_nouns"] and bool(item.words) and not item.color
-        return somewhere and not self.and_joined and self.clause.verb is None and not item.determined
+    def comma(self) -> bool:
+        """Whether a comma stands before."""
+        return self.joined and not self.and_joined
 
-    def is_bare_part(self, item: Item) -> bool:
-        """ "(screwdriver,) red handle": what it has, without a preposition."""
-        part = item.noun in SETS["parts"] and item.color is not None
-        return part and self.joined and not self.and_joined and not item.determined
+    def is_bare(self, item: Item) -> bool:
+        """ "(blue fan,) top row", "(screwdriver,) red handle": where the thing is or what it has, no preposition."""
+        place = item.is_a("bare_place") and not self.and_joined and self.clause.verb is None
+        return place or (item.is_a("bare_part") and self.comma())
 
-    def is_about_color(self, item: Item, place: Item | None) -> bool:
+    def is_about_color(self, item: Item) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
+        place = self.preposition
         inside = place is not None and not place.children and place.words[0] in PLACING["of_color"]
-        if item.noun in SETS["aspects"] and (inside or self.relative):
-            pass  # "blue in color"
-        elif inside and self.nouns and only_color(item):
-            self.merge(self.nouns[-1], item)
-        else:
+        aspect = item.noun in SETS["aspects"]  # "blue in color"
+        if not (inside and (aspect or (self.nouns and item.is_a("color")))):
+            return aspect and self.relative
+        if not aspect:
+            self.merge(self.last, item)
+        return self.drop_preposition()
+
+    def is_rank(self, item: Item) -> bool:
+        """Whether the noun phrase says along what is counted: "(the second) from the left", "on the rightmost"."""
+        place = self.preposition
+        if place is None or not self.nouns:
             return False
-        item.said = True
-        if inside:
-            self.pending.pop()
-            self.preposition = None
+        if place.words[0] in PLACING["ranks_from"]:
+            counted = next((n for n in (self.last, last_thing(self.nouns)) if is_edge_of(n, item, place)), None)
+            if counted is not None:
+                counted.words += (f"from {'the ' if item.noun in SETS['sides'] else ''}{item.noun}",)
+                return self.drop_preposition()
+        if item.noun is None and item.words and all(word.endswith("most") for word in item.words):
+            self.say(last_thing(self.nouns), item.words)
+            return self.drop_preposition()
+        return False
+
+    def drop_preposition(self) -> bool:
+        """Forget the preposition that was read last: what it says has been said otherwise."""
+        self.pending.pop()
+        self.preposition = None
         return True
 
     def landmark(self, item: Item, place: Item) -> None:
         """What a preposition is about; the second thing that it is between."""
-        if item.negative or item.noun == "nothing":
-            place.words = ("without",) if place.words[0] == "with" else place.words
+        if item.is_a("nothing") and place.words == ("with",):
+            place.words = ("without",)
         if place.children:
             share_noun(place.children[-1], item)
-        elif place.words[0] in PLACING["ranks_from"] and (counted := self.counted(item, place)) is not None:
-            article = "the " if item.noun in SETS["sides"] else ""
-            counted.words += (f"from {article}{item.noun}",)  # "the second from the left"
-            self.pending.pop()
-            self.preposition = None
-            item.said = True
-            return
-        elif item.noun is None and item.words and self.nouns and all(word.endswith("most") for word in item.words):
-            self.say(last_thing(self.nouns), item.words)  # "the cone on the rightmost"
-            self.pending.pop()
-            self.preposition = None
-            item.said = True
-            return
         if place.children or place.words[0] not in PLACING["between"] or item.plural:
             self.preposition = None
         place.children.append(item)
         if place.words != ("of",) or item.determined or not self.nouns:
             self.nouns.append(item)  # what follows "a pallet of tires" is said of the pallet
 
-    def counted(self, edge: Item, place: Item) -> Item | None:
-        """What is counted from an edge: the noun phrase before, or the thing that it describes."""
-        several = (self.nouns[-1], last_thing(self.nouns)) if self.nouns else ()
-        return next((noun for noun in several if is_edge_of(noun, edge, place)), None)
-
-    def is_inverted(self, item: Item) -> bool:
-        """The cone of "behind the cube is a cone"."""
-        landmarks = [child for pending in self.pending for child in pending.item.children]
-        starts = bool(landmarks) and not self.clause.objects and all(noun in landmarks for noun in self.nouns)
-        return starts and self.copula and not self.relative and item.noun is not None
-
     def leading_place(self, item: Item) -> None:
         """ "Top left corner, red cube": the place named first is where the thing is."""
         objects = self.clause.objects
-        if self.clause.verb is not None or len(objects) != 1 or objects[0].noun not in SETS["places"]:
-            return
-        if item.noun or item.words:
-            where = objects.pop()
-            place = Item(Kind.PREPOSITION, where.start, where.stop, where.text, ("in",), children=[where])
-            item.children.append(place)
+        if self.clause.verb is None and len(objects) == 1 and objects[0].is_a("place") and (item.noun or item.words):
+            item.children.append(objects.pop().behind("in"))
 
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
-        last = self.nouns[-1]
-        if only_color(item) and last.stop == item.start and last.noun is None and last.color is None:
+        last = self.last
+        if item.is_a("color") and last.stop == item.start and last.noun is None and last.color is None:
             return True  # "something red"
-        ordered = not (SETS["ordinals"].isdisjoint(item.words) or item.determined)  # "the cone second from ..."
+        ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
         if last.noun in SETS["places"] | SETS["robot"] or (last.pronoun and not ordered):
             return False
         if not item.determined:
-            return item.color is not None or bool(item.words)
-        return not self.and_joined and bool(item.color or item.words or item.text.endswith(" one"))
+            return item.is_a("color_word")
+        return not self.and_joined and (item.is_a("color_word") or item.text.endswith(" one"))
 
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
         if self.denied:
-            things = () if predicate.pronoun or predicate.noun is None else (predicate.noun,)
-            self.say(noun, (*(() if predicate.color is None else (predicate.color,)), *predicate.words, *things))
+            thing = None if predicate.pronoun else predicate.noun
+            self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
             return
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
@@ -188,14 +184,12 @@ class NounPhrases:
 
     def side(self, item: Item) -> None:
         """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it; "move it left" too."""
-        place = Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("on",), children=[item])
-        within = self.nouns[-1].noun in SETS["places"] and self.nouns[-1].stop == item.start  # "the table center"
-        noun = self.nouns[-1] if within else last_thing(self.nouns)
+        within = self.last.is_a("place") and self.last.stop == item.start  # "the table center"
+        noun = self.last if within else last_thing(self.nouns)
         item.said = True
         if not self.says_where():
-            place.words = ("to",)
-            self.pending.append(Pending(place, list(self.nouns), False, False))
+            self.pending.append(Pending(item.behind("to"), list(self.nouns), False, False))
         elif item.determined or item.noun is None:
-            noun.children.append(place)
+            noun.children.append(item.behind("on"))
         else:
             self.say(noun, (*item.words, item.noun))

@@ -1,14 +1,15 @@
 """Words -> tagged tokens, in several ways: the likeliest paths through what each word and phrase may be.
 
 A path's log-weight is the sum of the weights of its tokens and of each tag after the one before (`data/grammar.yaml`).
-The best paths are found exactly: weights of the best beginnings first, then a search from the end.
+The best paths are found exactly, from left to right: of what may follow only a beginning's last tag counts.
 """
 
 from __future__ import annotations
 
-import heapq
-from collections.abc import Collection, Iterator, Sequence
+from collections import defaultdict
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Final, TypeAlias
 
 from dcg_torch.english.forms import singular
@@ -45,8 +46,8 @@ class Path:
     weight: float
 
 
-_Chain: TypeAlias = "tuple[Token, _Chain] | None"
-"""Tokens from the first to the last, each with those behind it: partial paths share their ends."""
+_Start: TypeAlias = tuple[float, tuple[Token, ...]]
+"""The tokens of the beginning of a command, and their log-weight."""
 
 
 def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[str], k: int) -> list[Path]:
@@ -54,53 +55,24 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
 
     `vocabulary` holds nouns that are known, `names` words that are written like names, which have no plural.
     """
-    edges = _Lattice(words, vocabulary, names).edges()
-    n = len(words)
-    # best[i][tag]: the weight of the best beginning that ends before word i with that tag.
-    best: list[dict[str, float]] = [{} for _ in range(n + 1)]
-    into: list[list[tuple[Token, float]]] = [[] for _ in range(n + 1)]
-    best[0][START] = 0.0
-    for i in range(n):
-        if not best[i]:
-            continue
-        for token, weight in edges[i]:
-            into[token.stop].append((token, weight))
-            here, tag = best[token.stop], token.tag
-            score = weight + max(w + _AFTER[before][tag] for before, w in best[i].items())
-            if score > here.get(tag, -1e9):
-                here[tag] = score
-    return _backwards(best, into, n, k)
+    # starts[i][tag]: beginnings that end before word i with a token of that tag.
+    starts: list[defaultdict[str, list[_Start]]] = [defaultdict(list) for _ in range(len(words) + 1)]
+    starts[0][START] = [(0.0, ())]
+    for i, edges in enumerate(_Lattice(words, vocabulary, names).edges()):
+        best: dict[str, list[_Start]] = {}
+        for token, weight in edges if starts[i] else ():
+            if token.tag not in best:
+                best[token.tag] = _best(starts[i], token.tag, k)
+            starts[token.stop][token.tag] += [(score + weight, (*path, token)) for score, path in best[token.tag]]
+    whole = _best(starts[-1], END, k)
+    return [Path(path, weight) for weight, path in whole if weight >= whole[0][0] - _NEGLIGIBLE]
 
 
-def _backwards(best: list[dict[str, float]], into: list[list[tuple[Token, float]]], n: int, k: int) -> list[Path]:
-    """Search from the end: a partial path's bound is exact, so that complete paths come out in order."""
-    heap: list[tuple[float, int, int, str, float, _Chain]] = []
-    for tag, weight in best[n].items():
-        behind = _AFTER[tag][END]
-        heapq.heappush(heap, (-(weight + behind), n, len(heap), tag, behind, None))
-    found: list[Path] = []
-    number = len(heap)
-    while heap and len(found) < k:
-        bound, at, _, tag, behind, chain = heapq.heappop(heap)
-        if at == 0:
-            found.append(Path(tuple(_unrolled(chain)), -bound))
-            continue
-        for token, weight in into[at]:
-            if token.tag != tag:
-                continue
-            for before, start in best[token.start].items():
-                after = behind + weight + _AFTER[before][tag]
-                if found and start + after < found[0].weight - _NEGLIGIBLE:
-                    continue
-                number += 1
-                heapq.heappush(heap, (-(start + after), token.start, number, before, after, (token, chain)))
-    return found
-
-
-def _unrolled(chain: _Chain) -> Iterator[Token]:
-    while chain is not None:
-        token, chain = chain
-        yield token
+def _best(starts: Mapping[str, list[_Start]], tag: str, k: int) -> list[_Start]:
+    """The `k` likeliest beginnings before a token of a tag."""
+    found = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
+    found = [(round(score, 6), path) for score, path in found]  # so that equal ones are equal, and stay as they come
+    return sorted(found, key=itemgetter(0), reverse=True)[:k]
 
 
 class Reader:
@@ -144,7 +116,7 @@ class _Lattice:
         found = match_color(self.words, i)
         if found is not None and found[1] > i + 1:
             out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
-        for part in (self._prepositions, self._phrases, self._compounds, self._names):
+        for part in (self._prepositions, self._phrases, self._compounds):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
@@ -164,26 +136,26 @@ class _Lattice:
         match = lx.match_preposition(self.joined, self.offsets[i])
         word = self.words[i]
         if match is not None:
-            stop = i + match.length
-            if not match.normal:  # "all the way" of "all the way to"
-                out.append((Token(i, stop, "ADV", match.raw, ("",)), 0.5))
+            raw, normal, more = match
+            stop = i + raw.count(" ") + 1
+            if not normal:  # "all the way" of "all the way to"
+                out.append((Token(i, stop, "ADV", raw, ("",)), 0.5))
             else:
-                rule = "long_preposition" if match.length > 1 else "preposition"
-                out.append(self._new(i, stop, "P", rule, (match.normal,), match.weight))
-            if match.length > 1 and word in lx.PLACING["single"]:
+                rule = "long_preposition" if " " in raw else "preposition"
+                out.append(self._new(i, stop, "P", rule, (normal,), more))
+            if " " in raw and word in lx.PLACING["single"]:
                 out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
-        if word == "to":
-            out.append(self._new(i, i + 1, "INF", "infinitive"))
         return out
 
     def _phrases(self, i: int) -> list[tuple[Token, float]]:
-        """How a thing stands, and ordinals of several words."""
+        """How a thing stands, numbers that are names, ordinals of several words."""
         out = []
         for pattern, tag, value, weight in lx.PHRASES:
             match = pattern.match(self.joined, self.offsets[i])
             if match is not None:
                 way = match.groupdict().get("way", "")
-                words = tuple(part.replace("<way>", lx.NORMAL.get(way, way)) for part in value)
+                way = str(lx.NUMBERS.get(way, lx.NORMAL.get(way, way)))
+                words = tuple(part.replace("<way>", way) for part in value)
                 out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
         return out
 
@@ -196,12 +168,3 @@ class _Lattice:
             if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
                 return [self._new(i, i + length, tag, "compound", name) for tag in ("N", "NM")]
         return []
-
-    def _names(self, i: int) -> list[tuple[Token, float]]:
-        """ "(cube) number 3"."""
-        if self.words[i] not in lx.SETS["names"] or i + 1 >= len(self.words):
-            return []
-        number = self.words[i + 1]
-        if not (number.isdecimal() or number in lx.NUMBERS):
-            return []
-        return [(Token(i, i + 2, "NAME", f"{self.words[i]} {number}", (str(lx.NUMBERS.get(number, number)),)), 1.0)]

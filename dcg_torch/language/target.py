@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,15 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
-from dcg_torch.language.references import about_it, arrive, describe_later, exists, one_of_several, refer
+from dcg_torch.language.references import (
+    about_it,
+    arrive,
+    describe_landmarks,
+    describe_later,
+    exists,
+    one_of_several,
+    refer,
+)
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _FIRST_ORDER = "earlier_goal"
@@ -35,41 +44,42 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            found.append(Mention(target, clause, _object_score(clause, target) + penalty))
+            told = _is_told(target, clause, clauses) and bool(target.noun or any(m.noun.plural for m in found))
+            found.append(Mention(target, clause, _object_score(clause, target, told) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
-            child = place.children[0]
-            if child.noun in SETS["directions"] | {"you"} and not child.children:
-                continue
-            score = _place_score(place.words[0], clause.action, target is not None)
-            found.append(Mention(child, clause, score + penalty, place))
+            if not place.children[0].is_a("no_goal"):
+                score = _place_score(place.words[0], clause.action, target is not None)
+                found.append(Mention(place.children[0], clause, score + penalty, place))
     return found
 
 
-def _object_score(clause: Clause, target: Item) -> float:
+def _is_told(target: Item, clause: Clause, clauses: Sequence[Clause]) -> bool:
+    """Whether a clause says which it is: "(until you see the window,) it is the plant next to it"; or names it last."""
+    if not target.definite or target.plural or clause.action not in SETS["be"] | {""}:
+        return False
+    if clause.verb is None:
+        return clause is clauses[-1] and clause.sentence > clauses[0].sentence
+    before = (noun for other in clauses for noun in other.objects)
+    return any(noun.text in SETS["stands_for"] and noun.stop == clause.verb.start for noun in before)
+
+
+def _object_score(clause: Clause, target: Item, told: bool) -> float:
     verb = clause.action
     if clause.acting:
         return TARGETS["acting"]
-    if verb in VERBS["shun"]:
-        return TARGETS["shun"]
-    if exists(clause) and ("other" in target.words or about_it(target)):
-        return TARGETS["another"]
+    if told:
+        return TARGETS["identified" if verb else "named_last"]
     if clause.statement or not verb or exists(clause):
-        return TARGETS["statement"]
-    for name in ("look", "put", "take", "reach"):
-        if verb in VERBS[name] - VERBS["open"] and not (name == "look" and verb in VERBS["take"]):
-            return TARGETS[name]
-    return TARGETS["reach"] if verb in VERBS["reach"] else TARGETS["other"]
+        another = exists(clause) and ("other" in target.words or about_it(target))
+        return TARGETS["another" if another else "statement"]
+    return next((TARGETS[name] for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), TARGETS["other"])
 
 
 def _place_score(name: str, verb: str, beside_object: bool) -> float:
-    if name in PLACING["aside"]:
-        return TARGETS["aside_place"]
-    if name in PLACING["away"]:
-        return TARGETS["away_place"]
-    score = TARGETS["strong_place" if name in PLACING["toward"] else "goal_place"]
-    score = score if name in PLACING["goals"] else TARGETS["place"]
+    kinds = (kind for kind in CHOICES["target_places"].split() if name in PLACING[kind])
+    score = next((TARGETS[f"{kind}_place"] for kind in kinds), TARGETS["place"])
     return min(score, TARGETS["beside_object"]) if verb in VERBS["look"] or beside_object else score
 
 
@@ -79,18 +89,17 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
+    describe_landmarks(clauses)
     found = choices(clauses)
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
-    verb = chosen.clause.verb
-    children: list[Item]
+    verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
-        children = [chosen.place, *(place for place in chosen.clause.places if place is not chosen.place)]
+        children = [chosen.place, *(place for place in places if place is not chosen.place)]
     else:
-        children = [chosen.noun, *_beside(chosen), *chosen.clause.places]
-        if not chosen.clause.places:
-            children += _later_destination(chosen, clauses)
+        children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
+        chosen.noun.children += _listed(chosen)
     describe_later(chosen.noun, chosen.clause, clauses)
     if chosen.noun.noun is None:
         one_of_several(chosen.noun, clauses)
@@ -105,11 +114,10 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     best = max(choice.score for choice in found)
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
-    step = CHOICES["target_step"]
     options = {f"likeliest {first}": 0.0}
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
-            name, weight = _relation(choice, found[first]), step * (choice.score - best - 1.0)
+            name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
             if name == _FIRST_ORDER and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
@@ -134,35 +142,42 @@ def _relation(other: Mention, chosen: Mention) -> str:
 def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
     noun = chosen.noun
-    empty = noun.color is None and not noun.words and not noun.children
-    if noun.pronoun and (empty or noun.text in SETS["stands_for"]):
+    if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
         earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         if handled and chosen.place is None:
             return handled[-1]
         if earlier:
             return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
-        later = (
-            other for other in found[found.index(chosen) :] if other.clause.verb is None and not other.noun.pronoun
-        )
-        return next(later, chosen)  # "Bring it to me. The mug."
+        later = [other for other in found[found.index(chosen) :] if not other.noun.pronoun]
+        return next((other for other in later if other.clause.verb is None), chosen)  # "Bring it to me. The mug."
     return chosen
 
 
 def _beside(chosen: Mention) -> list[Item]:
     """The noun phrases that are meant beside the chosen one."""
     objects = chosen.clause.objects
-    at = next(k for k, noun in enumerate(objects) if noun is chosen.noun)
-    later = objects[at + 1 :]
+    later = objects[objects.index(chosen.noun) + 1 :]
     later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
-    named = [noun for noun in later if not noun.pronoun or noun.color is not None or noun.words]
-    return [noun for noun in named if noun.noun not in SETS["directions"] or noun.children]
+    named = [noun for noun in later if not noun.pronoun or noun.is_a("color_word")]
+    return [noun for noun in named if not noun.is_a("direction")]
+
+
+def _listed(chosen: Mention) -> list[Item]:
+    """ "Bald man, glasses": what a list without a verb names behind its first noun phrase, that has."""
+    if chosen.clause.verb is not None:
+        return []
+    objects, beside = chosen.clause.objects, _beside(chosen)
+    later = [
+        noun for before, noun in itertools.pairwise(objects[objects.index(chosen.noun) :]) if before.stop < noun.start
+    ]
+    listed = [n for n in later if n.noun and n not in beside and not (n.definite or n.is_a("apart"))]
+    return [noun.behind("without" if noun.negative else "with") for noun in listed]
 
 
 def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:
     """ "pick up the cube and put it on the block": where a later clause puts "it"."""
-    at = next(k for k, clause in enumerate(clauses) if clause is chosen.clause)
-    for clause in clauses[at + 1 :]:
+    for clause in clauses[clauses.index(chosen.clause) + 1 :]:
         if clause.action in VERBS["put"] and clause.places and all(noun.pronoun for noun in clause.objects):
             return clause.places
     return []

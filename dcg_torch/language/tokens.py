@@ -91,13 +91,9 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
 @functools.lru_cache(8192)
 def is_english(word: str) -> bool:
     """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
-    if word in english() or word in PRONOUNS or word in NUMBERS or word in NORMAL:
-        return True
-    if any(word in words for words in (*SETS.values(), *PLACING.values())):
-        return True
-    if singular(word) in english() or verb(word) in english():
-        return True
-    return is_compared(word)
+    closed = (PRONOUNS, NUMBERS, NORMAL, *SETS.values(), *PLACING.values())
+    forms = {word, singular(word), verb(word)}
+    return not english().keys().isdisjoint(forms) or is_compared(word) or any(word in words for words in closed)
 
 
 @functools.lru_cache(16)

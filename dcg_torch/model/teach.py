@@ -18,6 +18,7 @@ from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.tables import Tables
 from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
     GroundEncoded,
@@ -135,7 +136,8 @@ def _all_readings(model: Teachable) -> GroundAll:
 
     def ground(lesson: Lesson) -> list[Solution]:
         world = with_known(lesson.world, model.known_types)
-        search = SharedSearch(WorldEncoder(model.features, world), model.factor, model.variant.beam)
+        tables = Tables(model.features, model.factor)
+        search = SharedSearch(WorldEncoder(model.features, world), tables, model.variant.beam)
         return [search.ground(reading.tree) for reading in lesson.readings]
 
     return ground

@@ -12,6 +12,8 @@ from dcg_torch.scene.order import TIE, Floats
 
 _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
+_EVEN = 1.2
+"""Steps from row to row of a rack are at most so many times as high as others."""
 _ROWS, _COLUMNS = 2, 3
 """A wall of blocks is seldom so large; a page of pictures mostly is."""
 
@@ -27,7 +29,8 @@ def laid_flat(position: Floats) -> Floats:
         return position
     spot = _SPOT * np.ptp(seen[:, 1])
     beside = np.abs(seen[:, None, 1] - seen[None, :, 1]) <= spot
-    below = seen[None, :, 2] < seen[:, None, 2] - TIE
+    apart = seen[:, None, 2] - seen[None, :, 2]
+    below = (apart > TIE) & (apart < _next_row(seen[:, 2]))
     lowest = seen[:, 2] <= seen[:, 2].min() + TIE
     if (lowest | (beside & below).any(axis=1)).all() and not _is_full_grid(beside, seen[:, 2]):
         return position
@@ -35,6 +38,13 @@ def laid_flat(position: Floats) -> Floats:
     flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
+
+
+def _next_row(height: Floats) -> float:
+    """How far below a thing what bears it is at most; where rows are even, one that is two rows below bears none."""
+    steps = np.diff(np.unique(np.round(height / TIE))) * TIE
+    even = len(steps) >= _ROWS and steps.max() <= _EVEN * steps.min()
+    return 1.5 * float(steps.max()) if even else np.inf
 
 
 def _is_full_grid(beside: NDArray[np.bool_], height: Floats) -> bool:
