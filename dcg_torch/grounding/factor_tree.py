@@ -64,7 +64,7 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
         return _factor_tree(tree, frozenset(), False, "")
     heights = [o.position[2] for o in world.objects if o.position is not None]
     flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    return _factor_tree(tree, heads(o.type for o in world.objects if o.type), flat, scene_kind(world))
+    return _factor_tree(tree, heads(world.classes), flat, scene_kind(world))
 
 
 @functools.lru_cache(maxsize=1024)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
+from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.describing import (
     comparison_set,
     highest,
@@ -289,12 +289,13 @@ class Search:
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
-        if log_odds is None:
-            return found
         there = self.encoder.perceived[: found.scores.shape[1]]
-        totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
-        shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
-        if not np.isfinite(shift):
+        if log_odds is None:
+            shift = less_for_many_types(self.encoder)
+        else:
+            totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
+            shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
+        if shift == 0.0 or not np.isfinite(shift):
             return found
         return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
 
