@@ -58,7 +58,7 @@ DISCS = [
     [
         ("the upper large white one", "f"),
         ("the lower of the two big white ones", "h"),
-        ("the big circle near the top", "d"),
+        ("the lowest black circle", "e"),
         ("the leftmost small circle", "b"),
         ("the lowest circle", "h"),
         ("the highest circle", "c"),

@@ -9,13 +9,11 @@ from dataclasses import replace
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
+from dcg_torch.scene.upright import on_one_level
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
-
-_LEVEL = 0.02
-"""Metres of height within which all stands on one level."""
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:
@@ -62,9 +60,7 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     """
     if world is None:
         return _factor_tree(tree, frozenset(), False, "")
-    heights = [o.position[2] for o in world.objects if o.position is not None]
-    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    return _factor_tree(tree, heads(world.classes), flat, scene_kind(world))
+    return _factor_tree(tree, heads(world.classes), on_one_level(world), scene_kind(world))
 
 
 @functools.lru_cache(maxsize=1024)

@@ -194,7 +194,8 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = (parts or is_sized(tree.phrase)) and len(others) < len(own)
+        told = parts or is_sized(tree.phrase) or tree.phrase.color is not None or tree.phrase.look
+        some = told and len(others) < len(own)
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 

@@ -174,7 +174,7 @@ def _listed(chosen: Mention) -> list[Item]:
     later = [
         noun for before, noun in itertools.pairwise(objects[objects.index(chosen.noun) :]) if before.stop < noun.start
     ]
-    listed = [n for n in later if n.noun and n not in beside and not (n.definite or n.is_a("apart"))]
+    listed = [n for n in later if n.is_a("named") and n not in beside and not (n.definite or n.is_a("apart"))]
     return [noun.behind("without" if noun.negative else "with") for noun in listed]
 
 

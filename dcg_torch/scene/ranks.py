@@ -112,9 +112,6 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
-    level = z[where.solid & np.isfinite(z)]
-    if len(level) and np.ptp(level) <= TIE:
-        z = x  # of what lies on one level, or of a picture, the lowest is what is seen lowest: the nearest
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
     volume, height = np.array([bulk(s) for s in sizes]), np.array([s[2] for s in sizes])
