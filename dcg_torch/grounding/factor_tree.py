@@ -8,6 +8,7 @@ from dataclasses import replace
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
+from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
@@ -72,7 +73,8 @@ def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
     objects = () if world is None else world.objects
     heights = [o.position[2] for o in objects if o.position is not None]
     flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    tree = in_plain_words(tree, heads(o.type for o in objects if o.type), flat=flat)
+    upright = world is not None and not flat and is_upright(objects, world.viewer or world.robot)
+    tree = in_plain_words(tree, heads(o.type for o in objects if o.type), flat=flat or upright, upright=upright)
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)

@@ -194,7 +194,9 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = (parts or is_sized(tree.phrase)) and len(others) < len(own)
+        some = len(others) < len(own) and bool(
+            parts or is_sized(tree.phrase) or of_attributes(tree.phrase.words, self.encoder)
+        )
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 

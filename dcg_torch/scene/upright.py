@@ -5,10 +5,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.scene.order import TIE, Floats
+from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import to_robot_frame
 
 _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
@@ -38,6 +42,15 @@ def laid_flat(position: Floats) -> Floats:
     flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
+
+
+def is_upright(objects: Sequence[Object], viewer: Pose | None) -> bool:
+    """Do objects stand as on a page or a wall that the viewer has before them?"""
+    there = np.array([o.position for o in objects if o.position is not None], dtype=np.float64).reshape(-1, 3)
+    if len(there) < 3 or np.ptp(there[:, 2]) <= TIE:
+        return False
+    there[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), there[:, :2])
+    return laid_flat(there) is not there
 
 
 def _next_row(height: Floats) -> float:
