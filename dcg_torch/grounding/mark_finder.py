@@ -10,6 +10,7 @@ from dcg_torch.names.marks import Mark, Marks, mark_words
 from dcg_torch.names.normal import singular
 
 _TOKEN: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+_SHORTENED: Final = ("no", "nr", "num")
 _JOINED: Final = 4  # words that may be one mark
 
 
@@ -86,7 +87,10 @@ class _Finder:
     def _joined(self, start: int, stop: int) -> bool:
         """Are words apart by spaces or hyphens alone?"""
         ends = zip(self.tokens[start : stop - 1], self.tokens[start + 1 : stop], strict=True)
-        return all(set(self.text[one.end() : other.start()]) <= set(" -_'#") for one, other in ends)
+        return all(
+            set(self.text[one.end() : other.start()]) <= set(" -_'#" + "." * (one.group().lower() in _SHORTENED))
+            for one, other in ends
+        )
 
     def _is_name(self, i: int, stop: int) -> bool:
         """Is a number or a letter a name here, and no count and no word of its own?"""

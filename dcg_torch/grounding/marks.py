@@ -42,7 +42,7 @@ def heard(
         vocabulary: the words that are known.
         things: what is there.
     """
-    things = tuple(things)
+    things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
     if marks is None:
         return parse(text, vocabulary)

@@ -231,11 +231,16 @@ def is_strange(word: str) -> bool:
     return word.isdecimal() or unheard_of(word)
 
 
+def _may_be_shape(key: str) -> bool:
+    """Shapes are values of a key that says so, or parts of the names of classes: "T piece"."""
+    return not key or _SHAPE in key.split(" ")
+
+
 def _shapes(names: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> dict[str, set[tuple[str, str]]]:
     """Other names of the shapes that are there, as people call them."""
     found: dict[str, set[tuple[str, str]]] = {}
     for group in mark_words()["shapes"]:
-        meant = {one for one, words in names if _SHAPE in one[0].split(" ") and " ".join(words) in group}
+        meant = {one for one, words in names if _may_be_shape(one[0]) and " ".join(words) in group}
         for name in group if meant else ():
             found.setdefault(solid_name(str(name).split()), set()).update(meant)
     return found
