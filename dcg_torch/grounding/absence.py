@@ -10,6 +10,7 @@ exact about places than about names, and of a thing that is not there nobody kno
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -38,6 +39,9 @@ _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+
+_TYPES = 4
+"""Hypothetical objects of the hand-made examples, from which their weights come: of three types, and of none known."""
 
 
 def judges_absence(encoder: WorldEncoder) -> bool:
@@ -68,6 +72,18 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     if phrase.words:
         odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
     return _RARE + float((strange + odd)[seen].min())
+
+
+def less_for_many_types(encoder: WorldEncoder) -> float:
+    """What to add to the log-scores of hypothetical objects where absence is not judged by names, all having been seen.
+
+    There is one for each type that is known. Knowing more types makes it no likelier that a command means what is not
+    there, so they share what those of the first types have together.
+    """
+    unseen = [o for o in encoder.world.objects if o.hypothetical]
+    if not unseen or not all(LOOKED_ROUND in o.attributes for o in unseen):
+        return 0.0
+    return min(0.0, math.log(_TYPES / len(unseen)))
 
 
 def _contradicted(words: Sequence[str], thing: Object) -> float:

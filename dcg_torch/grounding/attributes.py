@@ -39,7 +39,7 @@ def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
     keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {_HELD})
     if not keys:
         return tree
-    types = {o.type for o in world.objects if o.type is not None and not o.type.startswith(OPAQUE)}
+    types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
     return _Speaking(keys, tuple(sorted(types)), colored).root(tree)
 

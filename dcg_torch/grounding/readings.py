@@ -194,7 +194,7 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
     if not shown and not named and not valued:
         return tree
     words = _words(text)
-    several = shown and _speaks_of_others(tree, {o.type for o in world.objects if o.type is not None})
+    several = shown and _speaks_of_others(tree, world.classes)
     values = stated_values(words) if valued else ()
     if named or several:
         tree = _each_told(tree, compared=named)
@@ -202,7 +202,7 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
     return _told(tree, words if shown else (), values)
 
 
-def _speaks_of_others(tree: ParseTree, types: set[str]) -> bool:
+def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
     """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
     _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
     return any(names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") for noun in others)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
+from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.describing import (
     comparison_set,
     highest,
@@ -247,10 +247,9 @@ class Search:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
         known: dict[tuple[int, ...], float] = {}
         n, own = len(self.encoder.world.meanable), values.tolist()
-        keys = [(rest, *sorted(special.values())) for rest, special in found]
-        for rest, *special in dict.fromkeys(keys):
-            times = [n - len(special), *(1 for _ in special)]
-            known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
+        keys = [(rest, *special.values()) for rest, special in found]
+        for key in dict.fromkeys(keys):
+            known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
         return [known[key] for key in keys]
 
     def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
@@ -292,12 +291,13 @@ class Search:
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
-        if log_odds is None:
-            return found
         there = self.encoder.perceived[: found.scores.shape[1]]
-        totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
-        shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
-        if not np.isfinite(shift):
+        if log_odds is None:
+            shift = less_for_many_types(self.encoder)
+        else:
+            totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
+            shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
+        if shift == 0.0 or not np.isfinite(shift):
             return found
         return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
 
@@ -307,15 +307,15 @@ class Search:
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
-        kind, things = GROUNDING_OF[scored.tree.phrase.kind], self.encoder.all
+        tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
+        kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all
         found, scores = [], scored.scores.reshape(-1)
         _, n, m = scored.scores.shape
         best = highest(scores, beam)
         for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
-            (c, j), p = divmod(flat // m, n), flat % m
-            child = Child(Grounding(kind, things[j]), scored.meant[p])
-            below = scored.combos[c]
-            if scored.modifiers:
-                below = (*below, *(modifier.hypothesis(j, things[j]) for modifier in scored.modifiers))
-            found.append(Hypothesis(scored.tree, child, below, score))
+            c, j, p = flat // (m * n), flat // m % n, flat % m
+            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
+            if modifiers:
+                below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
+            found.append(Hypothesis(tree, child, below, score))
         return found

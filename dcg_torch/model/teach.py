@@ -30,7 +30,7 @@ from dcg_torch.learning.landmarks import (
     path_examples,
     said_of_words,
 )
-from dcg_torch.learning.learner import Experience, Learner
+from dcg_torch.learning.learner import Experience, Learner, Taught
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.readings import GroundAll, in_meant_readings
 from dcg_torch.learning.trainable import taught_mask
@@ -122,7 +122,7 @@ def teach_corpus(
     parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
     model.learner = model.learner.with_frames(frames).with_readings(readings)
     # What was known before gives way to as much evidence as any.
-    model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model)
+    model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model, said)
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
     fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
@@ -169,10 +169,11 @@ def _fit(
     return fired
 
 
-def _as_if_named(model: Teachable) -> NDArray[np.float64]:
+def _as_if_named(model: Teachable, said: Taught) -> NDArray[np.float64]:
     """(P, L, G) what makes a type that a word was settled on as good as one that is called by the word.
 
-    Where all that is there is of one type, no choice tells that the word names it, and yet it does.
+    Where all that is there is of one type, no choice tells that the word names it, and yet it does. Where there was a
+    choice and other types were meant it does not: "mug" in a kitchen that has mugs and cups.
     """
     features = model.features
     odds = np.zeros(features.shape)
@@ -180,7 +181,7 @@ def _as_if_named(model: Teachable) -> NDArray[np.float64]:
         symbols = model.learner.symbols
         for word, type_ in ((w, symbols[w].type) for w in sorted(model.learner.settled & symbols.keys())):
             row, column = features.language.get(f"noun: {word}"), features.grounding.get(f"type: {type_}")
-            if row is not None and column is not None:
+            if row is not None and column is not None and not said.denies(word, type_):
                 odds[row, column] = min(_NAMED, log_odds(word, word) - log_odds(word, type_))
     return correspondence_signs(model.factor)[:, None, None] * odds
 
