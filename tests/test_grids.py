@@ -107,7 +107,7 @@ PAGE = {"a": (0.5, 1.1, "red"), "b": (-0.4, 1.0, "blue"), "c": (0.1, 0.7, "red")
         ("the lowest red piece", "c"),
         ("the top blue piece", "b"),
         ("the blue piece below the other blue piece", "d"),
-        ("the red one, but not the upper one", "c"),
+        ("the blue one, but not the one at the top", "d"),
         ("the red piece above the green piece", "a"),
     ],
 )

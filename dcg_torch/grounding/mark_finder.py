@@ -80,9 +80,16 @@ class _Finder:
             mark = self.marks.named(self.words[i : i + n])
             if mark is None and owned:
                 mark = self.marks.named([*self.words[i : i + n - 1], self.words[i + n - 1][:-2]])
-            if mark is not None and (not mark.short or self._is_name(i, i + n)):
+            if mark is not None and not self._is_place(i, n) and (not mark.short or self._is_name(i, i + n)):
                 return self._extended(i, i + n, mark, owned)
         return None
+
+    def _is_place(self, i: int, n: int) -> bool:
+        """Is it a place and no shape: "in the corner", "the top right corner"?"""
+        lists, before = mark_words(), self.word(i - 1)
+        if n > 1 or self.words[i] not in lists["places"]:
+            return False
+        return before in lists["sides"] or (before == "the" and self.word(i - 2) in lists["before_place"])
 
     def _joined(self, start: int, stop: int) -> bool:
         """Are words apart by spaces or hyphens alone?"""

@@ -95,8 +95,8 @@ class Marks:
 
 
 def _one(word: str) -> str:
-    """ "cross" of "crosses", "t" of "ts"."""
-    return word[0] if len(word) == 2 and word[1] == "s" else singular(word)
+    """ "cross" of "crosses", "t" of "ts"; "is" and "as" are no letters."""
+    return word[0] if len(word) == 2 and word[1] == "s" and word[0] not in "aiu" else singular(word)
 
 
 def _is_short(words: Sequence[str]) -> bool:
