@@ -96,6 +96,31 @@ def test_what_is_not_there_stays_absent(model: GroundingModel) -> None:
     assert _meant(model, _rack("bring me the apple in the red drawer")) == set()
 
 
+PAGE = {"a": (0.5, 1.1, "red"), "b": (-0.4, 1.0, "blue"), "c": (0.1, 0.7, "red"), "d": (-0.2, 0.3, "blue"),
+        "e": (0.4, 0.35, "green")}  # fmt: skip
+"""On a page that stands upright: how far to the left, how high, and the colour."""
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the lowest red piece", "c"),
+        ("the top blue piece", "b"),
+        ("the blue piece below the other blue piece", "d"),
+        ("the blue one, but not the one at the top", "d"),
+        ("the red piece above the green piece", "a"),
+    ],
+)
+def test_pages_that_stand_upright(model: GroundingModel, text: str, meant: str) -> None:
+    objects = [
+        {"id": k, "type": "piece", "color": color, "position": [1.0, y, z], "size": [0.02, 0.12, 0.12]}
+        for k, (y, z, color) in PAGE.items()
+    ]
+    robot = {"x": 0.0, "y": 0.0, "yaw": 0.0}
+    episode = {"id": "a", "text": text, "objects": objects, "target": [], "robot": robot}
+    assert _meant(model, Episode.model_validate(episode)) == {meant}
+
+
 def _objects(points: list[tuple[float, float, float]]) -> list[Object]:
     return [Object(f"o{k}", "block", False, position=point) for k, point in enumerate(points)]
 

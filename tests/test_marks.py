@@ -9,10 +9,12 @@ import pytest
 from dcg_torch import GroundingModel, pretrained
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
+from dcg_torch.grounding.features.names import word_features
 from dcg_torch.grounding.marks import heard
 from dcg_torch.language import default_parser, parse_command
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.marks import marks_of
+from dcg_torch.types import Phrase, PhraseKind
 
 LOGOS = ["adidas", "BMW", "Burger King", "Coca Cola", "Heineken", "HP", "McDonalds", "Mercedes Benz", "Shell", "SRI",
          "Starbucks", "Stella Artois", "Target", "Twitter", "UPS"]  # fmt: skip
@@ -75,6 +77,9 @@ def _meant(model: GroundingModel, episode: Episode) -> tuple[set[str], float]:
         ("Set burgerking's block under HP", "Burger King"),
         ("Move the starbuck block to the right of HP", "Starbucks"),
         ("UPS!", "UPS"),
+        ("next to BMW goes Twitter", "Twitter"),
+        ("I would like the Target block to be put above HP", "Target"),
+        ("not Shell, Target please", "Target"),
     ],
 )
 def test_logos(model: GroundingModel, style: str, text: str, meant: str) -> None:
@@ -100,12 +105,16 @@ def test_logos(model: GroundingModel, style: str, text: str, meant: str) -> None
         ("5 up", "5"),
         ("Move blocks 3 and 11 to the left", "3 11"),
         ("block 25 goes up", ""),
+        ("no. 7 left of no. 8", "7"),
+        ("two should be between three and four", "2"),
+        ("block 1 north east of block 9 with a little gap", "1"),
     ],
 )
 def test_digits(model: GroundingModel, style: str, text: str, meant: str) -> None:
     assert _meant(model, _board(DIGITS, style, text))[0] == set(meant.split())
 
 
+@pytest.mark.parametrize("style", ["shape", "class", "bare"])
 @pytest.mark.parametrize(
     ("text", "meant"),
     [
@@ -120,14 +129,19 @@ def test_digits(model: GroundingModel, style: str, text: str, meant: str) -> Non
         ("grab a Z", "Z"),
     ],
 )
-def test_shapes(model: GroundingModel, text: str, meant: str) -> None:
-    assert _meant(model, _board(SHAPES, "shape", text))[0] == {meant}
+def test_shapes(model: GroundingModel, style: str, text: str, meant: str) -> None:
+    assert _meant(model, _board(SHAPES, style, text))[0] == {meant}
 
 
 def test_what_no_block_bears_is_not_there(model: GroundingModel) -> None:
     found, probability = _meant(model, _board(LOGOS, "brand", "move the Pepsi block up a bit"))
     assert not found
     assert probability > 0.2
+
+
+def test_marks_fire_no_features_of_their_own(model: GroundingModel) -> None:
+    phrase = Phrase(PhraseKind.NOUN, "the Shell block", ("second", "brand: shell"), "block")
+    assert not [name for _, name in word_features(phrase) if "shell" in name]
 
 
 def test_counts_and_measures_are_no_names() -> None:

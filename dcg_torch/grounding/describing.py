@@ -27,6 +27,9 @@ _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
 
+_NEAR = 4.5
+"""The same of what its name and its colour alone say: brown is near orange, and no orange."""
+
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
 _SIZED = 5.0
@@ -130,7 +133,7 @@ def comparison_set(
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
-    named = _described(fit, odds)
+    named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     log_size = np.zeros(len(fit))
@@ -146,7 +149,10 @@ def comparison_set(
         found = np.zeros(len(fit), dtype=np.bool_)
         found[highest(fit[:objects], several)] = True
         return Comparison(found, log_size, phrase)
-    return Comparison(_described(fit, odds), log_size, phrase)
+    described = _described(fit, odds)
+    if phrase.color is not None:
+        described &= own >= own[described].max(initial=-np.inf) - _NEAR
+    return Comparison(described, log_size, phrase)
 
 
 def is_sized(phrase: Phrase) -> bool:

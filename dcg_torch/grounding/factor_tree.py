@@ -9,11 +9,14 @@ from dataclasses import replace
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
-from dcg_torch.scene.upright import on_one_level
+from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
+
+_LEVEL = 0.02
+"""Metres of height within which all stands on one level."""
 
 
 def speaks_of_groups(tree: ParseTree) -> bool:
@@ -59,14 +62,22 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
     if world is None:
-        return _factor_tree(tree, frozenset(), False, "")
-    return _factor_tree(tree, heads(world.classes), on_one_level(world), scene_kind(world))
+        return _factor_tree(tree, frozenset(), (False, False), "")
+    heights = [o.position[2] for o in world.objects if o.position is not None]
+    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
+    upright = not flat and is_upright(world.objects, world.viewer or world.robot)
+    return _factor_tree(tree, heads(world.classes), (flat, upright), scene_kind(world))
 
 
 @functools.lru_cache(maxsize=1024)
-def _factor_tree(tree: ParseTree, there: frozenset[str], flat: bool, scene: str) -> ParseTree:
-    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind."""
-    found = _described(in_plain_words(tree, there, flat=flat))
+def _factor_tree(tree: ParseTree, there: frozenset[str], level: tuple[bool, bool], scene: str) -> ParseTree:
+    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind.
+
+    Args:
+        level: does all stand on one level, or as on a page that stands upright?
+    """
+    flat, upright = level
+    found = _described(in_plain_words(tree, there, flat=flat or upright, upright=upright))
     return _said_in(found, scene) if scene else found
 
 

@@ -10,6 +10,7 @@ from dcg_torch.names.marks import Mark, Marks, mark_words
 from dcg_torch.names.normal import singular
 
 _TOKEN: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+_SHORTENED: Final = ("no", "nr", "num")
 _JOINED: Final = 4  # words that may be one mark
 
 
@@ -79,14 +80,24 @@ class _Finder:
             mark = self.marks.named(self.words[i : i + n])
             if mark is None and owned:
                 mark = self.marks.named([*self.words[i : i + n - 1], self.words[i + n - 1][:-2]])
-            if mark is not None and (not mark.short or self._is_name(i, i + n)):
+            if mark is not None and not self._is_place(i, n) and (not mark.short or self._is_name(i, i + n)):
                 return self._extended(i, i + n, mark, owned)
         return None
+
+    def _is_place(self, i: int, n: int) -> bool:
+        """Is it a place and no shape: "in the corner", "the top right corner"?"""
+        lists, before = mark_words(), self.word(i - 1)
+        if n > 1 or self.words[i] not in lists["places"]:
+            return False
+        return before in lists["sides"] or (before == "the" and self.word(i - 2) in lists["before_place"])
 
     def _joined(self, start: int, stop: int) -> bool:
         """Are words apart by spaces or hyphens alone?"""
         ends = zip(self.tokens[start : stop - 1], self.tokens[start + 1 : stop], strict=True)
-        return all(set(self.text[one.end() : other.start()]) <= set(" -_'#") for one, other in ends)
+        return all(
+            set(self.text[one.end() : other.start()]) <= set(" -_'#" + "." * (one.group().lower() in _SHORTENED))
+            for one, other in ends
+        )
 
     def _is_name(self, i: int, stop: int) -> bool:
         """Is a number or a letter a name here, and no count and no word of its own?"""

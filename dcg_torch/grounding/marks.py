@@ -42,7 +42,7 @@ def heard(
         vocabulary: the words that are known.
         things: what is there.
     """
-    things = tuple(things)
+    things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
     if marks is None:
         return parse(text, vocabulary)
@@ -73,7 +73,7 @@ def _patterns(name: str, heads: frozenset[str] = frozenset()) -> tuple[tuple[re.
     """Of `data/marks.yaml`, with what they are replaced by; `heads` are the names of classes."""
     rows = mark_words()["patterns"][name]
     rows = [[rows, ""]] if isinstance(rows, str) else rows
-    bearers = "|".join(("one", "thing", *sorted(heads)))
+    bearers = "|".join(("one", "thing", *sorted(heads | mark_words()["carriers"])))
     filled = [(old.replace("<M>", r"quorb\w").replace("<HEADS>", bearers), new) for old, new in rows]
     return tuple((re.compile(old, re.IGNORECASE), new) for old, new in filled)
 

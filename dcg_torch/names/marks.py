@@ -95,8 +95,8 @@ class Marks:
 
 
 def _one(word: str) -> str:
-    """ "cross" of "crosses", "t" of "ts"."""
-    return word[0] if len(word) == 2 and word[1] == "s" else singular(word)
+    """ "cross" of "crosses", "t" of "ts"; "is" and "as" are no letters."""
+    return word[0] if len(word) == 2 and word[1] == "s" and word[0] not in "aiu" else singular(word)
 
 
 def _is_short(words: Sequence[str]) -> bool:
@@ -171,7 +171,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
             for word in words:
                 if len(word) >= _PART and word not in mark_words()["common"] and singular(word) not in heads:
                     parts.setdefault(solid_name([word]), set()).add(one)
-    for solid, meant in _shapes({one for one, _ in names}).items():
+    for solid, meant in _shapes(names).items():
         whole.setdefault(solid, meant)
     if not names:
         return None
@@ -231,11 +231,16 @@ def is_strange(word: str) -> bool:
     return word.isdecimal() or unheard_of(word)
 
 
-def _shapes(ones: Collection[tuple[str, str]]) -> dict[str, set[tuple[str, str]]]:
+def _may_be_shape(key: str) -> bool:
+    """Shapes are values of a key that says so, or parts of the names of classes: "T piece"."""
+    return not key or _SHAPE in key.split(" ")
+
+
+def _shapes(names: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> dict[str, set[tuple[str, str]]]:
     """Other names of the shapes that are there, as people call them."""
     found: dict[str, set[tuple[str, str]]] = {}
-    for names in mark_words()["shapes"]:
-        meant = {(key, value) for key, value in ones if _SHAPE in key.split(" ") and value in names}
-        for name in names if meant else ():
+    for group in mark_words()["shapes"]:
+        meant = {one for one, words in names if _may_be_shape(one[0]) and " ".join(words) in group}
+        for name in group if meant else ():
             found.setdefault(solid_name(str(name).split()), set()).update(meant)
     return found
