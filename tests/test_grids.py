@@ -147,7 +147,7 @@ def test_only_grids_have_cells() -> None:
     tree = parse_command("the block in the second row").tree
     assert tree is not None
     scattered = WorldModel(tuple(_objects([(0.1 * k * k, 0.3 * k, 0.0) for k in range(8)])))
-    assert by_cells(tree, scattered) == tree
+    assert by_cells([tree], scattered) == [tree]
     board = WorldModel(tuple(_objects([(2.0 - 0.4 * r, 0.3 - 0.3 * c, 0.0) for r in range(3) for c in range(3)])))
-    words = [word for node in by_cells(tree, board).walk() for word in node.phrase.words]
+    words = [word for node in by_cells([tree], board)[0].walk() for word in node.phrase.words]
     assert "cell: 2 1|2 2|2 3" in words

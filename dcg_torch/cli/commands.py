@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -89,18 +90,18 @@ def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
     return "\n".join([*head, "dcg-torch --version says which version this is."])
 
 
-_ALONE = ("-", "workers=1", "trials=1", "backend=", "simulator.gui=", "hydra/launcher=")
-"""How arguments begin with which an experiment takes no process of ours, or others."""
+_ALONE = re.compile(r"-|(workers|trials)=1$|backend=|simulator\.gui=|hydra/launcher=")
+"""Arguments with which an experiment takes no processes of its own, or others."""
 
 
-def _may_take_workers(arguments: list[str]) -> bool:
+def may_take_workers(arguments: list[str]) -> bool:
     """Whether an experiment is likely to be run by several processes: what these need is loaded meanwhile."""
-    return not any(argument.startswith(_ALONE) for argument in arguments)
+    return not any(map(_ALONE.match, arguments))
 
 
 def _main_of(name: str, command: Command) -> int:
     try:
-        if name == "run" and _may_take_workers(sys.argv[1:]):
+        if name == "run" and may_take_workers(sys.argv[1:]):
             from dcg_torch.experiment.pool import prepare  # here: nothing else of it is asked for
 
             prepare()

@@ -22,6 +22,7 @@ _ANY, _FEW = 3, 6
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
 _MIDDLES = frozenset({"middle", "center", "central", "middlemost"})
 _SPOTS = frozenset({"corner", "side", "edge", "end", "middle", "center"})
+_TELLING = frozenset().union(LINE_OF, LINE_ENDS, CELL_STEPS, _BESIDE, _SPOTS, _MIDDLES, ("between", "surrounded by"))
 _SAME = frozenset({"color: equal", "color: same hue", "color: alike"})
 
 
@@ -38,10 +39,16 @@ def with_cells(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     return replace(world, objects=objects)
 
 
-def by_cells(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which what is said of the rows, columns and neighbours of a grid is words for cells."""
-    grid = _grid(world)
-    return tree if grid is None else _Speaking(grid, world.objects).root(tree)
+def by_cells(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
+    """Trees in which what is said of the rows, columns and neighbours of a grid is words for cells."""
+    if not any(map(_may_speak_of_cells, trees)) or (grid := _grid(world)) is None:
+        return list(trees)
+    return [_Speaking(grid, world.objects).root(tree) for tree in trees]
+
+
+def _may_speak_of_cells(tree: ParseTree) -> bool:
+    """Is there a word without which `_Speaking` finds nothing to say?"""
+    return any(node.phrase.noun in _TELLING or not _TELLING.isdisjoint(node.phrase.words) for node in tree.walk())
 
 
 def _grid(world: WorldModel) -> Grid | None:

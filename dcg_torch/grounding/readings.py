@@ -59,7 +59,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
     told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
-    return [Reading(by_cells(tree, world), weight, tuple(rules)) for tree, weight, rules in told]
+    placed = by_cells([tree for tree, _, _ in told], world)
+    return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

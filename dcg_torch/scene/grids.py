@@ -44,7 +44,8 @@ def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | Non
     position = laid_flat(position)
     if np.ptp(position[:, 2]) > 1e-3 * max(1e-9, float(np.ptp(position[:, :2]))):
         return None
-    row, column = _numbered(-position[:, 0]), _numbered(-position[:, 1])
+    row = _numbered(-position[:, 0])
+    column = None if row is None else _numbered(-position[:, 1])
     if row is None or column is None:
         return None
     cells = list(zip(row.tolist(), column.tolist(), strict=True))
@@ -60,11 +61,11 @@ def _numbered(values: Floats) -> Ints | None:
     gaps = np.diff(order)
     if not len(gaps) or gaps.max() <= 0.0:
         return None
-    bounds = np.flatnonzero(gaps > 0.5 * gaps.max())
-    lines = np.split(order, bounds + 1)
-    middles = np.array([line.mean() for line in lines])
+    starts = np.concatenate([[0], np.flatnonzero(gaps > 0.5 * gaps.max()) + 1])
+    ends = np.append(starts[1:], len(order))
+    middles = np.add.reduceat(order, starts) / (ends - starts)
     steps = np.diff(middles)
-    spread = max(float(np.ptp(line)) for line in lines)
+    spread = (order[ends - 1] - order[starts]).max()
     if (len(steps) > 1 and steps.max() > _EVEN * steps.min()) or spread > _ASIDE * steps.min():
         return None
     found: Ints = np.abs(values[:, None] - middles[None]).argmin(axis=1)
