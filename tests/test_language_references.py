@@ -143,6 +143,7 @@ def test_a_table_that_is_there_is_meant_itself() -> None:
         ("lower right", None, (("on", "right"),)),
         ("center", None, (("in", "center"),)),
         ("right side", None, (("on", "right"),)),
+        ("the left one of the chairs by the wall", "chair", (("by", "wall"),)),
     ],
 )
 def test_what_a_text_is_about(text: str, noun: str | None, relations: tuple[tuple[str, str], ...]) -> None:

@@ -89,8 +89,21 @@ def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
     return "\n".join([*head, "dcg-torch --version says which version this is."])
 
 
+_ALONE = ("-", "workers=1", "trials=1", "backend=", "simulator.gui=", "hydra/launcher=")
+"""How arguments begin with which an experiment takes no process of ours, or others."""
+
+
+def _may_take_workers(arguments: list[str]) -> bool:
+    """Whether an experiment is likely to be run by several processes: what these need is loaded meanwhile."""
+    return not any(argument.startswith(_ALONE) for argument in arguments)
+
+
 def _main_of(name: str, command: Command) -> int:
     try:
+        if name == "run" and _may_take_workers(sys.argv[1:]):
+            from dcg_torch.experiment.pool import prepare  # here: nothing else of it is asked for
+
+            prepare()
         module = importlib.import_module(f"dcg_torch.{command.module}")
         status: int = module.main()
     except KeyboardInterrupt:  # before or after the program can say it itself

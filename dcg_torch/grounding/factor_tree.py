@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -59,8 +60,18 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
-    found = _described(tree, world)
-    return found if world is None else _said_in(found, scene_kind(world))
+    if world is None:
+        return _factor_tree(tree, frozenset(), False, "")
+    heights = [o.position[2] for o in world.objects if o.position is not None]
+    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
+    return _factor_tree(tree, heads(world.classes), flat, scene_kind(world))
+
+
+@functools.lru_cache(maxsize=1024)
+def _factor_tree(tree: ParseTree, there: frozenset[str], flat: bool, scene: str) -> ParseTree:
+    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind."""
+    found = _described(in_plain_words(tree, there, flat=flat))
+    return _said_in(found, scene) if scene else found
 
 
 def _said_in(tree: ParseTree, scene: str) -> ParseTree:
@@ -68,11 +79,7 @@ def _said_in(tree: ParseTree, scene: str) -> ParseTree:
     return ParseTree(replace(tree.phrase, scene=scene), children)
 
 
-def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
-    objects = () if world is None else world.objects
-    heights = [o.position[2] for o in objects if o.position is not None]
-    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    tree = in_plain_words(tree, heads(frozenset() if world is None else world.classes), flat=flat)
+def _described(tree: ParseTree) -> ParseTree:
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)

@@ -125,11 +125,10 @@ class Objective:
             if np.abs(downhill[:, columns]).max() < _SETTLED:
                 continue
             own, k = curvature.take(rows, axis=1), len(columns)
+            products = ((matrix.T * own[:, None]).reshape(-1, len(rows)) @ matrix).reshape(-1, k, k)
             hessian = np.empty((q, k, q, k))
-            for (a, b), weights in zip(pairs, own, strict=True):
-                hessian[a, :, b] = (matrix.T * weights) @ matrix
-                if a != b:
-                    hessian[b, :, a] = hessian[a, :, b]
+            for (a, b), product in zip(pairs, products, strict=True):
+                hessian[a, :, b] = hessian[b, :, a] = product
             diagonal = np.einsum("akbk->abk", hessian)  # a view
             diagonal += self._basis[:, :, None] * self.strength[columns]
             whole, right = hessian.reshape(q * k, q * k), downhill[:, columns].reshape(-1)

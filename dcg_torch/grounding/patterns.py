@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.tables import Pattern
 from dcg_torch.types import Child
 
+_OTHER, _SAME = (False,), (True,)
+
 
 @dataclass
 class Patterns:
@@ -29,6 +31,8 @@ class Patterns:
         """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
         kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])  # hashed quickly
         about = [self.number[c.grounding.object.id] for c in children]
+        if len(children) == 1:  # as nearly all have
+            return self._of(children, (kinds, _OTHER)), {about[0]: self._of(children, (kinds, _SAME))}
         special = {j: self._of(children, (kinds, tuple([j == a for a in about]))) for j in about}
         return self._of(children, (kinds, (False,) * len(about))), special
 

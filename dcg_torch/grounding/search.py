@@ -245,10 +245,9 @@ class Search:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
         known: dict[tuple[int, ...], float] = {}
         n, own = len(self.encoder.world.meanable), values.tolist()
-        keys = [(rest, *sorted(special.values())) for rest, special in found]
-        for rest, *special in dict.fromkeys(keys):
-            times = [n - len(special), *(1 for _ in special)]
-            known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
+        keys = [(rest, *special.values()) for rest, special in found]
+        for key in dict.fromkeys(keys):
+            known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
         return [known[key] for key in keys]
 
     def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
@@ -306,15 +305,15 @@ class Search:
 
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
-        kind, things = GROUNDING_OF[scored.tree.phrase.kind], self.encoder.all
+        tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
+        kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all
         found, scores = [], scored.scores.reshape(-1)
         _, n, m = scored.scores.shape
         best = highest(scores, beam)
         for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
-            (c, j), p = divmod(flat // m, n), flat % m
-            child = Child(Grounding(kind, things[j]), scored.meant[p])
-            below = scored.combos[c]
-            if scored.modifiers:
-                below = (*below, *(modifier.hypothesis(j, things[j]) for modifier in scored.modifiers))
-            found.append(Hypothesis(scored.tree, child, below, score))
+            c, j, p = flat // (m * n), flat // m % n, flat % m
+            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
+            if modifiers:
+                below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
+            found.append(Hypothesis(tree, child, below, score))
         return found

@@ -47,7 +47,7 @@ class Tables:
         self._version = _version(weight)
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
-        self._patterns: dict[tuple[Phrase, GroundingKind, Pattern], Floats] = {}
+        self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
 
     def hold(self, features: FeatureSet, factor: LogLinearFactor) -> bool:
         """Are they still those of these columns and weights?"""
@@ -126,11 +126,13 @@ class Tables:
         Args:
             patterns: of each, some child groundings that are such.
         """
-        kept, keys = self._patterns, [(phrase, kind, pattern) for pattern in patterns]
-        if new := [key for key in keys if key not in kept]:
-            columns = [self.features.action_columns(kind, patterns[of], of[1]) for _, _, of in new]
+        kept = self._patterns.get(phrase)
+        if kept is None:
+            kept = self._patterns[phrase] = {}
+        if new := [pattern for pattern in patterns if pattern not in kept]:
+            columns = [self.features.action_columns(kind, patterns[pattern], pattern[1]) for pattern in new]
             kept.update(zip(new, self._log_psi(phrase, padded(columns)).T, strict=True))
-        return np.array([kept[key] for key in keys]).T
+        return np.array([kept[pattern] for pattern in patterns]).T
 
     def _side(self, phrase: Phrase) -> Floats:
         """(P, G + 1) the weights that meet what fires for a phrase, summed; the last column is the padding's."""

@@ -57,6 +57,18 @@ def about_it(noun: Item) -> bool:
     return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
 
 
+def one_of_the(one: Item) -> None:
+    """ "The middle one of the three cubes": a cube."""
+    for place in one.children:
+        group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
+        if group.plural and group.noun and not group.is_a("not_solid"):
+            one.noun, one.pronoun, one.color = group.noun, False, one.color or group.color
+            counted = (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
+            one.words += (*(word for word in group.words if word not in one.words), *counted)
+            one.children = [*(child for child in one.children if child is not place), *group.children]
+            return
+
+
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     below = [node for child in one.children for node in child.children]

@@ -17,6 +17,7 @@ from dcg_torch.language.references import (
     describe_later,
     exists,
     one_of_several,
+    one_of_the,
     refer,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
@@ -101,6 +102,8 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
         chosen.noun.children += _listed(chosen)
     describe_later(chosen.noun, chosen.clause, clauses)
+    if chosen.noun.noun is None:
+        one_of_the(chosen.noun)
     if chosen.noun.noun is None:
         one_of_several(chosen.noun, clauses)
     refer(chosen.noun, chosen.clause, clauses, decisions)
