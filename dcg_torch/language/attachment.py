@@ -13,7 +13,7 @@ from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import is_superlative, last_thing, settle_words
+from dcg_torch.language.predicates import deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.saying import NounPhrases
 
 
@@ -22,8 +22,10 @@ def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause
     builder = _Builder(items)
     for item, after in zip(items, (*items[1:], END), strict=True):
         builder.step(item, after)
-    builder.deny_colors()
+    builder.name_object()
     settle(builder.clause, builder.pending, supplied, decisions)
+    for noun, before in builder.ruled_out:
+        deny(before if before is not END else next(iter(builder.clause.objects), END), noun)
     for noun in builder.nouns:
         settle_words(noun)
     return builder.clause
@@ -44,6 +46,8 @@ class _Builder(NounPhrases):
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
             self.and_joined = item.kind is Kind.AND
+            if item.kind is Kind.COMMA and self.meant is not None:
+                self.nouns, self.meant = self.meant, None
         elif item.kind is Kind.VERB:
             self.verb(item, after)
         elif item.kind is Kind.PREPOSITION:
@@ -54,13 +58,11 @@ class _Builder(NounPhrases):
             self.noun(item)
             self.joined = self.forced = self.excluded = False
 
-    def deny_colors(self) -> None:
-        """Say of the object, which may have no name, which colours it has not: "blue, not purple"."""
-        if (self.not_colors or self.denials) and not self.clause.objects and not self.pending:
+    def name_object(self) -> None:
+        """What is not purple is a thing without a name: "not purple"."""
+        if self.ruled_out and not self.clause.objects and not self.pending:
             first = self.items[0].start
-            self.clause.objects = [Item(Kind.NOUN, first, first, "", tuple(self.denials), pronoun=True)]
-        if self.not_colors and self.clause.objects:
-            self.clause.objects[0].words += tuple(self.not_colors)
+            self.clause.objects = [Item(Kind.NOUN, first, first, "", pronoun=True)]
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""

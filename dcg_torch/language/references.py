@@ -73,13 +73,28 @@ def correct(clauses: Sequence[Clause]) -> None:
         if clause.verb is None:
             clause.verb = old.verb
             if new is None:
-                clause.objects = old.objects
+                _replace_place(clause, old, was)
             elif goal is not None:
                 clause.objects = [noun for noun in clause.objects if noun is not new]
                 clause.places = [replace(goal, children=[new]), *clause.places]
             else:
                 clause.places = clause.places or old.places
         old.refused = TAKEN_BACK
+
+
+def _replace_place(clause: Clause, old: Clause, was: Item | None) -> None:
+    """ "Left of the bowl, no, right of it": a place takes the last one's place, and "it" is what that was about."""
+    places = clause.places
+    inner = was is not None and bool(was.children) and places[0].words[0] not in PLACING["toward"]
+    taken = was.children if inner and was is not None else old.places
+    landmark = next((place.children[0] for place in taken[-1:]), was)
+    for place in places:
+        if landmark is not None and place.children[0].is_a("it") and place.children[0].text in SETS["stands_for"]:
+            place.children[0] = landmark.copy()
+    clause.objects = old.objects
+    if inner and was is not None:
+        was.children[-1:] = places
+        clause.places = old.places
 
 
 TAKEN_BACK = "it takes a command back"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import END, Item
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin
 from dcg_torch.language.predicates import is_edge_of, last_thing, share_noun
@@ -28,8 +28,8 @@ class NounPhrases:
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
-        self.not_colors: list[str] = []  # "(blue), not orange, not pink"
-        self.denials: list[str] = []  # "not the bright one", which is no word of another thing
+        self.ruled_out: list[tuple[Item, Item]] = []  # what is not meant, and the noun phrase before it
+        self.meant: list[Item] | None = None  # noun phrases before what is ruled out, until a comma
 
     @property
     def last(self) -> Item:
@@ -43,6 +43,8 @@ class NounPhrases:
             item.noun, item.color = other.noun, other.color
         if self.is_about_color(item) or self.is_rank(item):
             item.said = True
+        elif item.is_a("line") and self.last.is_a("line") and (self.preposition is None or self.preposition.text == "of"):
+            self.line(item)
         elif self.preposition is not None and (self.joined or not self.preposition.children):
             self.landmark(item, self.preposition)
         elif self.excluded:
@@ -65,17 +67,28 @@ class NounPhrases:
             self.leading_place(item)
             self.mention(item)
 
+    def line(self, item: Item) -> None:
+        """ "(In the second column) of the third row", "row 3, column 2": what is in both lines is in each."""
+        if self.preposition is not None:
+            self.drop_preposition()
+        if self.clause.objects == [self.last]:  # "the third row, second column"
+            places = [self.last.behind("in"), item.behind("in")]
+            self.clause.objects = [Item(Kind.NOUN, self.last.start, self.last.start, "", pronoun=True, children=places)]
+        else:
+            self.pending.append(Pending(item.behind("in"), list(self.nouns), False, True))
+        self.nouns.append(item)
+
     def mention(self, item: Item) -> None:
         """A noun phrase that the clause is about."""
         self.clause.objects.append(item)
         self.nouns.append(item)
 
     def exclude(self, item: Item) -> None:
-        """The cube of "not the cube", and what "not the bright one", "not pink" says of the object."""
+        """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
         item.said = True
-        if item.is_a("color_word"):
-            found = self.denials if item.determined else self.not_colors
-            found += [f"not {word}" for word in (item.color, *item.words) if word]
+        objects = self.clause.objects or [last_thing([END, *self.nouns])]
+        self.ruled_out.append((item, objects[0]))
+        self.meant = list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
 

@@ -76,6 +76,13 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
+    children += [
+        place
+        for clause in clauses
+        if clause is not chosen.clause and clause.verb is None and clause.refused is None
+        for place in clause.places
+        if place.words[0] in PLACING["frames"]
+    ]  # "facing the bed, take the lamp on your left"
     describe_later(chosen.noun, chosen.clause, clauses)
     if chosen.noun.noun is None:
         one_of_several(chosen.noun, clauses)

@@ -130,6 +130,9 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
     # "No" says something of its own key alone: without a beard nobody is bald.
     own = [(key, value) for key, value in pairs if value not in _absent() or states_value(value, frozenset({key}))]
     true = {one for key, value in own for one in _of_key(meanings.get(value, frozenset()), key)}
+    # What is not open is closed.
+    not_so = {one for key, value in pairs if value in _absent() for one in meanings.get(key, ()) if one[0] in _FREE}
+    true |= {other for one, other in excluded if one in not_so}
     if meant & true:
         return "attribute: alike"
     # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
@@ -164,7 +167,8 @@ def _absent() -> frozenset[str]:
 def _pair(attribute: str) -> tuple[str, str]:
     """Key and value in normal form; what is merely true is its own value."""
     key, _, value = attribute.partition(":")
-    return attribute_key(key), normalise(value or key)
+    key, value = attribute_key(key), normalise(value)
+    return key, key if value in ("", "yes", "true") else value
 
 
 @functools.lru_cache(maxsize=4096)
