@@ -22,13 +22,16 @@ def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause
     builder = _Builder(items)
     for item, after in zip(items, (*items[1:], END), strict=True):
         builder.step(item, after)
-    builder.name_object()
-    settle(builder.clause, builder.pending, supplied, decisions)
+    clause, start = builder.clause, items[0].start
+    settle(clause, builder.pending, supplied, decisions)
     for noun, before in builder.ruled_out:
-        deny(before if before is not END else next(iter(builder.clause.objects), END), noun)
+        if noun.pronoun and not (clause.objects or builder.pending):  # what is not purple is a thing without a name
+            clause.objects = [Item(Kind.NOUN, start, start, "", pronoun=True)]
+        for owner in [before] if before else clause.objects[:1]:
+            deny(owner, noun)
     for noun in builder.nouns:
         settle_words(noun)
-    return builder.clause
+    return clause
 
 
 class _Builder(NounPhrases):
@@ -58,12 +61,6 @@ class _Builder(NounPhrases):
             self.noun(item)
             self.joined = self.forced = self.excluded = False
 
-    def name_object(self) -> None:
-        """What is not purple is a thing without a name: "not purple"."""
-        if self.ruled_out and not self.clause.objects and not self.pending:
-            first = self.items[0].start
-            self.clause.objects = [Item(Kind.NOUN, first, first, "", pronoun=True)]
-
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
         contrast = any(other.text == "but" for other in self.items)  # "go not to the cube but to the cone"
@@ -91,13 +88,9 @@ class _Builder(NounPhrases):
             item.words, forced = (f"{extreme} {item.words[0]}",), True
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
-        self.await_noun(item, forced, self.joined)
-        self.forced = self.joined = False
-
-    def await_noun(self, item: Item, forced: bool, joined: bool) -> None:
-        """Note a preposition, and what it may belong to."""
         self.preposition = item
-        self.pending.append(Pending(item, list(self.nouns), forced, joined))
+        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.forced = self.joined = False
 
     def adverb(self, item: Item, after: Item) -> None:
         """A word by itself: said of a noun phrase, or of the way the verb is done."""
@@ -165,4 +158,5 @@ class _Builder(NounPhrases):
         if self.denied:
             name = "without" if name == "with" else f"not {name}"
         self.denied, item.said = False, True
-        self.await_noun(Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,)), True, False)
+        self.preposition = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,))
+        self.pending.append(Pending(self.preposition, list(self.nouns), True, False))

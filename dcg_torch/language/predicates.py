@@ -56,9 +56,10 @@ def deny(noun: Item, other: Item) -> None:
         noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
     if other.noun not in {None, noun.noun}:
         return
-    for word in (other.color, *other.words):
+    of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
+    for word in (None if of_one else other.color, *other.words):
         side = (word or "").removesuffix(_MOST)
-        if side in SETS["left_right"]:
+        if side in SETS["left_right"] and all(place.children[0].noun != side for place in noun.children):
             noun.children.append(Item(noun.kind, other.start, other.stop, side, noun=side).behind("not on"))
         elif word and word not in (noun.color, *noun.words):
             noun.words += (f"not {word}",)
