@@ -9,6 +9,7 @@ import pytest
 
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose
+from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson
@@ -53,6 +54,31 @@ def test_what_is_not_there_is_not_meant(model: GroundingModel, text: str, things
     solution = _ground(model, text, _things(*things))
     assert all(o.hypothetical for o in solution.objects)
     assert _absent(solution) > 0.5
+
+
+def test_knowing_more_types_makes_absence_no_likelier_where_colours_are_shown(model: GroundingModel) -> None:
+    shades = [(40, 60, 200), (150, 170, 230), (200, 40, 40)]
+    patches = [Percept(f"{k}", "patch", None, (1.0, 1.0 - k, 0.0), rgb=rgb) for k, rgb in enumerate(shades)]
+    learned = model.copy()
+    for k in range(40):
+        learned.learner = learned.learner.told(f"gnrx{k}", f"gadget {k}")
+    learned.train()
+    few, many = (_ground(one, "the pale blue one", patches) for one in (model, learned))
+    assert sum(o.hypothetical for o in many.world.objects) > sum(o.hypothetical for o in few.world.objects) + 30
+    assert _absent(many) == pytest.approx(_absent(few), abs=0.02)
+
+
+def test_a_class_met_elsewhere_does_not_change_what_is_said_of_a_place(model: GroundingModel) -> None:
+    """Who has met tables still hears of the middle of the one that the cubes stand on; unless one may stand unseen."""
+    travelled = model.copy()
+    travelled.learner = travelled.learner.told("table", "table")
+    command = parse_command("take the cube in the middle of the table").readings[0].tree
+    landmarks = []
+    for one, looked in ((model, True), (travelled, True), (travelled, False)):
+        world = one.world_model(_things("red cube", "red cube"), robot=Pose(0.0, 0.0), looked=looked)
+        assert ("table" in world.classes) == (one is travelled and not looked)
+        landmarks.append([node.phrase.noun for node in to_factor_tree(command, world).walk()][-1])
+    assert landmarks == ["middle", "middle", "table"]
 
 
 @pytest.mark.parametrize(

@@ -46,6 +46,14 @@ def _people() -> list[Percept]:
         ("bald", {"beard: no", "hair: dark"}, "contrary"),
         ("bald", {"beard: no", "hair: no"}, "alike"),
         ("with facial hair", {"hair: dark", "facial hair: no"}, "contrary"),
+        ("bald", {"hairColour: light", "hasHair: 0"}, "alike"),
+        ("bald", {"hairColour: light", "hasHair: 1"}, "contrary"),
+        ("haired", {"hairColour: light"}, "alike"),
+        ("clean shaven", {"hasBeard: 0"}, "alike"),
+        ("clean shaven", {"hasBeard: 1"}, "contrary"),
+        ("with white beard", {"hasBeard: 1", "hairColour: light"}, "alike"),
+        ("with dark beard", {"hasBeard: 1", "hairColour: light"}, "contrary"),
+        ("with dark beard", {"hasBeard: 1", "shirt: dark"}, "silent"),
     ],
 )
 def test_facts_about_what_an_object_has(word: str, attributes: set[str], fact: str) -> None:

@@ -11,7 +11,7 @@ import pytest
 from making import typed
 
 from dcg_torch.cli import convert, pretrain
-from dcg_torch.cli.commands import COMMANDS, Command, main, start, usage
+from dcg_torch.cli.commands import COMMANDS, Command, main, may_take_workers, start, usage
 
 
 def test_every_command_has_a_module_and_a_line_of_help() -> None:
@@ -153,3 +153,9 @@ def test_ctrl_c_while_options_are_read_is_one_line(
             program(arguments)
         assert left.value.code == 130
         assert capsys.readouterr().err.startswith("dcg_torch: interrupted")
+
+
+def test_what_workers_need_is_loaded_only_where_there_may_be_some() -> None:
+    assert may_take_workers(["experiment=paper", "simulator=fake", "workers=16"])
+    for alone in (["--help"], ["-m", "seed=1,2"], ["seed=1", "workers=1"], ["trials=1"], ["backend=loky"]):
+        assert not may_take_workers(alone)

@@ -8,7 +8,7 @@ from factors import Problem, bag, problems, seeds
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.grounding.design import concatenate, distinct_rows
+from dcg_torch.grounding.design import concatenate, distinct_rows, run_starts
 from dcg_torch.grounding.fit import objective_at
 from dcg_torch.grounding.psi import BINARY, LogLinearFactor
 
@@ -78,3 +78,9 @@ def test_renamed_columns_stand_for_two_one_or_none() -> None:
     renamed = problem.design().renamed(languages, groundings)
     assert objective_at(model, [renamed], 0.1)[0] == pytest.approx(expected.loss(model.weight.numpy(), 0.1))
     assert len(concatenate([renamed]).phrase) == 4
+
+
+@given(numbers=st.lists(st.integers(0, 2), min_size=1, max_size=12))
+def test_runs_begin_where_a_number_differs_from_the_one_before(numbers: list[int]) -> None:
+    starts = [k for k, number in enumerate(numbers) if k == 0 or number != numbers[k - 1]]
+    assert run_starts(np.array(numbers, dtype=np.int64)).tolist() == starts

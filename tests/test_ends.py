@@ -26,7 +26,7 @@ def test_what_is_said_of_scattered_things_is_so(seed: int) -> None:
         side = [o.id for o in sorted(alike, key=lambda o: -o.position[1])]
         near = [o.id for o in sorted(alike, key=lambda o: math.hypot(*o.position[:2]))]
         order = side if "left" in text else side[::-1] if "right" in text else near
-        if order is near and ("farthest" in text or "furthest" in text):
+        if order is near and any(word in text for word in ("farthest", "furthest", "back", "rearmost")):
             order = near[::-1]
         part = next((s for s, sign in (("left", 1), ("right", -1)) if text.endswith(f" on your {s}")), None)
         if part is None and ("nearest" in text or "closest" in text or "farthest" in text) and " on the " in text:

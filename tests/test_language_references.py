@@ -126,3 +126,37 @@ def test_sides_and_the_workspace_in_plain_words(
 
 def test_a_table_that_is_there_is_meant_itself() -> None:
     assert plain("the cone on the left side of the table", "coffee table") == [("left of", "table", ())]
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "relations"),
+    [
+        ("walk until you see the window and then it's the plant closest to it", "plant", (("closest to", "window"),)),
+        ("could you check whether the oven is off? the stove, by the sink.", "stove", (("by", "sink"),)),
+        (
+            "find a small cube; to the left of it there is a cylinder. that cylinder.",
+            "cylinder",
+            (("left of", "cube"),),
+        ),
+        ("pick up the cube. it is the red one", "cube", ()),
+        ("man, glasses, no beard", "man", (("with", "glass"), ("without", "beard"))),
+        ("lower right", None, (("on", "right"),)),
+        ("center", None, (("in", "center"),)),
+        ("right side", None, (("on", "right"),)),
+        ("the left one of the chairs by the wall", "chair", (("by", "wall"),)),
+    ],
+)
+def test_what_a_text_is_about(text: str, noun: str | None, relations: tuple[tuple[str, str], ...]) -> None:
+    tree = default_parser().parse(text).tree
+    assert tree is not None
+    meant = target_phrase(tree)
+    assert meant.phrase.noun == noun
+    assert tuple((p.phrase.words[0], c.phrase.noun) for p in meant.children for c in p.children) == relations
+
+
+def test_what_names_a_landmark_again_says_more_of_it() -> None:
+    tree = default_parser().parse("the laptop on the desk. the desk near the door").tree
+    assert tree is not None
+    (place,) = target_phrase(tree).children
+    (desk,) = place.children
+    assert [child.phrase.words for child in desk.children] == [("near",)]

@@ -5,6 +5,8 @@ from __future__ import annotations
 import functools
 import os
 import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -79,3 +81,18 @@ def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
     results.close()  # type: ignore[attr-defined]
     pids = {path.read_text() for path in tmp_path.iterdir()}
     assert not any(Path(f"/proc/{pid}").exists() for pid in pids if pid)
+
+
+_PREPARED = """
+from multiprocessing import forkserver
+from dcg_torch.experiment.pool import prepare
+prepare()
+print(forkserver._forkserver._forkserver_pid or "")
+"""
+
+
+def test_a_process_that_was_prepared_in_vain_ends_with_its_parent() -> None:
+    done = subprocess.run([sys.executable, "-c", _PREPARED], capture_output=True, text=True, check=True, timeout=60)
+    assert done.stderr == ""
+    pid = done.stdout.strip()
+    assert not pid or not Path(f"/proc/{pid}").exists() or "Z" in Path(f"/proc/{pid}/stat").read_text()

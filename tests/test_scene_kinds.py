@@ -12,6 +12,7 @@ from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson
+from dcg_torch.learning.learner import Taught
 from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
@@ -59,3 +60,34 @@ def test_corpora_that_disagree_are_both_learned(model: GroundingModel) -> None:
         assert found is not None
         assert found.id == id_
     assert not any("scene" in name for name in model.features.language)  # none before a corpus was taught
+
+
+def test_a_word_said_of_another_type_elsewhere_still_means_what_is_called_so(model: GroundingModel) -> None:
+    """Where there are no mugs people say "mug" of a cup; it is no reason to take the cup where there is a mug."""
+    kinds = {"kitchen": ("cup", "mug", "plate"), "office": ("cup", "lamp", "book")}
+    worlds = {
+        name: model.world_model(
+            [Percept(f"{k}", type_, None, (2.0, 1.0 - k, 0.0)) for k, type_ in enumerate(types)],
+            robot=Pose(0.0, 0.0),
+            looked=True,
+        )
+        for name, types in kinds.items()
+    }
+    tree = parse_command("take the mug").tree
+    assert tree is not None
+    meant = {"kitchen": "1", "office": "0"}
+    taught = model.copy()
+    lessons = [Lesson(tree, worlds[name], frozenset({meant[name]})) for name in ["kitchen"] * 5 + ["office"] * 6]
+    taught.teach(lessons, rounds=1)
+    found = {name: taught.ground("take the mug", world) for name, world in worlds.items()}
+    assert {name: solution.object.id for name, solution in found.items() if solution.object is not None} == meant
+    assert (found["kitchen"].probability or 0.0) > 0.8
+
+
+def test_lessons_deny_a_noun_of_types_that_they_pass_over() -> None:
+    said = Taught((), (), {"mug": {"mug": 5, "cup": 6}}, {}, {"mug": {"cup": 5, "plate": 5}})
+    assert said.denies("mug", "cup")
+    assert said.denies("mug", "plate")
+    assert not said.denies("mug", "mug")
+    assert not said.denies("jug", "cup")
+    assert not Taught((), (), {"mug": {"cup": 9}}, {}, {"mug": {"cup": 1}}).denies("mug", "cup")  # people slip

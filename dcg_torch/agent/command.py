@@ -13,6 +13,7 @@ from typing import Any, Protocol
 from dcg_torch.agent.asking import AskingPolicy, Listener, Question, Reply, candidates, question
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
+from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import CommandParser, ParsedCommand, ReadCommand
 from dcg_torch.learning.learner import Experience
@@ -133,7 +134,7 @@ def carry_out(
         percepts = {p.id: p for p in robot.perceive()}
     in_view = tuple(percepts)
     with clock("parse"):
-        reading = (parse or _default_parser())(text, model.symbols.keys())
+        reading = heard(parse or _default_parser(), text, model.symbols.keys(), percepts.values())
     if reading.tree is None:
         return Outcome(reading, None, in_view, tuple(percepts.values()), None)
     explorer = explorer or TurnInPlace(spin_step)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import re
 import sys
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -89,8 +90,21 @@ def usage(commands: Mapping[str, Command] = COMMANDS) -> str:
     return "\n".join([*head, "dcg-torch --version says which version this is."])
 
 
+_ALONE = re.compile(r"-|(workers|trials)=1$|backend=|simulator\.gui=|hydra/launcher=")
+"""Arguments with which an experiment takes no processes of its own, or others."""
+
+
+def may_take_workers(arguments: list[str]) -> bool:
+    """Whether an experiment is likely to be run by several processes: what these need is loaded meanwhile."""
+    return not any(map(_ALONE.match, arguments))
+
+
 def _main_of(name: str, command: Command) -> int:
     try:
+        if name == "run" and may_take_workers(sys.argv[1:]):
+            from dcg_torch.experiment.pool import prepare  # here: nothing else of it is asked for
+
+            prepare()
         module = importlib.import_module(f"dcg_torch.{command.module}")
         status: int = module.main()
     except KeyboardInterrupt:  # before or after the program can say it itself

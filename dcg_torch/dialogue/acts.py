@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
 import yaml
 
+from dcg_torch.grounding.marks import heard
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import SETS
 from dcg_torch.language.parser import MAX_CHARACTERS
@@ -24,6 +25,7 @@ from dcg_torch.speech_acts.requests import (
     read_question,
 )
 from dcg_torch.speech_acts.teaching import Teaching, read_teaching
+from dcg_torch.types import Percept
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,14 +70,15 @@ def is_stop(text: str) -> bool:
     return parse_command(text).refused in replies()["stop"]
 
 
-def read_act(text: str, vocabulary: Collection[str], *, asked: bool) -> Act:
+def read_act(text: str, vocabulary: Collection[str], *, asked: bool, things: Iterable[Percept] = ()) -> Act:
     """What a text does.
 
     Args:
         vocabulary: the nouns known to the robot.
         asked: does a question of the robot wait for an answer?
+        things: what has been seen, which may be called by its marks.
     """
-    parse = parse_command(text, vocabulary)
+    parse = heard(parse_command, text, vocabulary, things)
     if parse.refused in replies()["stop"]:
         return Stop()
     if len(text) > MAX_CHARACTERS:

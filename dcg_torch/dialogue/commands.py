@@ -9,6 +9,7 @@ from dcg_torch.agent.command import Look
 from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import ENDINGS, kind_of, said_of
 from dcg_torch.dialogue.situation import ASKING, Errand, Situation
+from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import VERBS
@@ -145,7 +146,7 @@ def reply_of(s: Situation, asking: Question, said: Answer | str) -> Reply | None
 
 def _described(s: Situation, ids: tuple[str, ...], phrase: str) -> Reply | None:
     """The one that a phrase describes, as the robot stands now: of all that was seen, or else of those asked about."""
-    read = parse_command(phrase, s.model.symbols.keys())
+    read = heard(parse_command, phrase, s.model.symbols.keys(), s.seen)
     world = s.model.world_model(s.seen, s.robot.pose, looked=True)
     for meant, least in ((None, ASKING.below), (frozenset(ids), _SURE_ANSWER)):
         found = s.model.ground(read, replace(world, meant=meant))

@@ -34,7 +34,7 @@ def hear(s: Situation, text: str, pointed: WorldObject | None) -> Done:
 
 
 def _hear(s: Situation, text: str, pointed: WorldObject | None) -> Done:
-    act = read_act(text, s.model.symbols.keys(), asked=s.open is not None)
+    act = read_act(text, s.model.symbols.keys(), asked=s.open is not None, things=s.seen)
     if isinstance(act, Answer):
         return _answered(s, act)
     s.open = None

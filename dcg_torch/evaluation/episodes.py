@@ -48,6 +48,14 @@ def _is_truth(key: str, value: object) -> bool:
     return isinstance(value, bool) or (_ASKING.match(key) is not None and value in (0, 1))
 
 
+_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
+"""Keys whose numbers are names: "block 7"."""
+
+
+def _is_number(key: str, value: object) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and key in _NUMBERED
+
+
 class EpisodeObject(_Record):
     """One object: metres; `size` are its extents, one number for all three, or a word, if known.
 
@@ -76,7 +84,9 @@ class EpisodeObject(_Record):
         Of numbers 1 and 0 are such where the key asks for yes or no ("hasBeard"); all else is not used.
         """
         further = {**(self.model_extra or {}), "size": self.size}
-        named = {f"{key}: {value}" for key, value in further.items() if isinstance(value, str)}
+        named = {
+            f"{key}: {value}" for key, value in further.items() if isinstance(value, str) or _is_number(key, value)
+        }
         truths = {key: bool(value) for key, value in further.items() if _is_truth(key, value)}
         return frozenset(named | {key if true else f"{key}: no" for key, true in truths.items()})
 
@@ -241,9 +251,13 @@ def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
             found.update(f"{name}.{key}" for key in (place and place.model_extra) or {})
         for thing in episode.objects:
             further = (thing.model_extra or {}).items()
-            used = ((key, isinstance(value, (str, type(None))) or _is_truth(key, value)) for key, value in further)
+            used = ((key, _is_used(key, value)) for key, value in further)
             found.update(f"objects.{key}" for key, heard in used if not heard)
     return dict(found)
+
+
+def _is_used(key: str, value: object) -> bool:
+    return isinstance(value, (str, type(None))) or _is_truth(key, value) or _is_number(key, value)
 
 
 def unused_note(episodes: Iterable[Episode]) -> str | None:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
+from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.readings import worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import CommandParser, ParsedCommand
@@ -140,9 +141,9 @@ def train(
         where, kept = workspace(corpus), training.kept(corpus)
         weight = 1.0 if len(corpora) == 1 else min(1.0, math.sqrt(_FULL_WEIGHT / max(1, len(kept))))
         for episode in kept:
-            read = parse(episode.text, ())
+            world = test_world(model, episode, where)
+            read = heard(parse, episode.text, (), world.objects)
             if read.readings and episode.target:
-                world = test_world(model, episode, where)
                 readings = worth_grounding(read, world, model.learner.readings)
                 lesson = Lesson(readings[0].tree, world, frozenset(episode.target), weight, tuple(readings))
                 lessons.append(lesson)
@@ -173,14 +174,15 @@ def answers(
     """
     first_words, where = frozenset(model.symbols), workspace(test)
     for episode in test:
+        world = test_world(model, episode, where)
         began = time.perf_counter()
         words = model.symbols
-        reading = parse(episode.text, words.keys())
+        reading = heard(parse, episode.text, words.keys(), world.objects)
         read = time.perf_counter()
         noun, solution = reading.noun, None
         kind = "known" if noun in first_words else "learned" if noun in words else "unknown"
         if reading.tree is not None:
-            solution = model.ground(reading, test_world(model, episode, where))
+            solution = model.ground(reading, world)
         grounded = time.perf_counter()
         if learn and solution is not None:
             model.learn(solution)

@@ -6,6 +6,7 @@ processes is killed.
 
 from __future__ import annotations
 
+import atexit
 import contextlib
 import functools
 import multiprocessing
@@ -20,15 +21,17 @@ import time
 import traceback
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
-from multiprocessing import resource_tracker, util
+from multiprocessing import forkserver, resource_tracker, util
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext, SpawnContext
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
-from dcg_torch.settings import Settings
 from dcg_torch.storage.errors import UserError
+
+if TYPE_CHECKING:  # it takes a while to load, and `prepare` is to be called before
+    from dcg_torch.settings import Settings
 
 T = TypeVar("T")
 
@@ -71,6 +74,27 @@ def leave_with_parent() -> None:
 def cores() -> int:
     """How many this process may use: under Slurm those of the job, not those of the machine."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+def prepare() -> None:
+    """Start the process that workers are forked from, and go on at once: it takes seconds to import what they need.
+
+    It ends with this process, whether it was of use or not. Nothing is started where there is but one core.
+    """
+    if not may_start_processes() or cores() < 2 or "forkserver" not in multiprocessing.get_all_start_methods():
+        return
+    with _interrupts_wait():
+        _context()
+        forkserver.ensure_running()
+    atexit.register(_end_forkserver)
+
+
+def _end_forkserver() -> None:
+    """It would notice its parent's end once it has imported all; what reads its output need not wait for that."""
+    pid = getattr(forkserver._forkserver, "_forkserver_pid", None)
+    if pid is not None:
+        with contextlib.suppress(OSError):
+            os.kill(pid, signal.SIGTERM)
 
 
 def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:

@@ -5,10 +5,13 @@ compared with one of which both are true: how far do its log-odds of the noun, a
 thing that stays behind least decides. Where it stands among others and to landmarks says nothing here: people are less
 exact about places than about names, and of a thing that is not there nobody knows the place.
 
-    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) )
+    log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary )
 """
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -17,8 +20,9 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
-from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.names.vocabulary import CELL, PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
@@ -29,8 +33,15 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
+_CONTRARY = 4.0
+"""Of each word that an attribute of the thing contradicts: "with a hat" said of who wears none."""
+_UNMARKED = 2.0
+"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+
+_TYPES = 4
+"""Hypothetical objects of the hand-made examples, from which their weights come: of three types, and of none known."""
 
 
 def judges_absence(encoder: WorldEncoder) -> bool:
@@ -58,7 +69,30 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
+    if phrase.words:
+        odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
     return _RARE + float((strange + odd)[seen].min())
+
+
+def less_for_many_types(encoder: WorldEncoder) -> float:
+    """What to add to the log-scores of hypothetical objects where absence is not judged by names, all having been seen.
+
+    There is one for each type that is known. Knowing more types makes it no likelier that a command means what is not
+    there, so they share what those of the first types have together.
+    """
+    unseen = [o for o in encoder.world.objects if o.hypothetical]
+    if not unseen or not all(LOOKED_ROUND in o.attributes for o in unseen):
+        return 0.0
+    return min(0.0, math.log(_TYPES / len(unseen)))
+
+
+def _contradicted(words: Sequence[str], thing: Object) -> float:
+    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
+    heard = [word for word in words if not word.startswith(CELL)]
+    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
+    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
+    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
+    return others + _UNMARKED * marks
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:

@@ -12,6 +12,9 @@ from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.rows import ArrowheadRows
 from dcg_torch.grounding.symmetry import Incidence
 
+_MOSTLY_APART = 0.9
+"""Share of patterns among rows from which on it takes less time to treat each row as its own."""
+
 
 @dataclass(frozen=True)
 class Split:
@@ -51,7 +54,7 @@ class Split:
         incidence, order = self.incidence, self.row_order
         number = np.full(incidence.columns, -1, dtype=np.int64)
         number[self.shared] = np.arange(len(self.shared))
-        alone = len(self.first) == incidence.rows
+        alone = len(self.first) >= _MOSTLY_APART * incidence.rows
         first = order if alone else self.first
         at = np.full(incidence.rows, -1, dtype=np.int64)
         at[first] = np.arange(len(first))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.attributes import HAS, NOT_, attribute_key, named_key, states_value
+from dcg_torch.names.attributes import HAS, NOT_, OF_KEY, attribute_key, named_key, states_value
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -39,7 +39,7 @@ def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
     keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {_HELD})
     if not keys:
         return tree
-    types = {o.type for o in world.objects if o.type is not None and not o.type.startswith(OPAQUE)}
+    types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
     return _Speaking(keys, tuple(sorted(types)), colored).root(tree)
 
@@ -121,6 +121,8 @@ class _Speaking:
         words = list(phrase.words)
         color = phrase.color
         for k, word in enumerate(phrase.words):
+            if OF_KEY in word:
+                continue
             denied, (*like, stem) = word.startswith(NOT_), word.removeprefix(NOT_).split(" ")
             key = next((named_key(stem.removesuffix(e), self.keys) for e in _ENDINGS if stem.endswith(e)), None)
             if key is None or stem in self.keys:

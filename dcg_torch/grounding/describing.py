@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,8 +14,10 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, size_side
 from dcg_torch.names.vocabulary import RANKING
-from dcg_torch.types import NOT, Correspondence, ParseTree, PhraseKind
+from dcg_torch.scene.bodies import bulk
+from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -25,6 +27,15 @@ _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
 
+_NEAR = 4.5
+"""The same of what its name and its colour alone say: brown is near orange, and no orange."""
+
+_SAME_SIZE = 0.05
+"""Logarithms of volumes that differ by less are equal."""
+_SIZED = 5.0
+"""Nats that the smallest of some loses where it is called large."""
+_OFF = 0.5
+"""How far from the size that is said a thing may be to be compared."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -93,26 +104,98 @@ def is_to_a_place(tree: ParseTree) -> bool:
     return "to a thing" not in tree.phrase.context
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """What a noun phrase picks from.
+
+    Attributes:
+        among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
+            as it says that there are: "the middle one of the five on the left".
+        log_size: (things,) log-factor of the size that it says.
+        phrase: the phrase without the words that `log_size` has taken up.
+    """
+
+    among: Bools
+    log_size: Floats
+    phrase: Phrase
+
+
 def comparison_set(
     tree: ParseTree, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, tables: Tables
-) -> Bools:
-    """(things,) what a noun phrase describes apart from its ranks: as well as half of what it describes best.
+) -> Comparison:
+    """What the words of a noun phrase compare with: what all the rest of it describes.
 
-    Or as many as it says that there are: "the middle one of the five on the left".
+    Words for a size ("the upper large one") describe by degrees: how far is a thing from the largest, or the smallest?
+    They compare with all of the phrase's name where places leave one size alone ("the large one at the top").
     """
-    table = tables.unranked(encoder, replace(tree.phrase, words=()))
+    phrase = tree.phrase
+    table = tables.unranked(encoder, replace(phrase, words=of_attributes(phrase.words, encoder)))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
+    named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    several, objects = picked_from(tree.phrase), len(encoder.world.objects)
+    log_size = np.zeros(len(fit))
+    if is_sized(phrase):
+        sizes = _sizes(phrase, encoder)
+        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named)
+        if off is not None:
+            phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
+            log_size = -_SIZED * off**2
+            fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
+    several, objects = picked_from(phrase), len(encoder.world.objects)
     if several is not None and several <= objects:
         found = np.zeros(len(fit), dtype=np.bool_)
         found[highest(fit[:objects], several)] = True
-        return found
+        return Comparison(found, log_size, phrase)
+    described = _described(fit, odds)
+    if phrase.color is not None:
+        described &= own >= own[described].max(initial=-np.inf) - _NEAR
+    return Comparison(described, log_size, phrase)
+
+
+def is_sized(phrase: Phrase) -> bool:
+    """Does a noun phrase say how large its object is?"""
+    return any(size_side(word) is not None for word in phrase.words)
+
+
+def _sizes(phrase: Phrase, encoder: WorldEncoder) -> dict[str, int]:
+    """The words of a noun phrase for a size that no attribute tells, each with its side."""
+    told = of_attributes(phrase.words, encoder)
+    return {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
+
+
+def _described(fit: Floats, odds: Floats) -> Bools:
     described: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
     return described
+
+
+def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floats | None:
+    """(things,) from 0 to 1: how far a thing is from the largest (1), smallest (-1) or mean size (0) that is said.
+
+    Args:
+        sets: (things,) the first of them that has several sizes is what is compared.
+
+    Returns:
+        The largest of the distances, 0 for what has no size; None where all are of one size.
+    """
+    sizes = [math.nan if o.size is None else bulk(o.size) for o in encoder.world.objects]
+    logs = np.log([v if v > 0.0 else math.nan for v in sizes])
+    for among in sets:
+        known = logs[among[: len(logs)] & np.isfinite(logs)]
+        if sides and len(known) > 1 and np.ptp(known) > _SAME_SIZE:
+            place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
+            off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
+            return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))
+    return None
+
+
+def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...]:
+    """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
+    given = {o.attributes for o in encoder.world.objects} if words else ()
+    told = {word: {fact for own in given for fact in attribute_evidence((word,), own)} for word in words}
+    return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
 
 
 def highest(values: Floats, count: int) -> NDArray[np.int64]:

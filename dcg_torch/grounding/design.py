@@ -19,6 +19,8 @@ from dcg_torch.grounding.psi import Bag, Floats, distinct
 Ints = NDArray[np.int64]
 Hashes = NDArray[np.uint64]
 
+_1, _27, _30, _31 = (np.uint64(number) for number in (1, 27, 30, 31))
+_WEYL, _FIRST, _SECOND = (np.uint64(factor) for factor in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB))
 _CHUNK = 1 << 16
 """Rows that are hashed at once, so that a million of them need little memory beside their own."""
 
@@ -147,10 +149,21 @@ def row_hashes(bag: Bag) -> Hashes:
 
 def scrambled(numbers: Hashes) -> Hashes:
     """64 bits for each number that look random and are the same in every process (the finaliser of SplitMix64)."""
-    bits = (numbers + np.uint64(1)) * np.uint64(0x9E3779B97F4A7C15)
-    bits = (bits ^ (bits >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
-    bits = (bits ^ (bits >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
-    return bits ^ (bits >> np.uint64(31))
+    bits = numbers + _1
+    bits *= _WEYL
+    bits ^= bits >> _30
+    bits *= _FIRST
+    bits ^= bits >> _27
+    bits *= _SECOND
+    bits ^= bits >> _31
+    return bits
+
+
+def run_starts(numbers: Ints) -> Ints:
+    """Where in (n,) numbers, n > 0, each run of equal ones begins."""
+    found = np.flatnonzero(numbers[1:] != numbers[:-1])
+    found += 1
+    return np.concatenate([np.zeros(1, dtype=np.int64), found])
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,17 @@ from numpy.typing import NDArray
 
 from dcg_torch import scene
 from dcg_torch.grounding.design import DesignMatrix, distinct_rows, merge, stack_bags
-from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Ranking, Said, look_codes, padded, ranking
+from dcg_torch.grounding.features import (
+    GROUNDING_OF,
+    FeatureSet,
+    Group,
+    KindColumns,
+    Ranking,
+    Said,
+    look_codes,
+    padded,
+    ranking,
+)
 from dcg_torch.grounding.psi import Bag
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, WorldModel
 
@@ -19,6 +29,8 @@ Ints = NDArray[np.int64]
 
 _FEW = 256
 """Things up to which it does not pay to look for rows that are alike."""
+_MOST_KINDS = 1 << 14
+"""Kinds of things whose columns are kept from world to world."""
 
 
 @dataclass(frozen=True)
@@ -55,11 +67,13 @@ class WorldEncoder:
     Args:
         features: the columns.
         world: whose groundings are encoded.
+        kinds: the columns of things that were met before under these features; more are added.
     """
 
-    def __init__(self, features: FeatureSet, world: WorldModel) -> None:
+    def __init__(self, features: FeatureSet, world: WorldModel, kinds: KindColumns | None = None) -> None:
         self.features = features
         self.world = world
+        self._kinds = {} if kinds is None else kinds
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
         self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
@@ -101,7 +115,7 @@ class WorldEncoder:
             )
         code = np.concatenate([code, np.arange(len(first), len(first) + n - len(objects))])
         which = state.tolist()
-        rows = self.features.object_columns([objects[j] for j in first], [names[which[j]] for j in first])
+        rows = self.features.object_columns([objects[j] for j in first], [names[which[j]] for j in first], self._kinds)
         rows += [self._group_or_place(self.all[j], names[which[j]]) for j in range(len(objects), n)]
         first += range(len(objects), n)
         return Coded(padded(rows), code), first
@@ -202,12 +216,15 @@ class LastWorld:
 
     def __init__(self) -> None:
         self._encoder: WorldEncoder | None = None
+        self._kinds: KindColumns = {}
 
     def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
         """The one that there is if it is of this very world and under these columns, else a new one."""
         last = self._encoder
         if last is None or last.world is not world or last.features is not features:
-            last = self._encoder = WorldEncoder(features, world)
+            if last is None or last.features is not features or len(self._kinds) > _MOST_KINDS:
+                self._kinds = {}
+            last = self._encoder = WorldEncoder(features, world, self._kinds)
         return last
 
 

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
+from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
@@ -59,8 +61,24 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
-    found = _described(tree, world)
-    return found if world is None else _said_in(found, scene_kind(world))
+    if world is None:
+        return _factor_tree(tree, frozenset(), (False, False), "")
+    heights = [o.position[2] for o in world.objects if o.position is not None]
+    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
+    upright = not flat and is_upright(world.objects, world.viewer or world.robot)
+    return _factor_tree(tree, heads(world.classes), (flat, upright), scene_kind(world))
+
+
+@functools.lru_cache(maxsize=1024)
+def _factor_tree(tree: ParseTree, there: frozenset[str], level: tuple[bool, bool], scene: str) -> ParseTree:
+    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind.
+
+    Args:
+        level: does all stand on one level, or as on a page that stands upright?
+    """
+    flat, upright = level
+    found = _described(in_plain_words(tree, there, flat=flat or upright, upright=upright))
+    return _said_in(found, scene) if scene else found
 
 
 def _said_in(tree: ParseTree, scene: str) -> ParseTree:
@@ -68,11 +86,7 @@ def _said_in(tree: ParseTree, scene: str) -> ParseTree:
     return ParseTree(replace(tree.phrase, scene=scene), children)
 
 
-def _described(tree: ParseTree, world: WorldModel | None) -> ParseTree:
-    objects = () if world is None else world.objects
-    heights = [o.position[2] for o in objects if o.position is not None]
-    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
-    tree = in_plain_words(tree, heads(o.type for o in objects if o.type), flat=flat)
+def _described(tree: ParseTree) -> ParseTree:
     if tree.phrase.kind is PhraseKind.NOUN:
         return _noun(tree, ())
     verb = " ".join(tree.phrase.words)

@@ -76,11 +76,14 @@ class FactorGraph:
         add(self.tree)
         return graph
 
-    def solve(self, features: FeatureSet, factor: LogLinearFactor, *, beam: int = 8) -> Solution:
+    def solve(
+        self, features: FeatureSet, factor: LogLinearFactor, *, beam: int = 8, tables: Tables | None = None
+    ) -> Solution:
         """Leaf-to-root inference (Alg. 1, line 11).
 
         Args:
             beam: hypotheses of a phrase that its parent considers.
+            tables: of the phrases under these columns and weights; to be given where there are some.
         """
         encoder = self._encoder or WorldEncoder(features, self.world)
-        return Search(encoder, Tables(features, factor), beam).solve(self.tree)
+        return Search(encoder, tables or Tables(features, factor), beam).solve(self.tree)

@@ -119,17 +119,16 @@ class Objective:
         """(Q, S) the step of the shared variables, from the curvature (Q, Q, N) of each row."""
         assert isinstance(self.rows, ArrowheadRows)
         q, step = len(downhill), np.zeros_like(downhill)
-        curvature = self.rows.by_pattern(curvature.reshape(q * q, -1)).reshape(q, q, -1)
+        pairs = [(a, b) for a in range(q) for b in range(a + 1)]  # the matrices are symmetric
+        curvature = self.rows.by_pattern(np.array([curvature[pair] for pair in pairs]))
         for rows, columns, matrix in self.rows.blocks:
             if np.abs(downhill[:, columns]).max() < _SETTLED:
                 continue
-            own, k = curvature[:, :, rows], len(columns)
+            own, k = curvature.take(rows, axis=1), len(columns)
+            products = ((matrix.T * own[:, None]).reshape(-1, len(rows)) @ matrix).reshape(-1, k, k)
             hessian = np.empty((q, k, q, k))
-            for a in range(q):
-                for b in range(a + 1):
-                    hessian[a, :, b] = (matrix.T * own[a, b]) @ matrix
-                    if a != b:
-                        hessian[b, :, a] = hessian[a, :, b]
+            for (a, b), product in zip(pairs, products, strict=True):
+                hessian[a, :, b] = hessian[b, :, a] = product
             diagonal = np.einsum("akbk->abk", hessian)  # a view
             diagonal += self._basis[:, :, None] * self.strength[columns]
             whole, right = hessian.reshape(q * k, q * k), downhill[:, columns].reshape(-1)

@@ -2,38 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
+from dcg_torch.grounding.tables import Pattern
 from dcg_torch.types import Child
 
+_OTHER, _SAME = (False,), (True,)
 
+
+@dataclass
 class Patterns:
     """Which features fire for regions or actions: they differ in which of their children are about the same thing.
 
     Attributes:
-        known: the children and which of them are about the same thing, each different pattern once.
-        special: (groundings,) 0 for what no child is about, else a number of its own.
+        number: id of a thing -> its number.
+        known: each different pattern once, in the order of their numbers, with children that are such.
     """
 
-    def __init__(self, groundings: int, number: Mapping[str, int]) -> None:
-        self.known: list[tuple[tuple[Child, ...], tuple[bool, ...]]] = []
-        self.special = np.zeros(groundings, dtype=np.int64)
-        self._number = number
-        self._index: dict[tuple[tuple[tuple[str, int], ...], tuple[bool, ...]], int] = {}
+    number: Mapping[str, int]
+    known: dict[Pattern, tuple[Child, ...]] = field(default_factory=dict)
+    _index: dict[Pattern, int] = field(default_factory=dict)
 
     def of(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
         """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
         kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])  # hashed quickly
-        about = [self._number[c.grounding.object.id] for c in children]
-        special = {j: self._of(children, kinds, tuple([j == a for a in about])) for j in about}
-        for j in special:
-            self.special[j] = j + 1
-        return self._of(children, kinds, (False,) * len(about)), special
+        about = [self.number[c.grounding.object.id] for c in children]
+        if len(children) == 1:  # as nearly all have
+            return self._of(children, (kinds, _OTHER)), {about[0]: self._of(children, (kinds, _SAME))}
+        special = {j: self._of(children, (kinds, tuple([j == a for a in about]))) for j in about}
+        return self._of(children, (kinds, (False,) * len(about))), special
 
-    def _of(self, children: tuple[Child, ...], kinds: tuple[tuple[str, int], ...], same: tuple[bool, ...]) -> int:
-        number = self._index.setdefault((kinds, same), len(self.known))
-        if number == len(self.known):
-            self.known.append((children, same))
+    def _of(self, children: tuple[Child, ...], pattern: Pattern) -> int:
+        number = self._index.get(pattern)
+        if number is None:
+            number = self._index[pattern] = len(self.known)
+            self.known[pattern] = children
         return number
+
+
+def spread(found: Sequence[tuple[int, dict[int, int]]], groundings: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """What `Patterns.of` found of several choices of children, as arrays.
+
+    Returns:
+        (choices, groundings) the numbers of the patterns, and (groundings,) 0 for what no child is about, else a number
+        of its own.
+    """
+    which = np.empty((len(found), groundings), dtype=np.int64)
+    which[:] = np.array([rest for rest, _ in found])[:, None]
+    code = np.zeros(groundings, dtype=np.int64)
+    for row, (_, special) in zip(which, found, strict=True):
+        for j, number in special.items():
+            row[j] = number
+            code[j] = j + 1
+    return which, code

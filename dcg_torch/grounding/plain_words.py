@@ -49,16 +49,20 @@ def heads(types: Iterable[str]) -> frozenset[str]:
     return frozenset(map(_head, set(types)))
 
 
-def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False) -> ParseTree:
+def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False, upright: bool = False) -> ParseTree:
     """A parse tree in plain words.
 
     Args:
         there: the `heads` of the types of the objects that are there: a table that is there is meant itself.
         flat: does all stand on one level?
+        upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
     tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
-    phrase, below = tree.phrase, tuple(in_plain_words(child, there, flat=flat) for child in tree.children)
+    phrase = tree.phrase
+    below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
+    if upright and phrase.kind is PhraseKind.NOUN:
+        children = tuple(said for child in children for said in _over_and_beyond(child))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if phrase.noun in COMPASS:
@@ -82,6 +86,15 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
     return ParseTree(replace(phrase, words=words), children)
+
+
+def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
+    """On a page what is above a thing is behind it, too."""
+    name, *others = place.phrase.words or ("",)
+    side = {"above": "behind", "under": "in front of"}.get(name)
+    if side is None:
+        return (place,)
+    return place, replace(place, phrase=replace(place.phrase, words=(side, *others)))
 
 
 def _farthest_to_a_side(tree: ParseTree) -> ParseTree:

@@ -84,7 +84,7 @@ class LogLinearFactor(nn.Module):
         mask = torch.as_tensor(pairs, device=old.device)
         grown = mask.shape[0] >= languages and mask.shape[1] >= groundings
         # The meta device has shapes alone to compare.
-        if not grown or not (mask.is_meta or torch.equal(mask[:languages, :groundings], self.pairs)):
+        if not grown or not (mask.is_meta or _equal(mask[:languages, :groundings], self.pairs)):
             raise ValueError(
                 f"a mask of {pairs.shape} columns does not extend the old one of {(languages, groundings)}"
             )
@@ -129,6 +129,12 @@ class LogLinearFactor(nn.Module):
     def forward(self, *arguments: Any) -> torch.Tensor:
         """As `log_psi`."""
         return self.log_psi(*arguments)
+
+
+def _equal(one: torch.Tensor, other: torch.Tensor) -> bool:
+    if one.device.type == "cpu":  # numpy compares parts of arrays without a copy
+        return np.array_equal(one.numpy(), other.numpy())
+    return torch.equal(one, other)
 
 
 def distinct(bag: Bag) -> Bag:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import operator
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
@@ -11,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import (
     coordinated,
@@ -20,7 +22,7 @@ from dcg_torch.grounding.factor_tree import (
     to_factor_tree,
 )
 from dcg_torch.grounding.frames import from_the_other_side
-from dcg_torch.grounding.psi import LogLinearFactor
+from dcg_torch.grounding.grids import by_cells
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -29,7 +31,7 @@ from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.workspace import with_groups
-from dcg_torch.types import ParseTree, PhraseKind, WorldModel
+from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
@@ -55,8 +57,10 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
-    told = [(by_attributes(looking(r.tree, command.text, world), world), weight, r.rules) for r, weight in kept]
-    return [Reading(tree, weight, tuple(rules)) for tree, weight, rules in told]
+    trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
+    told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
+    placed = by_cells([tree for tree, _, _ in told], world)
+    return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -71,14 +75,14 @@ class SharedSearch:
 
     Args:
         encoder: of the world.
-        factor: the weights.
+        tables: of the phrases, under the weights.
         beam: hypotheses of a phrase that its parent considers.
     """
 
-    def __init__(self, encoder: WorldEncoder, factor: LogLinearFactor, beam: int) -> None:
-        self._tables = Tables(encoder.features, factor)
+    def __init__(self, encoder: WorldEncoder, tables: Tables, beam: int) -> None:
+        self._tables = tables
         self._beam = beam
-        self._search = Search(encoder, self._tables, beam)
+        self._search = Search(encoder, tables, beam)
         self._grouped: dict[bool, Search] = {}
         self._solved: dict[tuple[ParseTree, bool], Solution] = {}
 
@@ -191,7 +195,7 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
     if not shown and not named and not valued:
         return tree
     words = _words(text)
-    several = shown and _speaks_of_others(tree, {o.type for o in world.objects if o.type is not None})
+    several = shown and _speaks_of_others(tree, world.classes)
     values = stated_values(words) if valued else ()
     if named or several:
         tree = _each_told(tree, compared=named)
@@ -199,7 +203,7 @@ def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
     return _told(tree, words if shown else (), values)
 
 
-def _speaks_of_others(tree: ParseTree, types: set[str]) -> bool:
+def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
     """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
     _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
     return any(names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") for noun in others)
@@ -211,18 +215,27 @@ def _words(text: str) -> tuple[str, ...]:
 
 def _each_told(tree: ParseTree, *, compared: bool) -> ParseTree:
     """The tree whose noun phrases are each told of their own words; of those that compare colours alone if so asked."""
-    children = tuple(_each_told(child, compared=compared) for child in tree.children)
+    children = tuple([_each_told(child, compared=compared) for child in tree.children])
     phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN:
-        return replace(tree, children=children)
-    own = _words(phrase.text)
-    look = comparing_words([w for w in own if w in phrase.words]) if compared else own
-    return replace(tree, phrase=replace(phrase, look=look), children=children)
+    if phrase.kind is PhraseKind.NOUN and not (compared and not phrase.words and not phrase.look):
+        own = _words(phrase.text)
+        look = comparing_words([w for w in own if w in phrase.words]) if compared else own
+        phrase = phrase if look == phrase.look else replace(phrase, look=look)
+    return _tree(tree, phrase, children)
+
+
+def _tree(before: ParseTree, phrase: Phrase, children: tuple[ParseTree, ...]) -> ParseTree:
+    """The tree of a phrase and children: the one before, where nothing has changed."""
+    if phrase is before.phrase and all(map(operator.is_, children, before.children)):
+        return before
+    return ParseTree(phrase, children)
 
 
 def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> ParseTree:
     phrase = tree.phrase
     if phrase.kind is PhraseKind.NOUN:
         words = tuple(dict.fromkeys((*phrase.words, *values)))
-        return replace(tree, phrase=replace(phrase, look=look or phrase.look, words=words))
-    return replace(tree, children=(*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))
+        if words == phrase.words and not look:
+            return tree
+        return ParseTree(replace(phrase, look=look or phrase.look, words=words), tree.children)
+    return _tree(tree, phrase, (*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))

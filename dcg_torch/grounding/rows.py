@@ -73,11 +73,13 @@ class ArrowheadRows:
     @cached_property
     def blocks(self) -> list[tuple[Ints, Ints, Floats]]:
         """Patterns, shared variables and matrix of every part that shares none with the others: verbs, nouns."""
+        row, column = np.nonzero(self.patterns != 0.0)
         label = np.arange(self.patterns.shape[1])
-        fires = self.patterns != 0.0
         while True:  # the least label spreads through all that is connected
-            of_row = np.where(fires, label, len(label)).min(axis=1, initial=len(label))
-            spreading = np.minimum(label, np.where(fires, of_row[:, None], len(label)).min(axis=0, initial=len(label)))
+            of_row = np.full(len(self.patterns), len(label))
+            np.minimum.at(of_row, row, label[column])
+            spreading = label.copy()
+            np.minimum.at(spreading, column, of_row[row])
             if (spreading == label).all():
                 break
             label = spreading

@@ -10,11 +10,20 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.absence import judges_absence, log_odds_of_absence
-from dcg_torch.grounding.describing import comparison_set, highest, is_to_a_place, modifier_factor, ranks, ranks_from
+from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
+from dcg_torch.grounding.describing import (
+    comparison_set,
+    highest,
+    is_sized,
+    is_to_a_place,
+    modifier_factor,
+    of_attributes,
+    ranks,
+    ranks_from,
+)
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.patterns import Patterns
+from dcg_torch.grounding.patterns import Patterns, spread
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
@@ -185,21 +194,25 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = parts and len(others) < len(own)
-        compared = comparison_set(tree, parts, self.encoder, self._tables) if some else None
+        phrase = tree.phrase
+        told = bool(parts) or is_sized(phrase) or phrase.color is not None or bool(phrase.look)
+        some = len(others) < len(own) and (told or bool(of_attributes(phrase.words, self.encoder)))
+        compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
     def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
         modifiers = self._all_modifiers(tree)
-        compared = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
-        table = self._tables.noun(self.encoder, tree.phrase, compared)
+        picks = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
+        compared, phrase = (None, tree.phrase) if picks is None else (picks.among, picks.phrase)
+        table = self._tables.noun(self.encoder, phrase, compared)
         correspondences = self._tables.factor.correspondences
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
-        scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+        scores = np.array([sum([h.log_score for h in combo]) for combo in combos])
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + scores)[:, None]
-        placed = np.zeros(len(active))
+        placed = np.zeros(len(active)) if picks is None else picks.log_size
+        base = base + placed
         for modifier in modifiers:
             base = base + modifier.log_psi
             placed = placed + modifier.log_psi
@@ -219,28 +232,24 @@ class Search:
     def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
-        patterns = Patterns(len(self.encoder.world.meanable), self.encoder.number)
+        patterns = Patterns(self.encoder.number)
         found = [patterns.of(tuple([h.child for h in combo])) for combo in combos]
-        which = np.empty((len(combos), len(patterns.special)), dtype=np.int64)
-        which[:] = np.array([rest for rest, _ in found])[:, None]
-        for row, (_, special) in zip(which, found, strict=True):
-            for j, number in special.items():
-                row[j] = number
         table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
         inactive = table[correspondences.index(Correspondence.INACTIVE)]
-        base = np.array([sum(h.log_score for h in combo) for combo in combos]) + self._sums(inactive, found)
+        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, found)
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
-        odds = np.stack([base[:, None] + table[correspondences.index(phi)][which] for phi in meant], axis=2)
-        return _Scored(tree, combos, meant, odds - inactive[which][:, :, None], patterns.special)
+        own = table[[correspondences.index(phi) for phi in meant]].T
+        cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
+        which, code = spread(found, len(self.encoder.world.meanable))
+        return _Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
 
     def _sums(self, values: Floats, found: Sequence[tuple[int, dict[int, int]]]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
         known: dict[tuple[int, ...], float] = {}
         n, own = len(self.encoder.world.meanable), values.tolist()
-        keys = [(rest, *sorted(special.values())) for rest, special in found]
-        for rest, *special in dict.fromkeys(keys):
-            times = [n - len(special), *(1 for _ in special)]
-            known[rest, *special] = exact_sum([own[rest], *(own[k] for k in special)], times)
+        keys = [(rest, *special.values()) for rest, special in found]
+        for key in dict.fromkeys(keys):
+            known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
         return [known[key] for key in keys]
 
     def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
@@ -278,32 +287,35 @@ class Search:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
-        bare = replace(
-            tree.phrase, text="", words=tree.phrase.words if in_group(tree.phrase) else (), context=(), among=None
-        )
+        bare = replace(tree.phrase, text="", words=self._told(tree.phrase), context=(), among=None)
         if bare not in self._absence:
             self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
         log_odds = self._absence[bare]
-        if log_odds is None:
-            return found
         there = self.encoder.perceived[: found.scores.shape[1]]
-        totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
-        shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
-        if not np.isfinite(shift):
+        if log_odds is None:
+            shift = less_for_many_types(self.encoder)
+        else:
+            totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
+            shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
+        if shift == 0.0 or not np.isfinite(shift):
             return found
         return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
 
+    def _told(self, phrase: Phrase) -> tuple[str, ...]:
+        """The words of a noun phrase that say something of groups or attributes."""
+        return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
+
     def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
-        kind, things = GROUNDING_OF[scored.tree.phrase.kind], self.encoder.all
+        tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
+        kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all
         found, scores = [], scored.scores.reshape(-1)
         _, n, m = scored.scores.shape
         best = highest(scores, beam)
         for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
-            (c, j), p = divmod(flat // m, n), flat % m
-            child = Child(Grounding(kind, things[j]), scored.meant[p])
-            below = scored.combos[c]
-            if scored.modifiers:
-                below = (*below, *(modifier.hypothesis(j, things[j]) for modifier in scored.modifiers))
-            found.append(Hypothesis(scored.tree, child, below, score))
+            c, j, p = flat // (m * n), flat // m % n, flat % m
+            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
+            if modifiers:
+                below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
+            found.append(Hypothesis(tree, child, below, score))
         return found

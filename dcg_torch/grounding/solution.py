@@ -205,16 +205,14 @@ class Solution:
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
     def _probability_of_set(self, inside: Collection[str]) -> float:
-        """That just these are meant: the least member is, and the likeliest other is not.
+        """That just these are meant: the least likely of them before the likeliest other.
 
         What people describe, they describe together: whether one is meant hangs on whether the others are. So it is as
-        likely that all are as that the least likely is. Of a number of objects, the least must come before the others.
+        likely that all are as that the least likely is.
         """
-        counted = self.noun is not None and self.noun.count is not None
-        of = self.probabilities if counted else self.fits
-        least = min(of[i] for i in inside)
-        other = max((of[o.id] for o in self.world.objects if o.id not in inside), default=0.0)
-        return least / (least + other) if counted else least * (1.0 - other)
+        least = min(self.probabilities[i] for i in inside)
+        other = max((p for i, p in self.probabilities.items() if i not in inside), default=0.0)
+        return least / (least + other)
 
 
 def target_of(tree: ParseTree) -> ParseTree | None:

@@ -6,6 +6,7 @@ up what is counted of each pair of a phrase and a grounding; columns are looked 
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -58,6 +59,7 @@ class Statistics:
         self._phrases = _Columns()
         self._seen = _Columns()
         self._pairs: dict[tuple[int, int], int] = {}
+        self._pair_of: Ints = np.zeros((0, 2), dtype=np.int64)
         self._kept: dict[int, tuple[Example, Ints, Floats]] = {}
         self._objects: dict[Object, int] = {}
         self._of_phrase: dict[int, Ints] = {}
@@ -67,6 +69,7 @@ class Statistics:
         other = Statistics(self._groups)
         other._phrases, other._seen = self._phrases.copy(), self._seen.copy()
         other._pairs, other._kept, other._objects = dict(self._pairs), dict(self._kept), dict(self._objects)
+        other._pair_of = self._pair_of
         other._of_phrase = {phrase: seen.copy() for phrase, seen in self._of_phrase.items()}
         return other
 
@@ -101,9 +104,12 @@ class Statistics:
         weights = np.concatenate([np.zeros(0), *(own for _, _, own in plain)])
         total: Floats = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).astype(np.float64)
         count = total.reshape(-1, _LABELS).T
-        pairs = np.array(list(self._pairs), dtype=np.int64).reshape(-1, 2)
+        if len(self._pairs) > len(self._pair_of):
+            new = list(itertools.islice(self._pairs, len(self._pair_of), None))
+            self._pair_of = np.concatenate([self._pair_of, np.array(new, dtype=np.int64)])
         used: Ints = np.flatnonzero(count.any(axis=0))
-        return pairs[used, 0], pairs[used, 1], count[at][:, used]
+        pairs = self._pair_of[used]
+        return pairs[:, 0], pairs[:, 1], count[at][:, used]
 
     def _of_soft(self, labels: SoftLabels, at: Sequence[int]) -> _Counted:
         phrases = np.array([self._phrases.number(p) for p in labels.phrases], dtype=np.int64)

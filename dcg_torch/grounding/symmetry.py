@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import Hashes, Ints, scrambled
+from dcg_torch.grounding.design import Hashes, Ints, run_starts, scrambled
 from dcg_torch.grounding.psi import Floats
 
 
@@ -35,7 +35,7 @@ class Incidence:
     @property
     def starts(self) -> Ints:
         """(rows,) the first entry of each row."""
-        return np.flatnonzero(np.diff(self.row, prepend=-1))
+        return run_starts(self.row)
 
     def keep(self, rows: Ints) -> Incidence:
         """Of these rows alone, in ascending order; columns keep their numbers."""
@@ -95,10 +95,11 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Cl
     """
     by_column = np.argsort(incidence.column, kind="stable")
     row_starts = incidence.starts
-    column_starts = np.flatnonzero(np.diff(incidence.column[by_column], prepend=-1))
+    column_starts = run_starts(incidence.column[by_column])
+    row_of = incidence.row[by_column]
     rows, columns, found = row_start, column_start, (0, 0)
     while True:
-        below = np.add.reduceat(scrambled(rows)[incidence.row[by_column]], column_starts)
+        below = np.add.reduceat(scrambled(rows)[row_of], column_starts)
         columns = scrambled(columns) + below
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside

@@ -7,7 +7,7 @@ they stand: sums go column by column, in an order that depends on what fires alo
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -20,12 +20,20 @@ from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
 
 _ENTRIES = 1 << 16
 """Weights that are gathered at once; beyond, they are added column by column."""
+_PHRASES = 4096
+"""Phrases of which tables are kept, at the most."""
 _FEW = 256
 """Values up to which a sum is taken of them written out."""
 
 
+Pattern = tuple[tuple[tuple[str, int], ...], tuple[bool, ...]]
+"""Of a region or action, the kind and correspondence of each child grounding, and which are about the same object."""
+
+
 class Tables:
     """The tables of several phrases under the weights as they are now; to be thrown away when these change.
+
+    What depends on the phrase alone is kept: of every command it is much the same.
 
     Args:
         features: the columns.
@@ -35,9 +43,17 @@ class Tables:
     def __init__(self, features: FeatureSet, factor: LogLinearFactor) -> None:
         self.features = features
         self.factor = factor
-        weight = factor.weight
+        self._of = weight = factor.weight
+        self._version = _version(weight)
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
+        self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
+
+    def hold(self, features: FeatureSet, factor: LogLinearFactor) -> bool:
+        """Are they still those of these columns and weights?"""
+        weight = factor.weight
+        same = self.features is features and self.factor is factor and self._of is weight
+        return same and self._version == _version(weight) and len(self._sides) < _PHRASES
 
     def noun(self, encoder: WorldEncoder, phrase: Phrase, members: np.ndarray | None = None) -> Floats:
         """(P, things) of a noun phrase.
@@ -104,15 +120,19 @@ class Tables:
             out[:, start : start + step] = _normal(total).reshape(len(side), -1, n)
         return out
 
-    def patterns(
-        self, phrase: Phrase, kind: GroundingKind, patterns: Sequence[tuple[Sequence[Child], Sequence[bool]]]
-    ) -> Floats:
+    def patterns(self, phrase: Phrase, kind: GroundingKind, patterns: Mapping[Pattern, Sequence[Child]]) -> Floats:
         """(P, patterns) of regions or actions.
 
         Args:
-            patterns: child groundings, and of each whether it is about the same object.
+            patterns: of each, some child groundings that are such.
         """
-        return self._log_psi(phrase, padded([self.features.action_columns(kind, *pattern) for pattern in patterns]))
+        kept = self._patterns.get(phrase)
+        if kept is None:
+            kept = self._patterns[phrase] = {}
+        if new := [pattern for pattern in patterns if pattern not in kept]:
+            columns = [self.features.action_columns(kind, patterns[pattern], pattern[1]) for pattern in new]
+            kept.update(zip(new, self._log_psi(phrase, padded(columns)).T, strict=True))
+        return np.array([kept[pattern] for pattern in patterns]).T
 
     def _side(self, phrase: Phrase) -> Floats:
         """(P, G + 1) the weights that meet what fires for a phrase, summed; the last column is the padding's."""
@@ -138,6 +158,11 @@ class Tables:
         return _normal(total)
 
 
+def _version(weight: torch.Tensor) -> int:
+    """Grows when someone changes the values in place; torch keeps no count of tensors made in its inference mode."""
+    return 0 if weight.is_inference() else weight._version
+
+
 def _add(total: Floats, table: Floats, columns: Bag) -> None:
     """Add to (P, n) the entries (P, m) of a table that (k, n) columns name, in their order; in place."""
     if columns.size * len(table) <= _ENTRIES:
@@ -160,5 +185,5 @@ def _normal(total: Floats) -> Floats:
 def exact_sum(values: Sequence[float], times: Sequence[int]) -> float:
     """The sum of values, each so many times, rounded once: the order of things changes no bit of it."""
     if sum(times) <= _FEW:
-        return math.fsum(v for v, t in zip(values, times, strict=True) for _ in range(t))
+        return math.fsum([v for v, t in zip(values, times, strict=True) for _ in range(t)])
     return float(sum(Fraction(v) * t for v, t in zip(values, times, strict=True)))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from dcg_torch.language.lexicon import GRAMMAR, listed
+from dcg_torch.language.lexicon import GRAMMAR, SETS, listed
 
 
 class Kind(enum.Enum):
@@ -51,6 +51,16 @@ class Item:
         yield self
         for child in self.children:
             yield from child.walk()
+
+    @property
+    def long(self) -> bool:
+        """Is it of several words?"""
+        return self.stop - self.start > 1
+
+    @property
+    def definite(self) -> bool:
+        """Has it a definite article?"""
+        return self.text.partition(" ")[0] in SETS["definite"]
 
     def copy(self) -> Item:
         """The same with all below it, to stand somewhere else as well."""

@@ -168,9 +168,6 @@ class NounPhrase(Reader):
     def _group_of(self) -> int:
         if not self.headed or self.tag(self.at + 1) not in _STARTS:
             return 0
-        head = next((t.text for t in self.tokens[self.at + 1 :] if t.tag in {"N", "P"}), "")
-        if head in SETS["lines"]:
-            return 0  # "the second column of the third row": the third row is no set of columns
         last = self.nouns[-1].text
         unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
         if unit not in SETS["groups"] | SETS["carriers"]:

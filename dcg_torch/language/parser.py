@@ -221,10 +221,16 @@ def bearing(text: str, vocabulary: Collection[str]) -> Hashable:
     """
     if len(text) > MAX_CHARACTERS:
         return text, frozenset()  # it is refused, whatever is known
-    known, words = frozenset(normal_noun(noun) for noun in vocabulary), tokens(text)
-    mended = mend(words, known | names(text)) if len(words) <= MAX_WORDS else words
+    known, (words, named) = frozenset(normal_noun(noun) for noun in vocabulary), _written(text)
+    mended = mend(words, known | named) if len(words) <= MAX_WORDS else list(words)
     said = {form for word in (*words, *mended) for form in (word, singular(word))}
     return tuple(mended), frozenset(noun for noun in known if said.issuperset(noun.split()))
+
+
+@functools.lru_cache(maxsize=1024)
+def _written(text: str) -> tuple[tuple[str, ...], frozenset[str]]:
+    """The words of a text, and those that are written like names."""
+    return tuple(tokens(text)), names(text)
 
 
 @functools.cache

@@ -142,7 +142,8 @@ def _unnamed(clause: Clause) -> None:
     telling = PLACING["extremes"] | PLACING["between"]
     places = [p for p in clause.places if p.words[0] in telling or p.children[0].is_a("somewhere")]
     sides = [(side, side.is_a("side")) for side in clause.objects]
-    places += [side.behind("on") for side, is_side in sides if is_side and (side.determined or side.words)]
+    told = [side for side, is_side in sides if is_side and side.is_a("told_side")]
+    places += [side.behind("in" if side.is_a("middle") else "on") for side in told]
     places += [spot.behind("in") for spot, is_side in sides if not is_side and spot.is_a("spot")]
     if places:
         first = places[0]

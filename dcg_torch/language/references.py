@@ -31,6 +31,22 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
                 noun.children += [child for child in more.children if child not in noun.children]
 
 
+def describe_landmarks(clauses: Sequence[Clause]) -> None:
+    """ "The laptop on the desk. The desk near the door.": what names a landmark again says more of it."""
+    for k, clause in enumerate(clauses):
+        more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else None
+        if more is None or not more.definite or more.noun is None:
+            continue
+        tops = [top for other in clauses[:k] for top in (*other.objects, *other.places)]
+        below = [node for top in tops for child in top.children for node in child.walk()]
+        again = [node for node in below if node.noun == more.noun and None in (node.color, more.color)]
+        if again and all(top.noun != more.noun for top in tops):
+            again[-1].color = again[-1].color or more.color
+            again[-1].words += more.words
+            again[-1].children += more.children
+            clause.objects = []
+
+
 def exists(clause: Clause) -> bool:
     """ "There is a cone by the door": a clause that says what is there."""
     return clause.action in SETS["be"] and not clause.statement
@@ -39,6 +55,18 @@ def exists(clause: Clause) -> bool:
 def about_it(noun: Item) -> bool:
     """ "(There is) a blue pillow next to it"."""
     return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
+
+
+def one_of_the(one: Item) -> None:
+    """ "The middle one of the three cubes": a cube."""
+    for place in one.children:
+        group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
+        if group.plural and group.noun and not group.is_a("not_solid"):
+            one.noun, one.pronoun, one.color = group.noun, False, one.color or group.color
+            counted = (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
+            one.words += (*(word for word in group.words if word not in one.words), *counted)
+            one.children = [*(child for child in one.children if child is not place), *group.children]
+            return
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:

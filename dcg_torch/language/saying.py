@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin
 from dcg_torch.language.predicates import is_edge_of, last_thing, share_noun
@@ -43,8 +43,6 @@ class NounPhrases:
             item.noun, item.color = other.noun, other.color
         if self.is_about_color(item) or self.is_rank(item):
             item.said = True
-        elif item.is_a("line") and self.last.is_a("line") and (self.preposition or item).text in {"of", item.text}:
-            self.line(item)
         elif self.preposition is not None and (self.joined or not self.preposition.children):
             self.landmark(item, self.preposition)
         elif self.excluded:
@@ -66,17 +64,6 @@ class NounPhrases:
         elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
             self.leading_place(item)
             self.mention(item)
-
-    def line(self, item: Item) -> None:
-        """ "(In the second column) of the third row", "row 3, column 2": what is in both lines is in each."""
-        if self.preposition is not None:
-            self.drop_preposition()
-        if self.clause.objects == [self.last]:  # "the third row, second column"
-            places = [self.last.behind("in"), item.behind("in")]
-            self.clause.objects = [Item(Kind.NOUN, self.last.start, self.last.start, "", pronoun=True, children=places)]
-        else:
-            self.pending.append(Pending(item.behind("in"), list(self.nouns), False, True))
-        self.nouns.append(item)
 
     def mention(self, item: Item) -> None:
         """A noun phrase that the clause is about."""

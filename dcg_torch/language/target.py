@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,16 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
-from dcg_torch.language.references import about_it, arrive, describe_later, exists, one_of_several, refer
+from dcg_torch.language.references import (
+    about_it,
+    arrive,
+    describe_landmarks,
+    describe_later,
+    exists,
+    one_of_several,
+    one_of_the,
+    refer,
+)
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
@@ -32,7 +42,8 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            found.append(Mention(target, clause, _object_score(clause, target) + penalty))
+            told = _is_told(target, clause, clauses) and bool(target.noun or any(m.noun.plural for m in found))
+            found.append(Mention(target, clause, _object_score(clause, target, told) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -42,10 +53,22 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
     return found
 
 
-def _object_score(clause: Clause, target: Item) -> float:
+def _is_told(target: Item, clause: Clause, clauses: Sequence[Clause]) -> bool:
+    """Whether a clause says which it is: "(until you see the window,) it is the plant next to it"; or names it last."""
+    if not target.definite or target.plural or clause.action not in SETS["be"] | {""}:
+        return False
+    if clause.verb is None:
+        return clause is clauses[-1] and clause.sentence > clauses[0].sentence
+    before = (noun for other in clauses for noun in other.objects)
+    return any(noun.text in SETS["stands_for"] and noun.stop == clause.verb.start for noun in before)
+
+
+def _object_score(clause: Clause, target: Item, told: bool) -> float:
     verb = clause.action
     if clause.acting:
         return TARGETS["acting"]
+    if told:
+        return TARGETS["identified" if verb else "named_last"]
     if clause.statement or not verb or exists(clause):
         another = exists(clause) and ("other" in target.words or about_it(target))
         return TARGETS["another" if another else "statement"]
@@ -64,6 +87,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
+    describe_landmarks(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -73,10 +97,13 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
+        chosen.noun.children += _listed(chosen)
     others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
     # "Facing the bed, take the lamp on your left".
     children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
     describe_later(chosen.noun, chosen.clause, clauses)
+    if chosen.noun.noun is None:
+        one_of_the(chosen.noun)
     if chosen.noun.noun is None:
         one_of_several(chosen.noun, clauses)
     refer(chosen.noun, chosen.clause, clauses, decisions)
@@ -137,6 +164,18 @@ def _beside(chosen: Mention) -> list[Item]:
     later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
     named = [noun for noun in later if not noun.pronoun or noun.is_a("color_word")]
     return [noun for noun in named if not noun.is_a("direction")]
+
+
+def _listed(chosen: Mention) -> list[Item]:
+    """ "Bald man, glasses": what a list without a verb names behind its first noun phrase, that has."""
+    if chosen.clause.verb is not None:
+        return []
+    objects, beside = chosen.clause.objects, _beside(chosen)
+    later = [
+        noun for before, noun in itertools.pairwise(objects[objects.index(chosen.noun) :]) if before.stop < noun.start
+    ]
+    listed = [n for n in later if n.is_a("named") and n not in beside and not (n.definite or n.is_a("apart"))]
+    return [noun.behind("without" if noun.negative else "with") for noun in listed]
 
 
 def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:

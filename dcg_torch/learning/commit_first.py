@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -215,19 +216,19 @@ def contrasts(examples: Iterable[Example], symbols: Mapping[str, Symbol]) -> lis
     """
     types = list(dict.fromkeys(s.type for s in symbols.values()))
     column = {t: k for k, t in enumerate(types)}
-    tables: dict[tuple[str | None, bool, frozenset[str]], dict[tuple[Phrase, str | None], float]] = {}
+    tables: defaultdict[tuple[str | None, bool, frozenset[str]], defaultdict[tuple[Phrase, str | None], float]]
+    tables = defaultdict(lambda: defaultdict(float))
     for example in examples:
-        meant = _only_meant(example)
-        if meant is not None:
-            table = tables.setdefault((meant.color, meant.hypothetical, meant.attributes), {})
-            said = example.phrase, meant.type
-            table[said] = table.get(said, 0.0) + example.weight
+        if example.phrase.kind is PhraseKind.NOUN and (meant := _only_meant(example)) is not None:
+            table = tables[meant.color, meant.hypothetical, meant.attributes]
+            table[example.phrase, meant.type] += example.weight
     found = []
     for (color, hypothetical, attributes), table in tables.items():
         inactive = np.repeat(np.array([list(table.values())]).T, len(types), axis=1)
-        for row, (phrase, type_) in zip(inactive, table, strict=True):
-            named = symbols.get(phrase.noun or "")
-            row[[column[t] for t in (type_, None if named is None else named.type) if t in column]] = 0.0
+        own = [(p, type_) for p, (_, type_) in enumerate(table)]
+        own += [(p, symbols[noun].type) for p, (said, _) in enumerate(table) if (noun := said.noun or "") in symbols]
+        spared = [(p, column[t]) for p, t in own if t in column]
+        inactive[[p for p, _ in spared], [t for _, t in spared]] = 0.0
         objects = [Object(t, t, True, hypothetical, color, attributes=attributes) for t in types]
         found.append(SoftLabels([p for p, _ in table], objects, np.zeros_like(inactive), inactive, inactive > 0.0))
     return found

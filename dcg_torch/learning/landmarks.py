@@ -120,13 +120,14 @@ def parts_of(lesson: Lesson) -> list[Part]:
 def said_of_words(
     parts: Sequence[Part], known_types: Collection[str] | None, known_colors: Collection[str] | None
 ) -> Taught:
-    """How often each noun and each word for a colour was said of what, where only one was possible.
+    """How often each noun and each word for a colour was said of what, where only one was possible, and of what not.
 
     Args:
         known_types: types that may become known; None: all that are meant.
         known_colors: the same of colours; a word for a colour that no lesson says of such an object is not known.
     """
     nouns: dict[str, Counter[str]] = {}
+    passed: dict[str, Counter[str]] = {}
     words: dict[str, Counter[str]] = {}
     types: dict[str, None] = {}
     colors: dict[str, None] = {}
@@ -138,9 +139,11 @@ def said_of_words(
         colors |= dict.fromkeys(sorted(of_color))
         if part.noun.phrase.noun is not None and part.alone and len(of_type) == 1:
             nouns.setdefault(part.noun.phrase.noun, Counter()).update(of_type)
+            there = {o.type for o in part.world.objects if o.type is not None}
+            passed.setdefault(part.noun.phrase.noun, Counter()).update(there - of_type)
         if part.noun.phrase.color is not None and len(of_color) == 1:
             words.setdefault(part.noun.phrase.color, Counter()).update(of_color)
-    return Taught(tuple(types), tuple(colors), nouns, words)
+    return Taught(tuple(types), tuple(colors), nouns, words, passed)
 
 
 def path_examples(lessons: Iterable[Lesson]) -> list[Example]:

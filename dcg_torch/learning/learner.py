@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
@@ -146,9 +146,20 @@ class Taught:
         colors: words for colours, and colours, that were met.
         nouns: noun -> type -> in how many lessons it was said of it.
         color_words: the same for words for colours.
+        passed: noun -> type -> in how many lessons it was said of another type though such a thing was there.
     """
 
     types: tuple[str, ...]
     colors: tuple[str, ...]
     nouns: Mapping[str, Mapping[str, int]]
     color_words: Mapping[str, Mapping[str, int]]
+    passed: Mapping[str, Mapping[str, int]] = field(default_factory=dict)
+
+    def denies(self, noun: str, type_: str) -> bool:
+        """Do lessons tell that a noun hardly names a type: was it said of others where there was one to choose?"""
+        passed = self.passed.get(noun, {}).get(type_, 0)
+        return passed > _PASSED * (passed + self.nouns.get(noun, {}).get(type_, 0))
+
+
+_PASSED = 0.2
+"""Share of lessons with a noun and a thing of a type that may be about another thing, if the noun names the type."""

@@ -7,6 +7,8 @@ about what it is, and a noun phrase's describing words and places add features o
 
 from __future__ import annotations
 
+import functools
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -63,9 +65,11 @@ def rows_mask(features: FeatureSet, words: frozenset[str]) -> Mask:
     return np.repeat(rows[:, None], features.shape[1], axis=1)
 
 
+@functools.lru_cache(maxsize=1 << 14)
 def _is_taught_language(name: str) -> bool:
     return name.partition(":")[0] in _TAUGHT_LANGUAGE or name in _PLACES or name == "kind: modifier"
 
 
+@functools.lru_cache(maxsize=1 << 14)
 def _is_taught_grounding(name: str) -> bool:
     return name.partition(":")[0] in _TAUGHT_GROUNDING | _GIVEN or name in _OF_PLACES

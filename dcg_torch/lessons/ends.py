@@ -35,7 +35,7 @@ def scattered_scene(rng: np.random.Generator) -> Scene:
     verb = str(rng.choice(_VERBS))
     said: list[Told] = [
         (f"{verb} the {text}", frozenset({meant}))
-        for text, meant in (*_on_sides(kind, alike), *_by_way(kind, alike))
+        for text, meant in (*_on_sides(kind, alike), *_by_way(kind, alike), *_in_depth(kind, alike))
         if meant is not None
     ]
     said += [(f"{verb} the {text}", ids) for text, ids in (*_several(kind, alike), *_of_one_side(kind, alike))]
@@ -59,6 +59,15 @@ def _on_sides(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | 
         for k, ordinal in enumerate(ORDINALS[: len(alike)]):
             yield f"{ordinal} {kind} from the {side}", by_place[k]
             yield f"{kind} {ordinal} from the {side}", by_place[k]
+
+
+def _in_depth(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:
+    """The back and the front of what lies ahead, as of a picture: there things are the farthest and the nearest."""
+    by_depth, by_way = ranked(alike, lambda o: o.position[0]), ranked(alike, lambda o: math.hypot(*o.position[:2]))
+    for end, name, most in ((0, "front", "frontmost"), (-1, "back", "rearmost")):
+        if by_depth[end] == by_way[end]:
+            for text in (f"{kind} in the {name}", f"{kind} at the {name}", f"{name} {kind}", f"{most} {kind}"):
+                yield text, by_depth[end]
 
 
 def _by_way(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:

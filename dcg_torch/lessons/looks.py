@@ -16,7 +16,7 @@ from dcg_torch.lessons.selections import ORDINALS
 from dcg_torch.types import Percept, Pose
 
 _TALL = (("tallest", "shortest"), ("tall", "short"), ("taller", "shorter"))
-_HIGH = (("highest", "lowest"), ("uppermost", "lowermost"), ("high", "low"))
+_HIGH = (("highest", "lowest"), ("higher", "lower"), ("high", "low"))
 _ALONE = ("by itself", "on its own", "that is alone", "all by itself")
 _LEVEL = 0.15
 """Metres by which things differ that are counted from the top."""
@@ -41,15 +41,15 @@ def shelf_scene(rng: np.random.Generator) -> Scene:
     There the top is what is farthest away.
     """
     objects = _scattered(rng)
+    up = 0
     if rng.random() < 0.5:
-        return Scene(tuple(objects), Pose(0.0, 0.0), None, tuple(_from_ends(objects, lambda o: o.position[0])))
-    heights = rng.permutation(np.linspace(0.0, 2.2, len(objects))).tolist()
-    hung = [Percept(o.id, o.type, o.color, (*o.position[:2], z)) for o, z in zip(objects, heights, strict=True)]
-    said = [
-        *_ranked(hung, _HIGH, lambda o: o.position[2] + 1.0),
-        *_from_ends(hung, lambda o: o.position[2]),
-    ]
-    return Scene(tuple(hung), Pose(0.0, 0.0), None, tuple(said))
+        up = 2
+        heights = rng.permutation(np.linspace(0.0, 2.2, len(objects))).tolist()
+        objects = [Percept(o.id, o.type, o.color, (*o.position[:2], z)) for o, z in zip(objects, heights, strict=True)]
+    ranked = rng.random() < 0.5
+    said = _ranked(objects, _HIGH, lambda o: o.position[up] + 1.0)
+    said = said if ranked else _from_ends(objects, lambda o: o.position[up])
+    return Scene(tuple(objects), Pose(0.0, 0.0), None, tuple(said))
 
 
 def lonely_scene(rng: np.random.Generator) -> Scene:

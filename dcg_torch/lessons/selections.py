@@ -6,6 +6,7 @@ those behind; "the second biggest red one" among the red ones. Definitions by th
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
@@ -16,6 +17,7 @@ from dcg_torch.types import Percept, Pose
 ORDINALS = ("first", "second", "third", "fourth", "fifth")
 NUMBERS = {2: "two", 3: "three", 4: "four", 5: "five", 6: "six", 7: "seven"}
 CLEAR = 0.2  # metres by which a rank must be told apart
+_CLEAR_SIZE = 0.15  # by which the logarithms of two sizes must be told apart
 _WHO = ("you", "the robot")
 Unclear = tuple[str, frozenset[str | None]]
 """A command and the ids of what it means; None is one that can hardly be told from another."""
@@ -122,6 +124,13 @@ def _counted(kind: str, side: str, order: Sequence[str | None]) -> Iterator[tupl
         yield f"second {kind} farthest to the {side}", order[1]
 
 
+def _of_mean_size(order: Sequence[Percept]) -> str | None:
+    """Whose size is the nearest to what lies between the largest and the smallest; None where two are about as near."""
+    logs = [math.log(o.size[0]) if o.size is not None else 0.0 for o in order]
+    away = sorted((abs(v - (logs[0] + logs[-1]) / 2.0), o.id) for v, o in zip(logs, order, strict=True))
+    return away[0][1] if away[1][0] - away[0][0] > _CLEAR_SIZE else None
+
+
 def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterator[Told]:
     alike = [o for o in objects if o.type == kind and color in (None, o.color)]
     if len(alike) < 2:
@@ -131,8 +140,8 @@ def _by_size(kind: str, color: str | None, objects: Sequence[Percept]) -> Iterat
     for big, small in (("biggest", "smallest"), ("largest", "smallest"), ("big", "small"), ("large", "little")):
         yield f"go to the {big} {head}", frozenset({order[0].id})
         yield f"go to the {small} {head}", frozenset({order[-1].id})
-    if len(order) == 3:
-        yield from ((f"go to the {word} {head}", frozenset({order[1].id})) for word in ("medium", "medium sized"))
+    if len(order) > 2 and (mean := _of_mean_size(order)) is not None:
+        yield from ((f"go to the {word} {head}", frozenset({mean})) for word in ("medium", "medium sized"))
     for k, ordinal in enumerate(ORDINALS[1 : len(order) - 1], start=1):
         for big, small in (("biggest", "smallest"), ("largest", "smallest")):
             yield f"go to the {ordinal} {big} {head}", frozenset({order[k].id})

@@ -19,6 +19,8 @@ from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
+from dcg_torch.grounding.grids import with_cells
+from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
 from dcg_torch.grounding.solution import Solution
@@ -162,12 +164,13 @@ class GroundingModel:
         if isinstance(command, str):
             from dcg_torch.language import parse_command  # its words are data that only who gives text pays for
 
-            command = parse_command(command, self.symbols.keys())
+            command = heard(parse_command, command, self.symbols.keys(), world.objects)
         if not hasattr(command, "readings"):
             raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
+        world = with_cells(world, [reading.tree for reading in readings])
         frames = self.learner.frames if self._related else None
         facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)
@@ -179,12 +182,16 @@ class GroundingModel:
         return Group.RELATION in self.variant.groups
 
     def _search(self, world: WorldModel) -> SharedSearch:
-        return SharedSearch(self._kept.last.encoder(self.features, world), self.factor, self.variant.beam)
+        encoder = self._kept.last.encoder(self.features, world)
+        return SharedSearch(encoder, self._kept.phrases(self.features, self.factor), self.variant.beam)
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
         """Of a tree of factors."""
         encoder = encoder or self._kept.last.encoder(self.features, world)
-        return FactorGraph(tree, world, encoder).solve(self.features, self.factor, beam=self.variant.beam)
+        tables = self._kept.phrases(self.features, self.factor)
+        return FactorGraph(tree, world, encoder).solve(
+            self.features, self.factor, beam=self.variant.beam, tables=tables
+        )
 
     def learn(self, solution: Solution, experience: Experience | None = None) -> Learned:
         """Learn from the outcome of a command that was carried out, and retrain (lines 16 to 25).

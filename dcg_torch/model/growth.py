@@ -20,8 +20,9 @@ Value = TypeVar("Value", bound=np.generic)
 
 def widened(values: NDArray[Value], shape: tuple[int, int]) -> NDArray[Value]:
     """(..., L, G) values with zeros for the columns that are new."""
-    more = [(0, new - old) for new, old in zip(shape, values.shape[-2:], strict=True)]
-    return np.pad(values, [(0, 0)] * (values.ndim - 2) + more)
+    wider = np.zeros((*values.shape[:-2], *shape), dtype=values.dtype)
+    wider[..., : values.shape[-2], : values.shape[-1]] = values
+    return wider
 
 
 def start_as_the_last(

@@ -1,4 +1,5 @@
-"""What a model keeps between calls so that nothing is done twice: a fit, the features of examples and of a world."""
+"""What a model keeps between calls so that nothing is done twice: a fit, the features of examples and of a world,
+the tables of phrases."""
 
 from __future__ import annotations
 
@@ -10,8 +11,9 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import LastWorld
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.psi import Floats, LogLinearFactor
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
+from dcg_torch.grounding.tables import Tables
 from dcg_torch.types import Example
 
 Mask = NDArray[np.bool_]
@@ -25,11 +27,19 @@ class Kept:
         statistics: what features see of examples.
         follows: what the weights follow from as they are; None: they have not been fitted.
         last: the world that was last grounded in.
+        tables: of the phrases that were grounded under the weights as they were last.
     """
 
     statistics: Statistics
     follows: Followed | None = None
     last: LastWorld = field(default_factory=LastWorld)
+    tables: Tables | None = None
+
+    def phrases(self, features: FeatureSet, factor: LogLinearFactor) -> Tables:
+        """The tables of phrases under these columns and weights."""
+        if self.tables is None or not self.tables.hold(features, factor):
+            self.tables = Tables(features, factor)
+        return self.tables
 
 
 @dataclass(frozen=True)

@@ -18,6 +18,7 @@ from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.tables import Tables
 from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
     GroundEncoded,
@@ -29,7 +30,7 @@ from dcg_torch.learning.landmarks import (
     path_examples,
     said_of_words,
 )
-from dcg_torch.learning.learner import Experience, Learner
+from dcg_torch.learning.learner import Experience, Learner, Taught
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.readings import GroundAll, in_meant_readings
 from dcg_torch.learning.trainable import taught_mask
@@ -121,7 +122,7 @@ def teach_corpus(
     parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
     model.learner = model.learner.with_frames(frames).with_readings(readings)
     # What was known before gives way to as much evidence as any.
-    model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model)
+    model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model, said)
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
     fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
@@ -135,7 +136,8 @@ def _all_readings(model: Teachable) -> GroundAll:
 
     def ground(lesson: Lesson) -> list[Solution]:
         world = with_known(lesson.world, model.known_types)
-        search = SharedSearch(WorldEncoder(model.features, world), model.factor, model.variant.beam)
+        tables = Tables(model.features, model.factor)
+        search = SharedSearch(WorldEncoder(model.features, world), tables, model.variant.beam)
         return [search.ground(reading.tree) for reading in lesson.readings]
 
     return ground
@@ -167,10 +169,11 @@ def _fit(
     return fired
 
 
-def _as_if_named(model: Teachable) -> NDArray[np.float64]:
+def _as_if_named(model: Teachable, said: Taught) -> NDArray[np.float64]:
     """(P, L, G) what makes a type that a word was settled on as good as one that is called by the word.
 
-    Where all that is there is of one type, no choice tells that the word names it, and yet it does.
+    Where all that is there is of one type, no choice tells that the word names it, and yet it does. Where there was a
+    choice and other types were meant it does not: "mug" in a kitchen that has mugs and cups.
     """
     features = model.features
     odds = np.zeros(features.shape)
@@ -178,7 +181,7 @@ def _as_if_named(model: Teachable) -> NDArray[np.float64]:
         symbols = model.learner.symbols
         for word, type_ in ((w, symbols[w].type) for w in sorted(model.learner.settled & symbols.keys())):
             row, column = features.language.get(f"noun: {word}"), features.grounding.get(f"type: {type_}")
-            if row is not None and column is not None:
+            if row is not None and column is not None and not said.denies(word, type_):
                 odds[row, column] = min(_NAMED, log_odds(word, word) - log_odds(word, type_))
     return correspondence_signs(model.factor)[:, None, None] * odds
 

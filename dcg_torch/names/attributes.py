@@ -29,9 +29,13 @@ COLOR_FACTS: Final = (
 )
 HAS, NOT_ = "with ", "not "
 """How words say that an object has what a key names: "with glasses", "with dark hair", "not with tie"."""
+OF_KEY = ": "
+"""Between key and values, "|" between these, of a word that states just that: "brand: shell", "digit: 7|8"."""
 _KEY_ODDS = 1.5
 """Log-odds from which a noun names a key."""
+_COMPARED = ("er", "est")
 _FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
+_NONE, _SOME = "none", "has it"  # the first words of the values of a thing that an object has or has not
 _ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
 
 
@@ -40,7 +44,8 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
-    del data["absent"]
+    for name in ("absent", "present", "part_of"):
+        del data[name]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
     for key, k, words in values:
@@ -53,9 +58,21 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
         for key, lists in data.items()
         for j in range(len(lists))
         for k in range(len(lists))
-        if j != k and key not in _FREE
+        if j != k and key not in _FREE and not (_had(lists) and 1 in (j, k) and 0 not in (j, k))
     }
     return {word: frozenset(meant) for word, meant in found.items()}, frozenset(pairs | {(k, j) for j, k in pairs})
+
+
+@functools.cache
+def _keys() -> frozenset[str]:
+    """Those whose values are listed, but for shapes: letters are shapes as well."""
+    meanings, _ = _meanings()
+    return frozenset(key for values in meanings.values() for key, _ in values) - {"shape"}
+
+
+def _had(lists: Sequence[Sequence[str]]) -> bool:
+    """Are these the values of a thing that an object has or has not, as of `beard`?"""
+    return len(lists) > 1 and (lists[0][0], lists[1][0]) == (_NONE, _SOME)
 
 
 def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> tuple[str, ...]:
@@ -72,7 +89,7 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
         Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
         "contrary" too.
     """
-    said = (word if HAS in word else normalise(word) for word in words)
+    said = (word if HAS in word or OF_KEY in word else normalise(word) for word in words)
     found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
 
@@ -105,9 +122,14 @@ def _attribute_fact(word: str, attributes: frozenset[str]) -> str | None:
         found = _attribute_fact(word.removeprefix(NOT_), attributes)
         return _DENIED.get(found or "", found)
     pairs = [_pair(attribute) for attribute in attributes]
+    if OF_KEY in word:
+        key, _, stated = word.partition(OF_KEY)
+        own = {value for of, value in pairs if of == key}
+        held = not own.isdisjoint(stated.split("|"))
+        return "attribute: equal" if held else "attribute: contrary" if own else "attribute: silent"
     if word.startswith(HAS):
         return _possession_fact(word.removeprefix(HAS), pairs)
-    if any(word == value or (word == key and value not in _absent()) for key, value in pairs):
+    if any(word == value or (word == key and value not in _words_of("absent")) for key, value in pairs):
         return "attribute: equal"
     if any(word == key for key, _ in pairs):
         return "attribute: contrary"
@@ -127,17 +149,28 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
     meant = meanings.get(word)
     if meant is None:
         return None
-    # "No" says something of its own key alone: without a beard nobody is bald.
-    own = [(key, value) for key, value in pairs if value not in _absent() or states_value(value, frozenset({key}))]
-    true = {one for key, value in own for one in _of_key(meanings.get(value, frozenset()), key)}
-    # What is not open is closed.
-    not_so = {one for key, value in pairs if value in _absent() for one in meanings.get(key, ()) if one[0] in _FREE}
-    true |= {other for one, other in excluded if one in not_so}
+    true = {one for key, value in pairs for one in _held(key, value)}
     if meant & true:
         return "attribute: alike"
     # What is true under one key excludes the word only if the word can mean nothing else that is consistent.
     contrary = any((one, other) in excluded for one in meant for other in true)
     return "attribute: contrary" if contrary else "attribute: silent"
+
+
+@functools.lru_cache(maxsize=4096)
+def _held(key: str, value: str) -> frozenset[tuple[str, int]]:
+    """What the value of a key says. "No" says something of its own key alone: without a beard nobody is bald.
+
+    What is not open is closed.
+    """
+    meanings, excluded = _meanings()
+    state = {v for v in meanings.get(key, ()) if v[0] in _FREE}
+    own = {v for v in meanings[normalise(_SOME)] if v[0] in key.split(" ")}
+    if value in _words_of("absent"):
+        none = {v for v in meanings[normalise(_NONE)] if v[0] in key.split(" ")}
+        return frozenset(none | {other for one, other in excluded if one in state})
+    told = frozenset(state) if value in _words_of("present") else _of_key(meanings.get(value, frozenset()), key)
+    return told if own and told & meanings[normalise(_NONE)] else told | own
 
 
 def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
@@ -147,8 +180,12 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         return "attribute: silent"
     key, value = max(named, key=lambda pair: (len(pair[0]), pair))
     like = said.removesuffix(key).strip()
-    if not like or value in _absent():
-        return "attribute: contrary" if value in _absent() else "attribute: equal"
+    if not like or value in _words_of("absent"):
+        return "attribute: contrary" if value in _words_of("absent") else "attribute: equal"
+    if value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
+        whole = read_data("values.yaml")["part_of"].get(key)
+        told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
+        return _possession_fact(f"{like} {whole}", told) if told else "attribute: silent"
     if like == value:
         return "attribute: equal"
     fact = _value_fact(like, [(key, value)]) if states_value(like, frozenset({key})) else None
@@ -158,17 +195,32 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
     return fact or "attribute: silent"
 
 
+@functools.lru_cache(maxsize=4096)
+def describes(key: str, value: str) -> bool:
+    """Does the value of a key say how a thing looks, stands or is made, or yes or no, rather than what it is called?
+
+    Args:
+        key: as `attribute_key` has it.
+    """
+    meanings, _ = _meanings()
+    plain = normalise(value)
+    return (
+        plain in meanings
+        or plain in _words_of("absent") | _words_of("present")
+        or not _keys().isdisjoint(key.split(" "))
+    )
+
+
 @functools.cache
-def _absent() -> frozenset[str]:
-    """Values that say that an object has not what the key names."""
-    return frozenset(map(str, read_data("values.yaml")["absent"]))
+def _words_of(what: str) -> frozenset[str]:
+    """Values that say that what the key names is "absent" or "present"."""
+    return frozenset(map(str, read_data("values.yaml")[what]))
 
 
 def _pair(attribute: str) -> tuple[str, str]:
     """Key and value in normal form; what is merely true is its own value."""
     key, _, value = attribute.partition(":")
-    key, value = attribute_key(key), normalise(value)
-    return key, key if value in ("", "yes", "true") else value
+    return attribute_key(key), normalise(value) or attribute_key(key)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -201,6 +253,19 @@ def states_value(word: str, keys: frozenset[str]) -> bool:
     """May a word state the value of one of some keys: "bald" of `hair`, "woman" of `gender`?"""
     meanings, _ = _meanings()
     return any(key in of.split(" ") for key, _ in meanings.get(normalise(word), ()) for of in keys)
+
+
+@functools.lru_cache(maxsize=4096)
+def size_side(word: str) -> int | None:
+    """Does a word say that a thing is large (1), small (-1) or between (0)? None for others and for "largest".
+
+    >>> size_side("huge"), size_side("tiny"), size_side("medium"), size_side("bigger"), size_side("tall")
+    (1, -1, 0, None, None)
+    """
+    meant = dict(_meanings()[0].get(word, ()))
+    if word.endswith(_COMPARED) or set(meant) != {"size"}:
+        return None
+    return meant["size"] - 1
 
 
 def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str, int]]:

@@ -59,7 +59,17 @@ def comparing_words(words: Sequence[str]) -> tuple[str, ...]:
     >>> comparing_words(("big", "darkest", "one"))
     ('darkest',)
     """
-    return tuple(w for w in words if any(t.feature in ("axes", "compared hue") for t in _terms((w,))))
+    return tuple(w for w in words if _compares(w))
+
+
+@functools.lru_cache(maxsize=4096)
+def _compares(word: str) -> bool:
+    name = normalise(word)
+    if " " not in name:
+        stem, form = _stem(name)
+        if form != "er" and stem not in color_words().axes:
+            return False  # most words: no list of colours is asked for them
+    return any(term.feature in ("axes", "compared hue") for term in _terms((word,)))
 
 
 def _deny(term: _Term) -> _Term:

@@ -60,6 +60,22 @@ LINE_FROM: dict[str, dict[str, str]] = {
 """Line of a scene -> word for one of its ends -> from where it is the first."""
 READ_FROM = {LINE_ACROSS: ("from the top", "from the left"), LINE_ALONG: ("from the left", "from the top")}
 """Line -> from where such lines are counted, and from where the things in one are, as one reads a page."""
+LINE_ENDS: dict[str, tuple[int | None, int]] = {
+    **dict.fromkeys(("top", "topmost", "upper", "highest", "from the top", "far", "back"), (0, 1)),
+    **dict.fromkeys(("bottom", "bottommost", "lower", "lowest", "from the bottom", "near", "front"), (0, -1)),
+    **dict.fromkeys(("left", "leftmost", "from the left"), (1, 1)),
+    **dict.fromkeys(("right", "rightmost", "from the right"), (1, -1)),
+    "last": (None, -1),
+}
+"""Word -> is it an end of rows (0), of columns (1) or of both, and is it the first (1) or the last (-1)?"""
+CELL = "cell"
+"""The key of the row and the column that a thing stands in, where things stand in a grid."""
+CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
+CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
+CELL_STEPS |= {"north of": (-1, 0), "south of": (1, 0), "west of": (0, -1), "east of": (0, 1)}
+CELL_STEPS |= {"northwest of": (-1, -1), "northeast of": (-1, 1), "southwest of": (1, -1), "southeast of": (1, 1)}
+"""Preposition -> one step that way in a grid: rows down, columns to the right."""
+NUMBER_WORDS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8}
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
 RANKING = frozenset({"closest to", "farthest from", "farthest to"})
@@ -118,7 +134,14 @@ COMPASS |= {f"{up}{side}ernmost": COMPASS[up] + COMPASS[side] for up in ("north"
 _BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
 BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}
 SAME_RELATION = {"closer to": "closest to", "closest from": "closest to", "farther from": "farthest from"}
-SAME_RELATION |= {"before": "in front of", "beyond": "behind", "over": "above", "after": "behind", "along": "on", "without": "not with"}
+SAME_RELATION |= {
+    "before": "in front of",
+    "beyond": "behind",
+    "over": "above",
+    "after": "behind",
+    "along": "on",
+    "without": "not with",
+}
 """Prepositions, and those that say the same."""
 LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": "near", "around": "near"}
 LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "in line with": "next to"}

@@ -80,6 +80,16 @@ class Bodies:
         return out
 
 
+def bulk(size: tuple[float, float, float]) -> float:
+    """The volume of a thing; of a flat one, as in a picture, the area. NaN stays NaN.
+
+    >>> bulk((0.5, 2.0, 2.0)), bulk((0.0, 0.5, 2.0))
+    (2.0, 1.0)
+    """
+    extents = [extent for extent in size if extent != 0.0]
+    return math.prod(extents) if extents else 0.0
+
+
 def bodies(objects: Sequence[Object], height: NDArray[np.float64], turned: float, unit: float) -> Bodies | None:
     """How large things are; None where of none it is known.
 

@@ -6,15 +6,16 @@ import math
 
 import numpy as np
 
-from dcg_torch.names.vocabulary import MIDDLE_LINE
+from dcg_torch.names.vocabulary import CELL, MIDDLE_LINE
+from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
-from dcg_torch.scene.order import Alike, signatures
+from dcg_torch.scene.order import TIE, Alike, signatures
 from dcg_torch.scene.order import before as lower
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),
-    *("middle", "robot", "remote", "speaker", "apart"),
+    *("middle", "robot", "remote", "speaker", "apart", "medium"),
 )
 STATES = [
     *(f"state: {s}" for s in ("clear", "covered", "on the floor", "on something", "alone", "in a stack")),
@@ -66,7 +67,7 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
 def _state_names(
     attributes: frozenset[str], code: int, around: tuple[int, ...] | None, colors: tuple[str, ...]
 ) -> tuple[str, ...]:
-    names = [f"state: {a}" for a in sorted(attributes)]
+    names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(CELL)]
     if code:
         code -= 24
         names += [
@@ -95,6 +96,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     alike = Alike(code, [np.flatnonzero(code == k) for k in range(2)])
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
+    values[AXES.index("medium")] = _from_mean_size(values[AXES.index("small")], alike)
     before = lower(values, alike, max(NEAREST, ordinal or 0, count or 0))
     there = np.isfinite(values) & (code >= 0)
     first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
@@ -112,13 +114,28 @@ def _values(where: Layout) -> Floats:
     x, y, z = where.position.T
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
-    volume, height = np.array([math.prod(s) for s in sizes]), np.array([s[2] for s in sizes])
+    volume, height = np.array([bulk(s) for s in sizes]), np.array([s[2] for s in sizes])
     nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
-    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart])
+    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart, nothing])
+
+
+def _from_mean_size(volume: Floats, alike: Alike) -> Floats:
+    """(n,) how far a thing is from the geometric mean of the least and the largest of those alike, in log volume.
+
+    NaN where sizes are unknown or all alike.
+    """
+    away = np.full(len(volume), math.nan)
+    size = np.log(np.where(volume > 0.0, volume, math.nan))
+    for members in alike.members:
+        own = size[members]
+        there = own[np.isfinite(own)]
+        if len(there) and np.ptp(there) > TIE:
+            away[members] = np.abs(own - (there.min() + there.max()) / 2.0)
+    return away
 
 
 def _from_middle(where: Layout, alike: Alike) -> Floats:

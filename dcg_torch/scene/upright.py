@@ -5,13 +5,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.scene.order import TIE, Floats
+from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import to_robot_frame
 
 _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
+_EVEN = 1.2
+"""Steps from row to row of a rack are at most so many times as high as others."""
 _ROWS, _COLUMNS = 2, 3
 """A wall of blocks is seldom so large; a page of pictures mostly is."""
 
@@ -27,7 +33,8 @@ def laid_flat(position: Floats) -> Floats:
         return position
     spot = _SPOT * np.ptp(seen[:, 1])
     beside = np.abs(seen[:, None, 1] - seen[None, :, 1]) <= spot
-    below = seen[None, :, 2] < seen[:, None, 2] - TIE
+    apart = seen[:, None, 2] - seen[None, :, 2]
+    below = (apart > TIE) & (apart < _next_row(seen[:, 2]))
     lowest = seen[:, 2] <= seen[:, 2].min() + TIE
     if (lowest | (beside & below).any(axis=1)).all() and not _is_full_grid(beside, seen[:, 2]):
         return position
@@ -35,6 +42,22 @@ def laid_flat(position: Floats) -> Floats:
     flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
+
+
+def is_upright(objects: Sequence[Object], viewer: Pose | None) -> bool:
+    """Do objects stand as on a page or a wall that the viewer has before them?"""
+    there = np.array([o.position for o in objects if o.position is not None], dtype=np.float64).reshape(-1, 3)
+    if len(there) < 3 or np.ptp(there[:, 2]) <= TIE:
+        return False
+    there[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), there[:, :2])
+    return laid_flat(there) is not there
+
+
+def _next_row(height: Floats) -> float:
+    """How far below a thing what bears it is at most; where rows are even, one that is two rows below bears none."""
+    steps = np.diff(np.unique(np.round(height / TIE))) * TIE
+    even = len(steps) >= _ROWS and steps.max() <= _EVEN * steps.min()
+    return 1.5 * float(steps.max()) if even else np.inf
 
 
 def _is_full_grid(beside: NDArray[np.bool_], height: Floats) -> bool:

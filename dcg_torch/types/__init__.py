@@ -179,6 +179,12 @@ class WorldModel:
         """What a command may be about: the objects, then the groups."""
         return self.objects + self.groups
 
+    @property
+    def classes(self) -> frozenset[str]:
+        """The types of what may be there: of what is perceived, and of what is unseen until all has been looked at."""
+        there = (o for o in self.objects if not (o.hypothetical and LOOKED_ROUND in o.attributes))
+        return frozenset(o.type for o in there if o.type is not None)
+
 
 @dataclass(frozen=True, slots=True)
 class Grounding:

@@ -16,7 +16,7 @@ What is known is a fact about the columns: a noun or colour without a column of 
 feature instead. Columns are only ever appended, so old indices stay valid.
 """
 
-from dcg_torch.grounding.features.columns import FeatureSet, padded
+from dcg_torch.grounding.features.columns import FeatureSet, KindColumns, padded
 from dcg_torch.grounding.features.given import give_odds
 from dcg_torch.grounding.features.names import (
     GROUNDING_OF,
@@ -38,6 +38,7 @@ __all__ = [
     "Feature",
     "FeatureSet",
     "Group",
+    "KindColumns",
     "Ranking",
     "Said",
     "child_feature",

@@ -37,6 +37,9 @@ from dcg_torch.types import (
     WorldModel,
 )
 
+KindColumns = dict[Hashable, list[int]]
+"""What things are apart from their types -> the grounding columns of that."""
+
 
 @dataclass(frozen=True)
 class FeatureSet:
@@ -126,11 +129,9 @@ class FeatureSet:
     @property
     def pairs(self) -> NDArray[np.bool_]:
         """(L, G): which pairs of columns are features."""
-        families = [name.partition(":")[0] for name in self.grounding]
-        met = {family: np.array([f in others for f in families], dtype=np.bool_) for family, others in PAIRS.items()}
-        found = np.zeros(self.shape, dtype=np.bool_)
-        for row, name in zip(found, self.language, strict=True):
-            row[:] = met[name.partition(":")[0]]
+        (left, rows), (right, columns) = _families(self.language), _families(self.grounding)
+        met = np.array([[f in PAIRS[family] for f in right] for family in left], dtype=np.bool_)
+        found: NDArray[np.bool_] = met.reshape(len(left), len(right)).take(rows, axis=0).take(columns, axis=1)
         return found
 
     @property
@@ -217,20 +218,22 @@ class FeatureSet:
         names = (f"kind: {GroundingKind.OBJECT}", *self.object_names(thing, colors), *states)
         return self._columns(names)
 
-    def object_columns(self, things: Sequence[Object], states: Sequence[tuple[str, ...]]) -> list[list[int]]:
+    def object_columns(
+        self, things: Sequence[Object], states: Sequence[tuple[str, ...]], kinds: KindColumns
+    ) -> list[list[int]]:
         """The same of several objects: what has nothing to do with their types is looked up once for those alike.
 
         Args:
             states: of each, names of what else is true of it.
+            kinds: what was found before under these columns; more is added.
         """
-        alike: dict[Hashable, list[int]] = {}
         rows = []
         for thing, own in zip(things, states, strict=True):
             key = thing.known, thing.hypothetical, thing.color, thing.attributes, own
             column = self.grounding.get(f"type: {thing.type}") if thing.known else None
-            common = alike.get(key)
+            common = kinds.get(key)
             if common is None:
-                common = alike[key] = [c for c in self.thing_columns(thing, own) if c != column]
+                common = kinds[key] = [c for c in self.thing_columns(thing, own) if c != column]
             rows.append(common if column is None else sorted((*common, column)))
         return rows
 
@@ -300,6 +303,13 @@ class FeatureSet:
     def _rank_of(self) -> NDArray[np.int64]:
         """Index into `scene.RELATION_NAMES` -> the number of the value in its family."""
         return np.array([*(k for names in scene.RELATIONS.values() for k in range(len(names))), 0])
+
+
+def _families(names: Iterable[str]) -> tuple[list[str], list[int]]:
+    """The families of features, each once, and the number of each feature's own."""
+    number: dict[str, int] = {}
+    numbers = [number.setdefault(name.partition(":")[0], len(number)) for name in names]
+    return list(number), numbers
 
 
 def padded(rows: Sequence[Sequence[int]]) -> Bag:

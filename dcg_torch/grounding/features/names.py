@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
+from dcg_torch.names.attributes import OF_KEY
 from dcg_torch.names.vocabulary import GROUP_WORDS, ORDINALS
 from dcg_torch.types import (
     LOOKED_ROUND,
@@ -117,7 +118,7 @@ class Ranking:
 
 def ranking(phrase: Phrase) -> Ranking | None:
     """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
-    if phrase.kind is PhraseKind.NOUN and not phrase.words:
+    if phrase.kind is PhraseKind.NOUN and all(OF_KEY in word for word in phrase.words):
         return None
     ordinal = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
     return Ranking(phrase.among or "all", ordinal, phrase.count)
@@ -130,7 +131,7 @@ def scene_features(phrase: Phrase) -> Iterator[Feature]:
     of = "word" if phrase.kind is PhraseKind.NOUN else str(phrase.kind)
     if phrase.kind in (PhraseKind.NOUN, PhraseKind.MODIFIER):
         for word in phrase.words:
-            if word != NOT:
+            if word != NOT and OF_KEY not in word:
                 yield Group.RELATION, f"{of}: {word}, scene {phrase.scene}"
 
 
@@ -149,6 +150,7 @@ def word_features(phrase: Phrase) -> Iterator[Feature]:
     """
     is_noun = phrase.kind is PhraseKind.NOUN
     words = [word for word in phrase.words if word != NOT or phrase.kind is not PhraseKind.MODIFIER]
+    words = [word for word in words if OF_KEY not in word]  # each by itself says nothing of others like it
     if is_noun and picked_from(phrase) is not None:
         words = [word for word in words if not word.startswith("of ")]
     for word in words:

@@ -17,7 +17,7 @@ from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, colo
 from dcg_torch.names.colors import color_scores
 from dcg_torch.names.evidence import evidence
 from dcg_torch.names.palette import named_rgb
-from dcg_torch.names.weights import FACTS, fact_weights
+from dcg_torch.names.weights import FACTS, fact_weights, log_odds
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, Phrase
 
 _SAME_COLOR = frozenset({"color: equal", "color: same hue", "color: alike"})
@@ -26,7 +26,7 @@ _TRUST = 0.6
 _ABSENT = "name: absent"
 _ABSENT_ODDS = 3.5
 """Of what is not there, once all has been seen: a noun that no class is named by mostly means nothing that is there."""
-_COLOR_ODDS = {"equal": 4.0, "same hue": 2.0, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
+_COLOR_ODDS = {"equal": 4.0, "same hue": -0.5, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
 _ATTRIBUTE_ODDS = {"equal": 3.0, "alike": 3.0, "contrary": -3.0, "silent": -0.5}
 _LOOKS = (0.0, 0.5, 1.0, 2.0, 4.0, 8.0)
 """Bounds of how far a colour's score stays behind the best in view."""
@@ -98,15 +98,24 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
-    if look < 0 and thing.color is not None and any(_denies(word, thing.color) for word in said.words):
+    if any(_denies(word, thing, look < 0) for word in said.words):
         found = list(dict.fromkeys([*found, "attribute: contrary"]))
     return [f"said {name}" for name in found]
 
 
-def _denies(word: str, name: str) -> bool:
-    """Does a word such as "not red" rule out a colour's name?"""
-    color = word.removeprefix(f"{NOT} ")
-    return color != word and not _SAME_COLOR.isdisjoint(color_evidence(color, name))
+def _denies(word: str, thing: Object, named: bool) -> bool:
+    """Does a word such as "not red" or "not cube" rule a thing out?
+
+    Args:
+        named: are colours to be judged by their names?
+    """
+    denied = word.removeprefix(f"{NOT} ")
+    if denied == word:
+        return False
+    of_color = named and thing.color is not None and not _SAME_COLOR.isdisjoint(color_evidence(denied, thing.color))
+    return of_color or (
+        thing.type is not None and not thing.type.startswith(OPAQUE) and log_odds(denied, thing.type) > 0.0
+    )
 
 
 def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:

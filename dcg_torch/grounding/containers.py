@@ -1,0 +1,72 @@
+"""What holds a thing is meant where the thing itself is not in the scene: "my keys are in the top drawer"."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.palette import region
+from dcg_torch.names.weights import names_one_of
+from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
+
+_INSIDE = frozenset({"in", "into", "inside"})
+_OWN = frozenset(
+    {"my", "our", "his", "her", "their", "this", "these", "some", "it", "they", "them", "something", "a", "an"}
+)
+"""First words of what the speaker has and the scene need not."""
+
+
+def in_what_holds_it(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree about what holds what is not there, and in which colours behind a noun are colours.
+
+    Args:
+        world: the classes of its objects say what is there.
+    """
+    types = {o.type for o in world.objects if o.type is not None and not o.hypothetical}
+    if not types or any(type_.startswith(OPAQUE) for type_ in types):
+        return tree
+    return _holder(_colored(tree, types), types)
+
+
+def _holder(tree: ParseTree, types: Collection[str]) -> ParseTree:
+    held = next((child for child in tree.children if child.phrase.kind is PhraseKind.NOUN), None)
+    if tree.phrase.kind is PhraseKind.NOUN or held is None or not _is_elsewhere(held.phrase, types):
+        return tree
+    places = [c for c in (*held.children, *tree.children) if _is_inside(c) and _is_there(c.children[0].phrase, types)]
+    if not places:
+        return tree
+    further = tuple(c for c in held.children if c is not places[0] and c.phrase.kind is PhraseKind.PREPOSITION)
+    holder = places[0].children[0]
+    return replace(tree, children=(replace(holder, children=(*holder.children, *further)),))
+
+
+def _is_inside(place: ParseTree) -> bool:
+    inside = place.phrase.kind is PhraseKind.PREPOSITION and place.phrase.words[0] in _INSIDE
+    return inside and len(place.children) == 1
+
+
+def _is_elsewhere(phrase: Phrase, types: Collection[str]) -> bool:
+    """Is a thing named that is none of those there, and that the speaker has?"""
+    first = phrase.text.split(" ")[0]
+    owned = first in _OWN or not _OWN.isdisjoint(phrase.words) or not phrase.text
+    if phrase.noun is None:  # "it is in the box" where all are boxes
+        return owned and phrase.color is None and not phrase.words
+    return owned and not names_one_of(phrase.noun, types)
+
+
+def _is_there(phrase: Phrase, types: Collection[str]) -> bool:
+    """Does a phrase speak of things of which all that is there are?"""
+    if phrase.noun is None:
+        return phrase.color is not None or bool(phrase.words)
+    return all(names_one_of(phrase.noun, (type_,)) for type_ in types)
+
+
+def _colored(tree: ParseTree, types: Collection[str]) -> ParseTree:
+    """ "The drawer brown" is a brown drawer, where drawers are."""
+    phrase, children = tree.phrase, tuple(_colored(child, types) for child in tree.children)
+    noun, _, last = (phrase.noun or "").rpartition(" ")
+    behind = bool(noun) and phrase.color is None and region(normalise(last)) is not None
+    if behind and names_one_of(noun, types) and not names_one_of(last, types):
+        phrase = replace(phrase, noun=noun, color=last)
+    return ParseTree(phrase, children)

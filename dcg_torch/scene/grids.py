@@ -1,0 +1,72 @@
+"""Racks and boards of things in even rows and columns, of which some cells may be empty: the cell of each thing."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from dcg_torch.scene.order import Floats, Ints
+from dcg_torch.scene.upright import laid_flat
+from dcg_torch.types import Object, Pose
+from dcg_torch.types.geometry import to_robot_frame
+
+_LEAST, _FULL = 6, 0.6
+"""Things of a grid, and the share of its cells that they fill."""
+_EVEN, _ASIDE = 1.35, 0.2
+"""Steps are at most so many times as long as others; a thing is beside its line by so much of a step at most."""
+
+Cell = tuple[int, int]
+"""Row from the top and column from the left, from 0."""
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Ids of things and the cells that they are in, and how many rows and columns there are."""
+
+    cells: dict[str, Cell]
+    rows: int
+    columns: int
+
+
+def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | None:
+    """The grid in which all things stand, as the viewer sees it; None where they stand in none.
+
+    Args:
+        objects: those without a position are nowhere.
+    """
+    there = [o for o in objects if o.position is not None]
+    if len(there) < _LEAST:
+        return None
+    position = np.array([o.position for o in there], dtype=np.float64)
+    position[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), position[:, :2])
+    position = laid_flat(position)
+    if np.ptp(position[:, 2]) > 1e-3 * max(1e-9, float(np.ptp(position[:, :2]))):
+        return None
+    row = _numbered(-position[:, 0])
+    column = None if row is None else _numbered(-position[:, 1])
+    if row is None or column is None:
+        return None
+    cells = list(zip(row.tolist(), column.tolist(), strict=True))
+    rows, columns = int(row.max()) + 1, int(column.max()) + 1
+    if len(set(cells)) < len(cells) or min(rows, columns) < 2 or len(cells) < _FULL * rows * columns:
+        return None
+    return Grid({o.id: cell for o, cell in zip(there, cells, strict=True)}, rows, columns)
+
+
+def _numbered(values: Floats) -> Ints | None:
+    """(n,) the number of the line on which each lies, lines being one step apart; None where they are not."""
+    order = np.sort(values)
+    gaps = np.diff(order)
+    if not len(gaps) or gaps.max() <= 0.0:
+        return None
+    starts = np.concatenate([[0], np.flatnonzero(gaps > 0.5 * gaps.max()) + 1])
+    ends = np.append(starts[1:], len(order))
+    middles = np.add.reduceat(order, starts) / (ends - starts)
+    steps = np.diff(middles)
+    spread = (order[ends - 1] - order[starts]).max()
+    if (len(steps) > 1 and steps.max() > _EVEN * steps.min()) or spread > _ASIDE * steps.min():
+        return None
+    found: Ints = np.abs(values[:, None] - middles[None]).argmin(axis=1)
+    return found

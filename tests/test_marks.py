@@ -1,0 +1,185 @@
+"""Things are called by what is written or printed on them. The commands are ours, no person's."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from dcg_torch import GroundingModel, pretrained
+from dcg_torch.evaluation.episodes import Episode
+from dcg_torch.evaluation.protocol import answers
+from dcg_torch.grounding.features.names import word_features
+from dcg_torch.grounding.marks import heard
+from dcg_torch.language import default_parser, parse_command
+from dcg_torch.names.attributes import attribute_evidence
+from dcg_torch.names.marks import marks_of
+from dcg_torch.types import Phrase, PhraseKind
+
+LOGOS = ["adidas", "BMW", "Burger King", "Coca Cola", "Heineken", "HP", "McDonalds", "Mercedes Benz", "Shell", "SRI",
+         "Starbucks", "Stella Artois", "Target", "Twitter", "UPS"]  # fmt: skip
+DIGITS = [str(k) for k in range(1, 16)]
+SHAPES = ["T", "L", "X", "W", "Z", "I", "U", "P"]
+STYLES = ["brand", "class", "class behind", "bare"]
+
+
+def _places(count: int) -> list[tuple[float, float]]:
+    draw, found = random.Random(3), list[tuple[float, float]]()
+    while len(found) < count:
+        x, y = draw.uniform(0.5, 2.0), draw.uniform(-1.0, 1.0)
+        if all((x - a) ** 2 + (y - b) ** 2 > 0.05 for a, b in found):
+            found.append((x, y))
+    return found
+
+
+def _board(marks: list[str], style: str, text: str) -> Episode:
+    objects = []
+    for mark, (x, y) in zip(marks, _places(len(marks)), strict=True):
+        thing: dict[str, object] = {"id": mark, "type": "block", "position": [x, y, 0.076], "size": 0.152}
+        if style == "class":
+            thing["type"] = f"{mark} block".lower()
+        elif style == "class behind":
+            thing["type"] = f"block_{mark.lower().replace(' ', '_')}"
+        elif style == "bare":
+            thing["type"] = mark
+        else:
+            thing[style] = mark
+        objects.append(thing)
+    robot = {"x": 0.0, "y": 0.0, "yaw": 0.0}
+    return Episode.model_validate({"id": "a", "text": text, "objects": objects, "target": [], "robot": robot})
+
+
+@pytest.fixture(scope="module")
+def model() -> GroundingModel:
+    return pretrained()
+
+
+def _meant(model: GroundingModel, episode: Episode) -> tuple[set[str], float]:
+    (answer,) = answers(model, [episode], default_parser().parse)
+    return set(answer.predicted), answer.probability or 0.0
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("Move the Adidas block to the right of the BMW block.", "adidas"),
+        ("Shell should be one block width to the left of Target", "Shell"),
+        ("the Stella block goes on the left of Shell", "Stella Artois"),
+        ("twitter to the left of target please", "Twitter"),
+        ("pick up the mercedes-benz cube", "Mercedes Benz"),
+        ("Place the block with the Shell logo beneath the block with the Target logo", "Shell"),
+        ("the one that says UPS", "UPS"),
+        ("Line up Target with BMW", "Target"),
+        ("mcdonald's needs to go up two spaces", "McDonalds"),
+        ("Put Coke above BMW.", "Coca Cola"),
+        ("BMW -> right of SRI", "BMW"),
+        ("Set burgerking's block under HP", "Burger King"),
+        ("Move the starbuck block to the right of HP", "Starbucks"),
+        ("UPS!", "UPS"),
+        ("next to BMW goes Twitter", "Twitter"),
+        ("I would like the Target block to be put above HP", "Target"),
+        ("not Shell, Target please", "Target"),
+    ],
+)
+def test_logos(model: GroundingModel, style: str, text: str, meant: str) -> None:
+    found, probability = _meant(model, _board(LOGOS, style, text))
+    assert found == {meant}
+    assert probability > 0.6
+
+
+@pytest.mark.parametrize("style", [*STYLES, "number"])
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("Move block 3 below block 5", "3"),
+        ("put 7 to the left of 9", "7"),
+        ("Take the number 12 block and place it above 4", "12"),
+        ("move block number nine up one space", "9"),
+        ("move one to the left of two", "1"),
+        ("put the twelve block under the six block", "12"),
+        ("Eleven goes above three", "11"),
+        ("move block #8 to the top", "8"),
+        ("Move the block labeled 15 one block length north of 13", "15"),
+        ("Take 14, put it at the bottom right corner", "14"),
+        ("5 up", "5"),
+        ("Move blocks 3 and 11 to the left", "3 11"),
+        ("block 25 goes up", ""),
+        ("no. 7 left of no. 8", "7"),
+        ("two should be between three and four", "2"),
+        ("block 1 north east of block 9 with a little gap", "1"),
+    ],
+)
+def test_digits(model: GroundingModel, style: str, text: str, meant: str) -> None:
+    assert _meant(model, _board(DIGITS, style, text))[0] == set(meant.split())
+
+
+@pytest.mark.parametrize("style", ["shape", "class", "bare"])
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the T", "T"),
+        ("the w shaped one", "W"),
+        ("take the letter P", "P"),
+        ("the plus", "X"),
+        ("the cross next to the snake", "X"),
+        ("the piece shaped like a letter U", "U"),
+        ("the stairs", "W"),
+        ("I would like the long bar", "I"),
+        ("grab a Z", "Z"),
+    ],
+)
+def test_shapes(model: GroundingModel, style: str, text: str, meant: str) -> None:
+    assert _meant(model, _board(SHAPES, style, text))[0] == {meant}
+
+
+def test_what_no_block_bears_is_not_there(model: GroundingModel) -> None:
+    found, probability = _meant(model, _board(LOGOS, "brand", "move the Pepsi block up a bit"))
+    assert not found
+    assert probability > 0.2
+
+
+def test_marks_fire_no_features_of_their_own(model: GroundingModel) -> None:
+    phrase = Phrase(PhraseKind.NOUN, "the Shell block", ("second", "brand: shell"), "block")
+    assert not [name for _, name in word_features(phrase) if "shell" in name]
+
+
+def test_counts_and_measures_are_no_names() -> None:
+    things = _board(DIGITS, "digit", "").percepts()
+
+    def stated(text: str) -> set[str]:
+        tree = heard(default_parser().parse, text, (), things).tree
+        return {word for node in tree.walk() for word in node.phrase.words if ":" in word} if tree else set()
+
+    assert stated("move the two blocks on the left") == set()
+    assert stated("slide the leftmost block 3 spaces to the right") == set()
+    assert stated("take the red one") == set()
+    assert stated("move it two block lengths above seven") == {"digit: 7"}
+
+
+def test_texts_without_marks_are_read_as_ever() -> None:
+    for text in ("pick up the block on the left", "target the shell", "go to the two cubes behind the five cones"):
+        assert heard(parse_command, text, ("cube",), []) == parse_command(text, ("cube",))
+    things = _board(LOGOS, "brand", "").percepts()
+    for text in ("pick up the leftmost block", "the block in the corner", "go to the one behind the two others"):
+        assert heard(parse_command, text, (), things) == parse_command(text, ())
+
+
+def test_what_stands_for_marks_is_not_seen() -> None:
+    things = _board(LOGOS, "brand", "").percepts()
+    read = heard(parse_command, "put the Target block on Shell", (), things)
+    assert "quorb" not in repr(read)
+    assert read.noun == "block"
+
+
+def test_looks_are_no_marks() -> None:
+    given = ["material: wood", "orientation: left", "shirt: red", "beard: no", "size: big"]
+    assert marks_of([("chair", frozenset({attribute})) for attribute in given]) is None
+    assert marks_of([("floor lamp", frozenset()), ("table lamp", frozenset()), ("sofa", frozenset())]) is None
+
+
+def test_evidence_of_marks() -> None:
+    shell, target, plain = frozenset({"brand: Shell"}), frozenset({"brand: Target"}), frozenset({"size: big"})
+    found = [attribute_evidence(("brand: shell|hp",), given) for given in (shell, target, plain)]
+    assert found == [("attribute: equal",), ("attribute: contrary",), ("attribute: silent",)]
+    assert attribute_evidence(("not brand: shell",), shell) == ("attribute: contrary",)
