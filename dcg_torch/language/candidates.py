@@ -91,12 +91,9 @@ def _add_open(found: dict[str, float], word: str) -> None:
         less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
         rule = "plural" if is_plural(word) else "color_noun" if normal_color(word) in SETS["basic_colors"] else "noun"
         _add(found, _OPEN[rule], less)
-    if "v" in known and stem == word and word not in SETS["commands"]:
-        _add(found, _OPEN["verb"], step * (most - known["v"]))
-    if "a" in known and not found.keys() & {"COL", "MOD"}:
-        _add(found, _OPEN["adjective"], step * (most - known["a"]))
-    if "r" in known:
-        _add(found, _OPEN["adverb"], step * (most - known["r"]))
+    other = {"v": stem != word or word in SETS["commands"], "a": bool(found.keys() & {"COL", "MOD"}), "r": False}
+    for part in [part for part, told in other.items() if part in known and not told]:
+        _add(found, _OPEN[part], step * (most - known[part]))
     if stem != word or (word, "v") in irregular():
         _add_inflected(found, word)
     if "N" not in found and not found.keys() & {"COL", "SIDE"} and word not in SETS["modifiers"]:
@@ -105,7 +102,7 @@ def _add_open(found: dict[str, float], word: str) -> None:
 
 def _add_unknown(found: dict[str, float], word: str) -> None:
     if word.endswith("ly"):
-        _add(found, _OPEN["adverb"])
+        _add(found, _OPEN["r"])
     elif word.endswith(("ing", "ed")) and len(word) > len("ring"):
         _add(found, _OPEN["unknown_participle"])
     _add(found, _OPEN["unknown"])

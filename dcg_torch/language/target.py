@@ -22,9 +22,6 @@ from dcg_torch.language.references import (
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
-_FIRST_ORDER = "earlier_goal"
-"""Of two orders in one sentence ("go to the kitchen and take the cup") the first one's goal."""
-
 
 @dataclass(slots=True, eq=False)
 class Mention:
@@ -101,6 +98,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
         chosen.noun.children += _listed(chosen)
+    others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
+    # "Facing the bed, take the lamp on your left".
+    children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
     describe_later(chosen.noun, chosen.clause, clauses)
     if chosen.noun.noun is None:
         one_of_the(chosen.noun)
@@ -121,7 +121,7 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            if name == _FIRST_ORDER and not any(other.clause is choice.clause for other in found[:k]):
+            if name == "earlier_goal" and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
