@@ -11,7 +11,13 @@ import pytest
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.language import Parser
 from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
+from dcg_torch.lessons.boards import board_scene
+from dcg_torch.lessons.clutter import clutter_scene
+from dcg_torch.lessons.handling import stack_scene
+from dcg_torch.lessons.middles import middle_scene
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+from dcg_torch.scene.upsilon import world_model
+from dcg_torch.scene.workspace import with_places
 
 
 @pytest.mark.parametrize("seed", range(25))
@@ -88,3 +94,18 @@ def _is_right(model: GroundingModel, parser: Parser, scene: Scene, rng: np.rando
     assert tree is not None
     world = model.world_model(scene.objects, scene.robot, workspace=scene.workspace)
     return {o.id for o in model.ground(tree, world).objects} == meant
+
+
+@pytest.mark.parametrize("maker", [table_scene, stack_scene, clutter_scene, board_scene, middle_scene])
+def test_tables_lie_between_their_edges(maker: Callable[[np.random.Generator], Scene]) -> None:
+    """The places of a table are where its things are, wherever the robot stands."""
+    for seed in range(5):
+        scene = maker(np.random.default_rng(seed))
+        upsilon = with_places(world_model(scene.objects, KINDS, hypothetical=False, robot=scene.robot), scene.workspace)
+        edges = np.array([o.position for o in upsilon.places if o.type == "edge"])[:, :2]
+        middle = next(o.position for o in upsilon.places if o.type == "middle")
+        assert middle is not None
+        points = np.array([o.position[:2] for o in scene.objects])
+        assert (points >= edges.min(axis=0) - 1.0).all()
+        assert (points <= edges.max(axis=0) + 1.0).all()
+        assert np.array(middle[:2]) == pytest.approx((edges.min(axis=0) + edges.max(axis=0)) / 2)

@@ -194,9 +194,9 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        told = is_sized(tree.phrase) or tree.phrase.color is not None or tree.phrase.look
-        told = told or parts or of_attributes(tree.phrase.words, self.encoder)
-        some = bool(told) and len(others) < len(own)
+        phrase = tree.phrase
+        told = bool(parts) or is_sized(phrase) or phrase.color is not None or bool(phrase.look)
+        some = len(others) < len(own) and (told or bool(of_attributes(phrase.words, self.encoder)))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 

@@ -14,6 +14,7 @@ from typing import Protocol
 import numpy as np
 
 from dcg_torch.learning.landmarks import Lesson
+from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import ParseTree, Percept, Pose
@@ -22,9 +23,9 @@ KINDS = ("cube", "sphere", "cylinder")
 COLORS = ("red", "green", "blue")
 _NUMBERS = {3: "three", 4: "four", 5: "five", 6: "six"}
 _ORDINALS = ("first", "second", "third", "fourth")
-TABLE = Workspace((0.0, 7.0, 0.0, 7.0))
-"""Eight by eight fields of a metre; the robot stands two metres before the middle of the near edge."""
 SEAT = Pose(-2.0, 3.5)
+TABLE = Workspace(scene_bounds([(0.0, 0.0), (7.0, 7.0)], SEAT))
+"""Eight by eight fields of a metre; the robot stands two metres before the middle of the near edge."""
 
 Told = tuple[str, frozenset[str]]
 """A command, and the ids of what it means."""

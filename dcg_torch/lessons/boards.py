@@ -13,12 +13,13 @@ import numpy as np
 
 from dcg_torch.lessons.arranged import KINDS, Scene, Told
 from dcg_torch.lessons.selections import NUMBERS, ORDINALS
+from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 _DEEP, _HALF = 7.0, 3.5
-_BOARD = Workspace((0.0, _DEEP, -_HALF, _HALF))
 _SEAT = Pose(-3.0, 0.0)
+_BOARD = Workspace(scene_bounds([(0.0, -_HALF), (_DEEP, _HALF)], _SEAT))
 _HIGH = 0.7
 """Height of a thing, in units: neighbours are a little farther apart than things are wide."""
 _LEAST, _TRIES = 0.75, 300

@@ -14,11 +14,12 @@ import numpy as np
 
 from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
 from dcg_torch.lessons.selections import NUMBERS, ORDINALS, thing
+from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
-_TABLE = Workspace((0.0, 7.0, -3.5, 3.5))
 _SEAT = Pose(-4.0, 0.0)
+_TABLE = Workspace(scene_bounds([(0.0, -3.5), (7.0, 3.5)], _SEAT))
 _LEAST, _TRIES = 0.65, 400
 """How far things are apart at least, units; how often a place is looked for."""
 _ASKED = 6
