@@ -54,6 +54,11 @@ ADDRESSES = [
     ("the drawer in the lower left corner", "41"),
     ("bottom right", "45"),
     ("open the third drawer down in the rightmost column", "35"),
+    ("second box from the left, third from the top", "32"),
+    ("in row 4 the third one from the right", "43"),
+    ("row: 2, column: 4", "24"),
+    ("bottom row, middle", "43"),
+    ("far right, second row", "25"),
 ]
 STEPS = [
     ("directly under the red one", "33"),

@@ -67,7 +67,10 @@ def _filled(pattern: str) -> str:
     return pattern
 
 
-REWRITES: Final = tuple((re.compile(_filled(old)), new) for old, new in _PATTERNS["rewrite"])
+REWRITES: Final = tuple(
+    (re.compile(_filled(old)), new, tuple(needs[0].split("|")) if needs else ("",))
+    for old, new, *needs in _PATTERNS["rewrite"]
+)
 WORD: Final = re.compile(_PATTERNS["word"])
 PHRASES: Final = tuple(
     (re.compile(rf"(?:{_filled(pattern)})(?= |$)"), tag, value.split(";"), weight)

@@ -34,8 +34,9 @@ def tokens(text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
     text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
     text = _HYPHENATED.sub(_swap, text)
-    for old, new in lx.REWRITES:
-        text = old.sub(new, text)
+    for old, new, needs in lx.REWRITES:
+        if any(part in text for part in needs):
+            text = old.sub(new, text)
     found: list[str] = []
     for token in lx.WORD.findall(text):
         if token in lx.SETS["size_nouns"] and found and found[-1] in lx.SETS["sizes"]:
