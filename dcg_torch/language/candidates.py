@@ -66,12 +66,9 @@ def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) 
 
 
 def _add_color(found: dict[str, float], word: str) -> None:
-    if normal_color(word) not in single_colors():
-        return
-    if normal_color(word) in SETS["basic_colors"] or "n" not in parts(word):
-        _add(found, GRAMMAR["color"])
-    else:
-        _add(found, GRAMMAR["color_seldom" if word in SETS["color_seldom"] else "color_and_noun"])
+    name, rule = normal_color(word), "color_seldom" if word in SETS["color_seldom"] else "color_and_noun"
+    if name in single_colors():
+        _add(found, GRAMMAR["color" if name in SETS["basic_colors"] or "n" not in parts(word) else rule])
 
 
 def _add_open(found: dict[str, float], word: str) -> None:

@@ -61,7 +61,7 @@ def one_of_the(one: Item) -> None:
     """ "The middle one of the three cubes": a cube."""
     for place in one.children:
         group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
-        if group.plural and group.noun and not group.is_a("not_solid"):
+        if one.noun is None and group.plural and group.noun and not group.is_a("not_solid"):
             one.noun, one.pronoun, one.color = group.noun, False, one.color or group.color
             counted = (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
             one.words += (*(word for word in group.words if word not in one.words), *counted)
@@ -77,7 +77,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
-    if not several:
+    if not several or one.noun is not None:
         return
     group = max(several, key=lambda noun: noun.start).copy()
     one.noun, one.pronoun = group.noun, False
