@@ -109,7 +109,7 @@ DEVELOPMENT = (
     D("sofa bottom right", "sofa", None, (), ("bottom", "right")),
     D("the third one from the right", None, None, (), ("third", "from the right")),
     D("the tall cylinder that is not blue", "cylinder", None, (), ("tall", "not blue")),
-    D("not the red ball, the green one", None, "green"),
+    D("not the red ball, the green one", "ball", "green"),
     D("the green cone not the blue one", "cone", "green"),
     P("two red balls at the front", "ball", "red", (("at", "front"),), count=2),
     D("the one with the ball on it", None, None, (("with", "ball"),)),

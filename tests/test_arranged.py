@@ -14,7 +14,6 @@ from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons, cluster_s
 from dcg_torch.lessons.boards import board_scene
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.handling import stack_scene
-from dcg_torch.lessons.middles import middle_scene
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import with_places
@@ -96,7 +95,7 @@ def _is_right(model: GroundingModel, parser: Parser, scene: Scene, rng: np.rando
     return {o.id for o in model.ground(tree, world).objects} == meant
 
 
-@pytest.mark.parametrize("maker", [table_scene, stack_scene, clutter_scene, board_scene, middle_scene])
+@pytest.mark.parametrize("maker", [table_scene, stack_scene, clutter_scene, board_scene])
 def test_tables_lie_between_their_edges(maker: Callable[[np.random.Generator], Scene]) -> None:
     """The places of a table are where its things are, wherever the robot stands."""
     for seed in range(5):

@@ -90,7 +90,7 @@ def test_the_middle_of_so_many_is_picked_from_so_many(text: str, parser: Parser,
     world = world_of({**right, **left, "b": ("blue", 3.0, 2.5)})
     encoder, tables = WorldEncoder(shipped.features, world), Tables(shipped.features, shipped.factor)
     modifiers = Search(encoder, tables, 12)._all_modifiers(noun)
-    found = comparison_set(noun, modifiers, encoder, tables)
+    found = comparison_set(noun, modifiers, encoder, tables).among
     assert {thing.id for thing, inside in zip(world.things, found, strict=True) if inside} == set(left)
 
 

@@ -155,6 +155,12 @@ def comparison_set(
     return Comparison(described, log_size, phrase)
 
 
+def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
+    """Does a noun phrase say more than a name of what is ranked from a landmark: "the red one closest to the door"?"""
+    looks = phrase.color is not None or bool(phrase.look)
+    return looks or is_sized(phrase) or bool(of_attributes(phrase.words, encoder))
+
+
 def is_sized(phrase: Phrase) -> bool:
     """Does a noun phrase say how large its object is?"""
     return any(size_side(word) is not None for word in phrase.words)

@@ -118,8 +118,8 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    if name == "with" and len(landmark.children) == 1 and _on_it(landmark.children[0]):
-        bearing = replace(tree.phrase, words=("under", *tree.phrase.words[1:]))
+    if name in ("with", "without") and len(landmark.children) == 1 and _on_it(landmark.children[0]):
+        bearing = replace(tree.phrase, words=("under" if name == "with" else "not under", *tree.phrase.words[1:]))
         return ParseTree(bearing, (replace(landmark, children=()),))
     line = _line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):

@@ -14,7 +14,7 @@ from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log
 from dcg_torch.grounding.describing import (
     comparison_set,
     highest,
-    is_sized,
+    is_narrowed,
     is_to_a_place,
     modifier_factor,
     of_attributes,
@@ -194,9 +194,7 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        phrase = tree.phrase
-        told = bool(parts) or is_sized(phrase) or phrase.color is not None or bool(phrase.look)
-        some = len(others) < len(own) and (told or bool(of_attributes(phrase.words, self.encoder)))
+        some = len(others) < len(own) and (bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 

@@ -20,7 +20,7 @@ from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
 
 _ENTRIES = 1 << 16
 """Weights that are gathered at once; beyond, they are added column by column."""
-_PHRASES = 4096
+_PHRASES = 1024
 """Phrases of which tables are kept, at the most."""
 _FEW = 256
 """Values up to which a sum is taken of them written out."""

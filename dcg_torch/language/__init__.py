@@ -24,7 +24,8 @@ How a noun phrase is written down, beside its noun, colour and number:
     a pick              "the bigger of the two cubes" is the noun cube with the word "bigger" and count 1
     a denial            "not" is part of what it denies: the word "not red", "not held"; the preposition "not on".
                         "with no cone on it" is the preposition "without", "with nothing on top of it" the word
-                        "nothing on". What is ruled out ("the cone, not the cube") is not in the tree
+                        "nothing on". What is ruled out is a denial of what it says more: "but not the red one" is
+                        "not red", "not the one on the left" is "not on"; another thing ("not the cube") is not there
     how a thing stands  the word "facing left"; but "facing the wall" is a preposition with a landmark
     a side              the landmark "left" of the preposition "on", with the word "your" or "my" if it is someone's;
                         with no preposition ("the cube, far left") the words "far" and "left"

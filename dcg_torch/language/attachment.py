@@ -13,7 +13,7 @@ from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import is_superlative, last_thing, settle_words
+from dcg_torch.language.predicates import deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.saying import NounPhrases
 
 
@@ -22,11 +22,16 @@ def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause
     builder = _Builder(items)
     for item, after in zip(items, (*items[1:], END), strict=True):
         builder.step(item, after)
-    builder.deny_colors()
-    settle(builder.clause, builder.pending, supplied, decisions)
+    clause, start = builder.clause, items[0].start
+    settle(clause, builder.pending, supplied, decisions)
+    for noun, before in builder.ruled_out:
+        if noun.pronoun and not (clause.objects or builder.pending):  # what is not purple is a thing without a name
+            clause.objects = [Item(Kind.NOUN, start, start, "", pronoun=True)]
+        for owner in [before] if before else clause.objects[:1]:
+            deny(owner, noun)
     for noun in builder.nouns:
         settle_words(noun)
-    return builder.clause
+    return clause
 
 
 class _Builder(NounPhrases):
@@ -44,6 +49,8 @@ class _Builder(NounPhrases):
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
             self.and_joined = item.kind is Kind.AND
+            if item.kind is Kind.COMMA and self.meant is not None:
+                self.nouns, self.meant = self.meant, None
         elif item.kind is Kind.VERB:
             self.verb(item, after)
         elif item.kind is Kind.PREPOSITION:
@@ -53,14 +60,6 @@ class _Builder(NounPhrases):
         elif item.kind is Kind.NOUN and not self.is_subject(item, after):
             self.noun(item)
             self.joined = self.forced = self.excluded = False
-
-    def deny_colors(self) -> None:
-        """Say of the object, which may have no name, which colours it has not: "blue, not purple"."""
-        if (self.not_colors or self.denials) and not self.clause.objects and not self.pending:
-            first = self.items[0].start
-            self.clause.objects = [Item(Kind.NOUN, first, first, "", tuple(self.denials), pronoun=True)]
-        if self.not_colors and self.clause.objects:
-            self.clause.objects[0].words += tuple(self.not_colors)
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
@@ -89,13 +88,9 @@ class _Builder(NounPhrases):
             item.words, forced = (f"{extreme} {item.words[0]}",), True
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
-        self.await_noun(item, forced, self.joined)
-        self.forced = self.joined = False
-
-    def await_noun(self, item: Item, forced: bool, joined: bool) -> None:
-        """Note a preposition, and what it may belong to."""
         self.preposition = item
-        self.pending.append(Pending(item, list(self.nouns), forced, joined))
+        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.forced = self.joined = False
 
     def adverb(self, item: Item, after: Item) -> None:
         """A word by itself: said of a noun phrase, or of the way the verb is done."""
@@ -163,4 +158,5 @@ class _Builder(NounPhrases):
         if self.denied:
             name = "without" if name == "with" else f"not {name}"
         self.denied, item.said = False, True
-        self.await_noun(Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,)), True, False)
+        self.preposition = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,))
+        self.pending.append(Pending(self.preposition, list(self.nouns), True, False))

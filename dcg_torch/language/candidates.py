@@ -66,12 +66,9 @@ def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) 
 
 
 def _add_color(found: dict[str, float], word: str) -> None:
-    if normal_color(word) not in single_colors():
-        return
-    if normal_color(word) in SETS["basic_colors"] or "n" not in parts(word):
-        _add(found, GRAMMAR["color"])
-    else:
-        _add(found, GRAMMAR["color_seldom" if word in SETS["color_seldom"] else "color_and_noun"])
+    name, rule = normal_color(word), "color_seldom" if word in SETS["color_seldom"] else "color_and_noun"
+    if name in single_colors():
+        _add(found, GRAMMAR["color" if name in SETS["basic_colors"] or "n" not in parts(word) else rule])
 
 
 def _add_open(found: dict[str, float], word: str) -> None:
@@ -91,12 +88,9 @@ def _add_open(found: dict[str, float], word: str) -> None:
         less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
         rule = "plural" if is_plural(word) else "color_noun" if normal_color(word) in SETS["basic_colors"] else "noun"
         _add(found, _OPEN[rule], less)
-    if "v" in known and stem == word and word not in SETS["commands"]:
-        _add(found, _OPEN["verb"], step * (most - known["v"]))
-    if "a" in known and not found.keys() & {"COL", "MOD"}:
-        _add(found, _OPEN["adjective"], step * (most - known["a"]))
-    if "r" in known:
-        _add(found, _OPEN["adverb"], step * (most - known["r"]))
+    other = {"v": stem != word or word in SETS["commands"], "a": bool(found.keys() & {"COL", "MOD"}), "r": False}
+    for part in [part for part, told in other.items() if part in known and not told]:
+        _add(found, _OPEN[part], step * (most - known[part]))
     if stem != word or (word, "v") in irregular():
         _add_inflected(found, word)
     if "N" not in found and not found.keys() & {"COL", "SIDE"} and word not in SETS["modifiers"]:
@@ -105,7 +99,7 @@ def _add_open(found: dict[str, float], word: str) -> None:
 
 def _add_unknown(found: dict[str, float], word: str) -> None:
     if word.endswith("ly"):
-        _add(found, _OPEN["adverb"])
+        _add(found, _OPEN["r"])
     elif word.endswith(("ing", "ed")) and len(word) > len("ring"):
         _add(found, _OPEN["unknown_participle"])
     _add(found, _OPEN["unknown"])

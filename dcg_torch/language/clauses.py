@@ -94,9 +94,8 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if items[k].words[0] != "be" or any(verb.words[0] != "be" for verb in verbs):
         return False
     if verbs:  # "it is on the left and is touching the cone"
-        return items[k - 1].kind is Kind.AND and _is_statement(
-            clause[: clause.index(verbs[0])], items, items.index(verbs[0])
-        )
+        first = clause[: clause.index(verbs[0])]
+        return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
     named = k + 1 < len(items) and items[k + 1].noun is not None
     named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
     return not named and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)

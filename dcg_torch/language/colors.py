@@ -43,12 +43,8 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
 
     "dark sky blue" is one colour; a closing "coloured" belongs to the colour.
     """
-    stop = start
-    while stop < len(words) and words[stop] in _SHADES:
-        stop += 1
-    if stop >= len(words):
-        return None
-    end = _name_end(words, stop)
+    stop = next((i for i in range(start, len(words)) if words[i] not in _SHADES), None)
+    end = None if stop is None else _name_end(words, stop)
     if end is None:
         return None
     name = normal_color(" ".join(words[start:end]))

@@ -26,14 +26,9 @@ def lines(name: str) -> list[str]:
     return [line for line in read(name).splitlines() if line and not line.startswith("#")]
 
 
-def _yaml(name: str) -> dict[str, Any]:
-    loaded: dict[str, Any] = yaml.load(read(name), Loader=_LOADER)
-    return loaded
-
-
-_WORDS: Final = _yaml("words.yaml")
-GRAMMAR: Final = _yaml("grammar.yaml")
-_PATTERNS: Final = _yaml("patterns.yaml")
+_WORDS: Final[dict[str, Any]] = yaml.load(read("words.yaml"), Loader=_LOADER)
+GRAMMAR: Final[dict[str, Any]] = yaml.load(read("grammar.yaml"), Loader=_LOADER)
+_PATTERNS: Final[dict[str, Any]] = yaml.load(read("patterns.yaml"), Loader=_LOADER)
 
 VERBS: Final[Mapping[str, frozenset[str]]] = {name: frozenset(text.split()) for name, text in _WORDS["verbs"].items()}
 """Verbs by what they do with their object."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, VERBS
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Reader, Token
@@ -29,22 +29,14 @@ class _Phrases(Reader):
         super().__init__(tokens)
         self.out: list[Item] = []
         self.first = True  # no noun phrase stands before in the sentence
+        self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
+        self.parts |= dict.fromkeys(_VERBAL, self.verb) | dict.fromkeys(NOMINAL, self.nominal)
 
     def step(self, i: int) -> int:
-        token = self.tokens[i]
-        if token.tag in _SIMPLE:
-            self.add(_SIMPLE[token.tag], i, i + 1)
-        elif token.tag == "P":
-            return self.preposition(i)
-        elif token.tag in _VERBAL:
-            return self.verb(i)
-        elif token.tag in {"ADV", "FACE"}:
-            self.adverb(i)
-        elif token.tag == "PRO":
-            self.pronoun(i)
-        elif token.tag in NOMINAL:
-            return self.nominal(i)
-        return i + 1
+        tag = self.tag(i)
+        if tag in _SIMPLE:
+            self.add(_SIMPLE[tag], i, i + 1)
+        return self.parts[tag](i) if tag in self.parts else i + 1
 
     def add(self, kind: Kind, i: int, j: int, words: tuple[str, ...] = ()) -> Item:
         """Append the item of tokens `i` to `j`."""
@@ -54,31 +46,25 @@ class _Phrases(Reader):
         self.first = kind is Kind.STOP or (self.first and kind is not Kind.NOUN)
         return item
 
-    def previous(self) -> Kind | None:
-        """The last item's kind."""
-        return self.out[-1].kind if self.out else None
+    @property
+    def before(self) -> Item:
+        """The last item."""
+        return self.out[-1] if self.out else END
 
     def preposition(self, i: int) -> int:
         token = self.tokens[i]
-        if token.text in SETS["filler_words"] and self.previous() in {Kind.PREPOSITION, Kind.VERB, None}:
+        if token.text in SETS["filler_words"] and self.before.kind in {Kind.PREPOSITION, Kind.VERB, Kind.STOP}:
             return i + 1  # "go to like the cone"
         normal = token.value[0]
-        if token.text.startswith("from the") and normal in PLACING["beside"] and self.ordered():
-            normal = "from"  # "the second from the left of the row"
-            self.add(Kind.PREPOSITION, i, i + 1, (normal,))
+        if token.text.startswith("from the") and normal in PLACING["beside"] and self.before.is_a("counted"):
+            self.add(Kind.PREPOSITION, i, i + 1, ("from",))  # "the second from the left of the row"
             side = self.add(Kind.NOUN, i, i + 1)
-            side.noun, side.determined = token.value[0].split()[0], True
-            self.add(Kind.PREPOSITION, i, i + 1, ("of",))
-            return i + 1
-        if token.text.startswith("the ") and self.previous() in {Kind.PREPOSITION, None}:
+            (side.noun, normal), side.determined = normal.split(), True
+        elif token.text.startswith("the ") and self.before.kind in {Kind.PREPOSITION, Kind.STOP}:
             bare = self.add(Kind.NOUN, i, i + 1)  # "go to the closest to you"
             bare.pronoun = bare.determined = True
         self.add(Kind.PREPOSITION, i, i + 1, (normal,))
         return i + 1
-
-    def ordered(self) -> bool:
-        """Whether the last phrase counts along something: "the second cone (from ...)"."""
-        return self.previous() is Kind.NOUN and self.out[-1].is_a("ordered")
 
     def verb(self, i: int) -> int:
         token = self.tokens[i]
@@ -96,21 +82,23 @@ class _Phrases(Reader):
             return i + 1
         return i + 2
 
-    def adverb(self, i: int) -> None:
+    def adverb(self, i: int) -> int:
         value = self.tokens[i].value
-        if value[0] == "view" and self.previous() is Kind.NOUN:
-            self.out[-1].words += value[1:]  # "(on the left) from my point of view" is on my left
-            self.out[-1].stop = self.tokens[i].stop
+        if value[0] == "view" and self.before.kind is Kind.NOUN:
+            self.before.words += value[1:]  # "(on the left) from my point of view" is on my left
+            self.before.stop = self.tokens[i].stop
         elif value[0] not in {"", "view"}:  # but "right" of "right behind"
             self.add(Kind.ADVERB, i, i + 1, value)
+        return i + 1
 
-    def pronoun(self, i: int) -> None:
+    def pronoun(self, i: int) -> int:
         item = self.add(Kind.NOUN, i, i + 1)
         item.noun = PRONOUNS.get(self.text(i))
         item.pronoun = item.noun is None
         if self.text(i) not in PRONOUNS:  # "(drop) what you are holding"
             item.determined = True
             self.add(Kind.RELATIVE, i, i + 1)
+        return i + 1
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""

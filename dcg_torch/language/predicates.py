@@ -50,11 +50,32 @@ def last_thing(nouns: Sequence[Item]) -> Item:
     return next((noun for noun in reversed(nouns) if noun.noun not in apart), nouns[-1])
 
 
+def deny(noun: Item, other: Item) -> None:
+    """ "The cube, but not the red one", "not the one on the left": what is said of the other does not hold."""
+    if noun.noun is None and other.determined and noun.text.endswith(" one"):
+        noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
+    if other.noun not in {None, noun.noun}:
+        return
+    of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
+    for word in (None if of_one else other.color, *other.words):
+        side = (word or "").removesuffix(_MOST)
+        if side in SETS["left_right"] and all(place.children[0].noun != side for place in noun.children):
+            noun.children.append(Item(noun.kind, other.start, other.stop, side, noun=side).behind("not on"))
+        elif word and word not in (noun.color, *noun.words):
+            noun.words += (f"not {word}",)
+    for place in other.children:
+        place.words = (f"not {place.words[0]}",)
+        noun.children.append(place)
+
+
 def settle_words(noun: Item) -> None:
     """Bring what is said of a noun phrase to one form, when all has been said."""
     for place in list(noun.children):
         below = place.children[0]
-        if place.words == ("without",):
+        if place.words == ("except",) and below.pronoun and not noun.plural and "all" not in noun.words:
+            noun.children.remove(place)
+            deny(noun, below)
+        elif place.words == ("without",):
             _settle_nothing(noun, place, below)
         elif place.words == ("with",) and len(place.children) == 1 and below.is_a("colored_part") and not noun.color:
             # "The screwdriver with the red handle": people and recognisers say that it is red.

@@ -61,7 +61,7 @@ def one_of_the(one: Item) -> None:
     """ "The middle one of the three cubes": a cube."""
     for place in one.children:
         group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
-        if group.plural and group.noun and not group.is_a("not_solid"):
+        if one.noun is None and group.plural and group.noun and not group.is_a("not_solid"):
             one.noun, one.pronoun, one.color = group.noun, False, one.color or group.color
             counted = (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
             one.words += (*(word for word in group.words if word not in one.words), *counted)
@@ -77,7 +77,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
-    if not several:
+    if not several or one.noun is not None:
         return
     group = max(several, key=lambda noun: noun.start).copy()
     one.noun, one.pronoun = group.noun, False
@@ -94,20 +94,40 @@ def correct(clauses: Sequence[Clause]) -> None:
         if not clause.corrects or not said or not (new or clause.places):
             continue
         old = said[-1]
+        old.refused = TAKEN_BACK
+        if new and new.is_a("where"):  # "... no, on the right"
+            clause.objects, clause.places, new = [], new.children, None
         goal = old.places[0] if old.places and main_object(old) is None else None
-        was = main_object(old) if goal is None else goal.children[0]
-        if new is not None and was is not None and new.noun is None:
+        was = goal.children[0] if goal else main_object(old)
+        if new and was and new.noun is None:
             new.noun, new.pronoun = was.noun, False
         if clause.verb is None:
             clause.verb = old.verb
             if new is None:
-                clause.objects = old.objects
+                _replace_place(clause, old, was)
             elif goal is not None:
-                clause.objects = [noun for noun in clause.objects if noun is not new]
+                clause.objects.remove(new)
                 clause.places = [replace(goal, children=[new]), *clause.places]
             else:
                 clause.places = clause.places or old.places
-        old.refused = TAKEN_BACK
+
+
+def _replace_place(clause: Clause, old: Clause, was: Item | None) -> None:
+    """ "Left of the bowl, no, right of it": a place takes the last one's place, and "it" is what that was about."""
+    new = clause.places[0]
+    side = new.children[0] if new.children[0].is_a("sided") else None
+    describes = was and (was.children or not old.places) and (side or new.words[0] not in PLACING["toward"])
+    within = was.children if was and describes else None
+    taken = within or old.places
+    landmark = taken[-1].children[0] if taken else was
+    if side and taken and taken[-1].words[0] in PLACING["beside"]:  # "left of the bowl, no, to the right"
+        new.words, side.noun, side.text = (f"{side.noun} of",), None, "it"
+    for place in clause.places:
+        if landmark is not None and place.children[0].is_a("back"):
+            place.children[0] = landmark.copy()
+    clause.objects = old.objects
+    if within is not None:
+        within[-1:], clause.places = clause.places, old.places
 
 
 TAKEN_BACK = "it takes a command back"

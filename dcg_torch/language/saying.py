@@ -28,8 +28,8 @@ class NounPhrases:
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
-        self.not_colors: list[str] = []  # "(blue), not orange, not pink"
-        self.denials: list[str] = []  # "not the bright one", which is no word of another thing
+        self.ruled_out: list[tuple[Item, Item | None]] = []  # what is not meant, and the noun phrase before it
+        self.meant: list[Item] | None = None  # noun phrases before what is ruled out, until a comma
 
     @property
     def last(self) -> Item:
@@ -71,30 +71,23 @@ class NounPhrases:
         self.nouns.append(item)
 
     def exclude(self, item: Item) -> None:
-        """The cube of "not the cube", and what "not the bright one", "not pink" says of the object."""
+        """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
         item.said = True
-        if item.is_a("color_word"):
-            found = self.denials if item.determined else self.not_colors
-            found += [f"not {word}" for word in (item.color, *item.words) if word]
+        before = last_thing(self.nouns) if self.nouns else None
+        self.ruled_out.append((item, next(iter(self.clause.objects), before)))
+        self.meant = list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
 
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
-        things = SETS["anything"] | {None}
-        if self.last.noun not in things or item.noun in things | SETS["places"] | SETS["someone"] | SETS["measures"]:
-            return False
-        told = self.last in self.clause.objects and self.last.text not in SETS["stands_for"]
-        return told and item.color in {None, self.last.color} and item.determined and self.comma()
-
-    def comma(self) -> bool:
-        """Whether a comma stands before."""
-        return self.joined and not self.and_joined
+        told = self.last.is_a("open") and self.last in self.clause.objects and item.color in {None, self.last.color}
+        return told and item.is_a("name") and self.joined and not self.and_joined
 
     def is_bare(self, item: Item) -> bool:
         """ "(blue fan,) top row", "(screwdriver,) red handle": where the thing is or what it has, no preposition."""
-        place = item.is_a("bare_place") and not self.and_joined and self.clause.verb is None
-        return place or (item.is_a("bare_part") and self.comma())
+        where = item.is_a("bare_place") and self.clause.verb is None
+        return not self.and_joined and (where or (self.joined and item.is_a("bare_part")))
 
     def is_about_color(self, item: Item) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
@@ -112,15 +105,15 @@ class NounPhrases:
         place = self.preposition
         if place is None or not self.nouns:
             return False
-        if place.words[0] in PLACING["ranks_from"]:
-            counted = next((n for n in (self.last, last_thing(self.nouns)) if is_edge_of(n, item, place)), None)
-            if counted is not None:
-                counted.words += (f"from {'the ' if item.noun in SETS['sides'] else ''}{item.noun}",)
-                return self.drop_preposition()
-        if item.noun is None and item.words and all(word.endswith("most") for word in item.words):
+        near = (self.last, last_thing(self.nouns)) if place.words[0] in PLACING["ranks_from"] else ()
+        counted = [noun for noun in near if is_edge_of(noun, item, place)]
+        if counted:
+            counted[0].words += (f"from {'the ' if item.noun in SETS['sides'] else ''}{item.noun}",)
+        elif item.noun is None and item.words and all(word.endswith("most") for word in item.words):
             self.say(last_thing(self.nouns), item.words)
-            return self.drop_preposition()
-        return False
+        else:
+            return False
+        return self.drop_preposition()
 
     def drop_preposition(self) -> bool:
         """Forget the preposition that was read last: what it says has been said otherwise."""
@@ -189,7 +182,7 @@ class NounPhrases:
         item.said = True
         if not self.says_where():
             self.pending.append(Pending(item.behind("to"), list(self.nouns), False, False))
-        elif item.determined or item.noun is None:
+        elif item.determined:
             noun.children.append(item.behind("on"))
         else:
-            self.say(noun, (*item.words, item.noun))
+            self.say(noun, (*item.words, str(item.noun)))

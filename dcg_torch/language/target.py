@@ -6,24 +6,12 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from dcg_torch.language import references
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
-from dcg_torch.language.references import (
-    about_it,
-    arrive,
-    describe_landmarks,
-    describe_later,
-    exists,
-    one_of_several,
-    one_of_the,
-    refer,
-)
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
-
-_FIRST_ORDER = "earlier_goal"
-"""Of two orders in one sentence ("go to the kitchen and take the cup") the first one's goal."""
 
 
 @dataclass(slots=True, eq=False)
@@ -72,8 +60,8 @@ def _object_score(clause: Clause, target: Item, told: bool) -> float:
         return TARGETS["acting"]
     if told:
         return TARGETS["identified" if verb else "named_last"]
-    if clause.statement or not verb or exists(clause):
-        another = exists(clause) and ("other" in target.words or about_it(target))
+    if clause.statement or not verb or references.exists(clause):
+        another = references.exists(clause) and ("other" in target.words or references.about_it(target))
         return TARGETS["another" if another else "statement"]
     return next((TARGETS[name] for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), TARGETS["other"])
 
@@ -90,7 +78,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
-    describe_landmarks(clauses)
+    references.describe_landmarks(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -101,13 +89,14 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
         chosen.noun.children += _listed(chosen)
-    describe_later(chosen.noun, chosen.clause, clauses)
-    if chosen.noun.noun is None:
-        one_of_the(chosen.noun)
-    if chosen.noun.noun is None:
-        one_of_several(chosen.noun, clauses)
-    refer(chosen.noun, chosen.clause, clauses, decisions)
-    arrive(chosen.noun, chosen.clause, clauses, decisions)
+    others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
+    # "Facing the bed, take the lamp on your left".
+    children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
+    references.describe_later(chosen.noun, chosen.clause, clauses)
+    references.one_of_the(chosen.noun)
+    references.one_of_several(chosen.noun, clauses)
+    references.refer(chosen.noun, chosen.clause, clauses, decisions)
+    references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
     phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
@@ -121,7 +110,7 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            if name == _FIRST_ORDER and not any(other.clause is choice.clause for other in found[:k]):
+            if name == "earlier_goal" and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
@@ -171,9 +160,8 @@ def _listed(chosen: Mention) -> list[Item]:
     if chosen.clause.verb is not None:
         return []
     objects, beside = chosen.clause.objects, _beside(chosen)
-    later = [
-        noun for before, noun in itertools.pairwise(objects[objects.index(chosen.noun) :]) if before.stop < noun.start
-    ]
+    pairs = itertools.pairwise(objects[objects.index(chosen.noun) :])
+    later = [noun for before, noun in pairs if before.stop < noun.start]
     listed = [n for n in later if n.is_a("named") and n not in beside and not (n.definite or n.is_a("apart"))]
     return [noun.behind("without" if noun.negative else "with") for noun in listed]
 

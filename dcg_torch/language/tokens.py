@@ -10,9 +10,9 @@ from collections.abc import Collection, Sequence
 from dcg_torch.english.dictionary import english
 from dcg_torch.english.forms import is_compared, parts, singular, verb
 from dcg_torch.english.spelling import Speller
+from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import is_plain_noun
 from dcg_torch.language.colors import color_names, single_colors
-from dcg_torch.language.lexicon import MISSPELT, NORMAL, NUMBERS, PLACING, PRONOUNS, REWRITES, SETS, WORD
 
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -34,15 +34,15 @@ def tokens(text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
     text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
     text = _HYPHENATED.sub(_swap, text)
-    for old, new, needs in REWRITES:
+    for old, new, needs in lx.REWRITES:
         if any(part in text for part in needs):
             text = old.sub(new, text)
     found: list[str] = []
-    for token in WORD.findall(text):
-        if token in SETS["size_nouns"] and found and found[-1] in SETS["sizes"]:
+    for token in lx.WORD.findall(text):
+        if token in lx.SETS["size_nouns"] and found and found[-1] in lx.SETS["sizes"]:
             found[-1] += "-sized"
-        elif token not in SETS["fillers"] and (found or not (token in SETS["openings"] or token == ",")):
-            found += MISSPELT.get(token, token).split()
+        elif token not in lx.SETS["fillers"] and (found or not (token in lx.SETS["openings"] or token == ",")):
+            found += lx.MISSPELT.get(token, token).split()
     return found
 
 
@@ -92,21 +92,19 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
 @functools.lru_cache(8192)
 def is_english(word: str) -> bool:
     """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
-    closed = (PRONOUNS, NUMBERS, NORMAL, *SETS.values(), *PLACING.values())
+    closed = (lx.PRONOUNS, lx.NUMBERS, lx.NORMAL, *lx.SETS.values(), *lx.PLACING.values())
     forms = {word, singular(word), verb(word)}
     return not english().keys().isdisjoint(forms) or is_compared(word) or any(word in words for words in closed)
 
 
 @functools.lru_cache(16)
 def _speller(known: frozenset[str]) -> Speller:
-    return Speller([known, SETS["basic_colors"], _command_words()], is_english)
+    return Speller([known, lx.SETS["basic_colors"], _command_words()], is_english)
 
 
 @functools.cache
 def _command_words() -> frozenset[str]:
-    words = (
-        SETS["commands"] | SETS["modifiers"] | SETS["places"] | SETS["shades"] | SETS["relatives"] | SETS["ordinals"]
-    )
-    single = {name for names in PLACING.values() for name in names if " " not in name}
+    words = lx.listed(lx.GRAMMAR["spelt_lists"].split())
+    single = {name for names in lx.PLACING.values() for name in names if " " not in name}
     colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
     return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors

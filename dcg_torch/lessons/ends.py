@@ -66,8 +66,8 @@ def _in_depth(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | 
     by_depth, by_way = ranked(alike, lambda o: o.position[0]), ranked(alike, lambda o: math.hypot(*o.position[:2]))
     for end, name, most in ((0, "front", "frontmost"), (-1, "back", "rearmost")):
         if by_depth[end] == by_way[end]:
-            for text in (f"{kind} in the {name}", f"{kind} at the {name}", f"{name} {kind}", f"{most} {kind}"):
-                yield text, by_depth[end]
+            texts = (f"{kind} in the {name}", f"{kind} at the {name}", f"{name} {kind}", f"{most} {kind}")
+            yield texts[len(alike) % len(texts)], by_depth[end]
 
 
 def _by_way(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:

@@ -13,7 +13,6 @@ from dcg_torch.lessons.formations import formation_scene
 from dcg_torch.lessons.furnished import furnished_scene, table_top_scene
 from dcg_torch.lessons.handling import stack_scene
 from dcg_torch.lessons.looks import height_scene, lonely_scene, shelf_scene
-from dcg_torch.lessons.middles import middle_scene
 from dcg_torch.lessons.relations import relational_lessons
 from dcg_torch.lessons.rooms import room_lessons
 from dcg_torch.lessons.selections import half_scene, size_scene
@@ -23,8 +22,8 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     """So many lessons on relations, and a part of that in each other kind of scene; the same for the same arguments.
 
     Boards of things that look alike have a quarter as many, and so have how tall, high and far apart things are.
-    Cluttered tables, middles of tables and things that say how large they are have a sixth each, things at an end five
-    twelfths, all others a third.
+    Cluttered tables and things that say how large they are have a sixth each, things at an end five twelfths, all
+    others a third.
 
     Args:
         parse: reads commands.
@@ -37,6 +36,5 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     scattered = arranged_lessons(parse, third + count // 12, makers=(scattered_scene,))
     looks = arranged_lessons(parse, count // 4, makers=(height_scene, shelf_scene, shelf_scene, lonely_scene))
     sized = arranged_lessons(parse, third // 2, makers=(furnished_scene, furnished_scene, table_top_scene))
-    middles = arranged_lessons(parse, count // 6, makers=(middle_scene,))
     tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered, *boards)
-    return (*relational_lessons(count), *tables, *middles, *room_lessons(parse, third))
+    return (*relational_lessons(count), *tables, *room_lessons(parse, third))

@@ -159,12 +159,17 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
 
 @functools.lru_cache(maxsize=4096)
 def _held(key: str, value: str) -> frozenset[tuple[str, int]]:
-    """What the value of a key says. "No" says something of its own key alone: without a beard nobody is bald."""
-    meanings, _ = _meanings()
+    """What the value of a key says. "No" says something of its own key alone: without a beard nobody is bald.
+
+    What is not open is closed.
+    """
+    meanings, excluded = _meanings()
+    state = {v for v in meanings.get(key, ()) if v[0] in _FREE}
     own = {v for v in meanings[normalise(_SOME)] if v[0] in key.split(" ")}
     if value in _words_of("absent"):
-        return frozenset(v for v in meanings[normalise(_NONE)] if v[0] in key.split(" "))
-    told = frozenset() if value in _words_of("present") else _of_key(meanings.get(value, frozenset()), key)
+        none = {v for v in meanings[normalise(_NONE)] if v[0] in key.split(" ")}
+        return frozenset(none | {other for one, other in excluded if one in state})
+    told = frozenset(state) if value in _words_of("present") else _of_key(meanings.get(value, frozenset()), key)
     return told if own and told & meanings[normalise(_NONE)] else told | own
 
 
@@ -215,7 +220,7 @@ def _words_of(what: str) -> frozenset[str]:
 def _pair(attribute: str) -> tuple[str, str]:
     """Key and value in normal form; what is merely true is its own value."""
     key, _, value = attribute.partition(":")
-    return attribute_key(key), normalise(value or key)
+    return attribute_key(key), normalise(value) or attribute_key(key)
 
 
 @functools.lru_cache(maxsize=4096)

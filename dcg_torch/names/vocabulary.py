@@ -134,10 +134,17 @@ COMPASS |= {f"{up}{side}ernmost": COMPASS[up] + COMPASS[side] for up in ("north"
 _BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
 BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}
 SAME_RELATION = {"closer to": "closest to", "closest from": "closest to", "farther from": "farthest from"}
-SAME_RELATION |= {"before": "in front of", "beyond": "behind", "over": "above", "after": "behind", "along": "on"}
+SAME_RELATION |= {
+    "before": "in front of",
+    "beyond": "behind",
+    "over": "above",
+    "after": "behind",
+    "along": "on",
+    "without": "not with",
+}
 """Prepositions, and those that say the same."""
 LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": "near", "around": "near"}
-LIKE_RELATION |= {"surrounded by": "near", "with": "near", "in line with": "next to"}
+LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "in line with": "next to"}
 """Prepositions, and those that say much the same: what is known of these holds for them too, until they are learned."""
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}

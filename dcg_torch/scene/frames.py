@@ -44,7 +44,7 @@ def seen_facing(world: WorldModel, thing: Object) -> WorldModel | None:
         return None
     x, y = middle if world.robot is None or not _is_among(world.robot, world) else (world.robot.x, world.robot.y)
     ahead = (thing.position[0] - x, thing.position[1] - y)
-    return None if math.hypot(*ahead) < world.unit else _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0])))
+    return None if math.hypot(*ahead) < world.unit / 2.0 else _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0])))
 
 
 def _middle(world: WorldModel) -> tuple[float, float] | None:
