@@ -170,6 +170,15 @@ def test_what_stands_for_marks_is_not_seen() -> None:
     read = heard(parse_command, "put the Target block on Shell", (), things)
     assert "quorb" not in repr(read)
     assert read.noun == "block"
+    draw, words = (
+        random.Random(1),
+        f"{' '.join(LOGOS)} the and should : row 3 one left of it is block blocks put".split(" "),
+    )
+    for _ in range(200):
+        text = " ".join(draw.choice(words) for _ in range(draw.randint(0, 10)))
+        read = heard(parse_command, text, (), things)
+        assert read.text == text
+        assert "quorb" not in repr(read)
 
 
 def test_looks_are_no_marks() -> None:

@@ -23,6 +23,7 @@ from dcg_torch.names.normal import singular
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 
 _Parsed = TypeVar("_Parsed", bound=ParsedCommand)
+_LONGEST: Final = 1000  # characters of a text whose marks are looked for; longer ones are no commands
 _STAND_INS: Final = tuple(f"quorb{letter}" for letter in "abcdefghijklmnopqrstuvwxyz")
 _OF_CLASS = "class"
 """The key of marks that are parts of the names of classes."""
@@ -44,7 +45,7 @@ def heard(
     """
     things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
-    if marks is None:
+    if marks is None or len(text) > _LONGEST:
         return parse(text, vocabulary)
     stood = dict(zip(_STAND_INS, find_marks(text, marks), strict=False))
     spoken = _in_order(_replaced(text, stood), stood, marks.heads) if stood else text
@@ -107,13 +108,15 @@ class _Restored:
     def command(self, read: Any) -> Any:
         """The command as it was said, and its readings: what a parser gives are frozen dataclasses."""
         readings = tuple(dataclasses.replace(r, tree=self.tree(r.tree)) for r in read.readings)
+        readings = tuple(dataclasses.replace(r, unread=tuple(map(self.said, r.unread))) for r in readings)
         return dataclasses.replace(read, text=self.text, readings=readings)
 
     def tree(self, tree: ParseTree) -> ParseTree:
         """A node and all below it."""
         children = [self.tree(child) for child in tree.children]
         if tree.phrase.kind is not PhraseKind.NOUN:
-            return ParseTree(replace(tree.phrase, text=self.said(tree.phrase.text)), tuple(children))
+            spoken = tuple(map(self.said, tree.phrase.words))
+            return ParseTree(replace(tree.phrase, text=self.said(tree.phrase.text), words=spoken), tuple(children))
         phrase = self.phrase(tree.phrase)
         own = any(OF_KEY in word for word in phrase.words)
         kept: list[ParseTree] = []
@@ -131,26 +134,33 @@ class _Restored:
     def said(self, text: str) -> str:
         """A text in which marks stand as they were said."""
         for stand_in, one in self.stood.items():
-            text = text.replace(stand_in, one.text)
+            text = text.replace(f"{stand_in}s" if one.plural else stand_in, one.text)
         return text
+
+    def of(self, word: str) -> FoundMark | None:
+        """The mark that a word stands for."""
+        return self.stood.get(word) or self.stood.get(word.removesuffix("s"))
 
     def phrase(self, phrase: Phrase) -> Phrase:
         """A noun phrase whose noun and words say what is said of the marks."""
         words: list[str] = []
         noun = phrase.noun
         spoken = (noun or "").split(" ")
-        marked = [self.stood[word] for word in spoken if word in self.stood]
+        other = [part for word in phrase.words for part in word.split(" ")]
+        marked = [one for word in (*other, *spoken) if (one := self.of(word)) is not None]
+        plain = tuple(w for w in phrase.words if all(self.of(part) is None for part in w.split(" ")))
+        phrase = replace(phrase, words=plain)
         for one in marked:
             words += [one.mark.word] if one.mark.word else []
         if marked:
-            left = [word for word in spoken if word not in self.stood]
+            left = [word for word in spoken if self.of(word) is None]
             noun = " ".join(left) or marked[-1].noun
             noun = marked[-1].mark.classes[0] if marked[-1].mark.classes else noun
         elif noun is not None:
             number = next(
                 (word for word in phrase.words if word.isdecimal() and singular(noun) in self.marks.heads), ""
             )
-            phrase = replace(phrase, words=tuple(word for word in phrase.words if word != number))
+            phrase = replace(phrase, words=tuple(word for word in plain if word != number))
             noun, words = self._without_strange_mark(f"{number} {noun}".strip())
         text = self.said(phrase.text)
         return replace(phrase, text=text, noun=noun, words=tuple(dict.fromkeys((*phrase.words, *words))))
