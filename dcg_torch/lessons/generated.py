@@ -21,9 +21,8 @@ from dcg_torch.lessons.selections import half_scene, size_scene
 def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: int) -> tuple[Lesson, ...]:
     """So many lessons on relations, and a part of that in each other kind of scene; the same for the same arguments.
 
-    Boards of things that look alike have a quarter as many, and so have how tall, high and far apart things are.
-    Cluttered tables and things that say how large they are have a sixth each, things at an end five twelfths, all
-    others a third.
+    Boards of things that look alike have a quarter as many. Cluttered tables and things that say how large they are
+    have a sixth each, things at an end five twelfths, all others a third.
 
     Args:
         parse: reads commands.
@@ -34,7 +33,7 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     cluttered = arranged_lessons(parse, count // 6, makers=(clutter_scene,))
     boards = arranged_lessons(parse, count // 4, makers=(board_scene,))
     scattered = arranged_lessons(parse, third + count // 12, makers=(scattered_scene,))
-    looks = arranged_lessons(parse, count // 4, makers=(height_scene, shelf_scene, shelf_scene, lonely_scene))
+    looks = arranged_lessons(parse, third, makers=(height_scene, shelf_scene, shelf_scene, lonely_scene))
     sized = arranged_lessons(parse, third // 2, makers=(furnished_scene, furnished_scene, table_top_scene))
     tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered, *boards)
     return (*relational_lessons(count), *tables, *room_lessons(parse, third))

@@ -18,6 +18,8 @@ from dcg_torch.types import Percept, Pose
 _TALL = (("tallest", "shortest"), ("tall", "short"), ("taller", "shorter"))
 _HIGH = (("highest", "lowest"), ("higher", "lower"), ("high", "low"))
 _ALONE = ("by itself", "on its own", "that is alone", "all by itself")
+_HUNG, _RANKED = 0.65, 0.5
+"""Shares of scenes with shelves and walls, and of those in which the highest is told and nothing is counted."""
 _LEVEL = 0.15
 """Metres by which things differ that are counted from the top."""
 _CLEAR = 1.25
@@ -42,11 +44,11 @@ def shelf_scene(rng: np.random.Generator) -> Scene:
     """
     objects = _scattered(rng)
     up = 0
-    if rng.random() < 0.5:
+    if rng.random() < _HUNG:
         up = 2
         heights = rng.permutation(np.linspace(0.0, 2.2, len(objects))).tolist()
         objects = [Percept(o.id, o.type, o.color, (*o.position[:2], z)) for o, z in zip(objects, heights, strict=True)]
-    ranked = rng.random() < 0.5
+    ranked = rng.random() < _RANKED
     said = _ranked(objects, _HIGH, lambda o: o.position[up] + 1.0)
     said = said if ranked else _from_ends(objects, lambda o: o.position[up])
     return Scene(tuple(objects), Pose(0.0, 0.0), None, tuple(said))

@@ -119,11 +119,12 @@ SYNONYMS = {
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
+    **{"high": "highest", "low": "lowest"},
     **{"isolated": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
 """Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
-FLAT_SYNONYMS = {"highest": "top", "lowest": "bottom", "high": "top", "low": "bottom"}
+FLAT_SYNONYMS = {"highest": "top", "lowest": "bottom"}
 FLAT_SYNONYMS |= {"from the top": "from the back", "from the bottom": "from the front"}
 """The same where all stands on one level: "the lowest dot" of a picture is the one at its bottom."""
 COMPASS: dict[str, tuple[str, ...]] = {"north": ("top",), "south": ("bottom",), "east": ("right",), "west": ("left",)}
