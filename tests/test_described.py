@@ -69,3 +69,15 @@ def test_places_pick_among_things_of_a_size(text: str, meant: str) -> None:
     answer = model.ground(text, model.world_model(DISCS, Pose(0.0, 0.0), looked=True))
     assert answer.object is not None
     assert answer.object.id == meant
+
+
+def test_of_things_that_are_as_good_as_equal_the_nearest_is_meant() -> None:
+    boxes = [
+        Percept(f"{k}", "box", None, (x, y, 0.0)) for k, (x, y) in enumerate([(6.0, 1.0), (2.0, -1.0), (4.0, 2.0)])
+    ]
+    model = pretrained()
+    for things in (boxes, boxes[::-1]):
+        answer = model.ground("pick up a box", model.world_model(things, Pose(0.0, 0.0), looked=True))
+        assert answer.object is not None
+        assert answer.object.id == "1"
+        assert answer.probability == pytest.approx(1 / 3, abs=0.02)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,6 +25,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.patterns import Patterns, spread
 from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
@@ -32,47 +33,10 @@ from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase,
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_FEW = 256
-"""Things up to which it does not pay to look for those whose scores are equal."""
+_EQUAL = math.log(0.9)
+"""Log of the share of the best thing's probability from which another is as good."""
 _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
-
-
-@dataclass(frozen=True)
-class _Scored:
-    """The scores of a phrase that picks.
-
-    Attributes:
-        combos: hypotheses of the children, a tuple for each choice of them.
-        meant: the correspondences that are not INACTIVE.
-        scores: (combos, groundings, meant) log-score of every configuration.
-        code: (groundings,) equal numbers for groundings whose scores are equal, whatever the combo; None: unknown.
-        modifiers: of a noun phrase; what follows is of use for one alone.
-        log_odds: (groundings,) of ACTIVE against INACTIVE, modifiers included.
-        log_fit: (groundings,) log Psi(ACTIVE) by itself, modifiers included.
-        named: (groundings,) log Psi(ACTIVE) without the modifiers.
-        compared: (things,) those among which the phrase ranks; None where it does not.
-    """
-
-    tree: ParseTree
-    combos: Sequence[tuple[Hypothesis, ...]]
-    meant: Sequence[Correspondence]
-    scores: Floats
-    code: NDArray[np.int64] | None = None
-    modifiers: Sequence[ModifierFactor] = ()
-    log_odds: Floats | None = None
-    log_fit: Floats | None = None
-    named: Floats | None = None
-    compared: Bools | None = None
-
-    def totals(self) -> Floats:
-        """(groundings,) of every configuration about each."""
-        if self.code is None or len(self.code) <= _FEW:
-            found: Floats = np.logaddexp.reduce(self.scores, axis=(0, 2))
-            return found
-        _, first, which = np.unique(self.code, return_index=True, return_inverse=True)
-        few: Floats = np.logaddexp.reduce(self.scores[:, first], axis=(0, 2))
-        return few[which]
 
 
 class Search:
@@ -88,7 +52,7 @@ class Search:
         self.encoder = encoder
         self._tables = tables
         self._beam = beam
-        self._nouns: dict[tuple[ParseTree, bool], _Scored] = {}
+        self._nouns: dict[tuple[ParseTree, bool], Scored] = {}
         self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
@@ -105,7 +69,7 @@ class Search:
         root = self._picked(tree, landmark=False)
         ids = [o.id for o in world.meanable]
         totals = root.totals()[: len(ids)]
-        best = self._best(root, 1)[0]
+        best = self._nearest_best(root, totals)
         found = self._first_noun(tree)
         noun = None if found is None else self._picked(found, landmark=False)
 
@@ -131,28 +95,33 @@ class Search:
         """The noun phrase nearest to the root, the first of several."""
         return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
-    def _named(self, noun: _Scored) -> float:
+    def _named(self, noun: Scored) -> float:
         """How well the noun phrase names what it names best of all that is there."""
         if noun.named is None:
             return 0.0
         seen = noun.named[: len(noun.scores[0])][self.encoder.perceived[: len(noun.scores[0])]]
         return float(np.exp(seen.max())) if len(seen) else 0.0
 
-    def _runner_up(self, root: _Scored, best: Hypothesis) -> Hypothesis | None:
+    def _runner_up(self, root: Scored, best: Hypothesis) -> Hypothesis | None:
         """The best configuration about another object; None if there is none."""
-        meant = best.meant.id
-        if root.tree.phrase.kind is PhraseKind.NOUN or not root.combos[0]:
-            scores = root.scores.copy()
-            own = self.encoder.number[meant]
-            scores[:, own : own + 1] = -np.inf
-        else:
-            same = np.array([combo[0].meant.id == meant for combo in root.combos])
-            scores = np.where(same[:, None, None], -np.inf, root.scores)
-        if not np.isfinite(scores).any():
-            return None
-        return self._best(replace(root, scores=scores), 1)[0]
+        scores = np.where(root.about(best.meant.id, self.encoder.number), -np.inf, root.scores)
+        return self._best(replace(root, scores=scores), 1)[0] if np.isfinite(scores).any() else None
 
-    def _picked(self, tree: ParseTree, *, landmark: bool) -> _Scored:
+    def _nearest_best(self, root: Scored, totals: Floats) -> Hypothesis:
+        """The best configuration; where names count, one of the nearest thing of those that are as good as equal."""
+        best, robot = self._best(root, 1)[0], self.encoder.world.robot
+        things = self.encoder.world.objects
+        if robot is None or not judges_absence(self.encoder) or best.meant.hypothetical or best.meant.members:
+            return best
+        equal = [o for o, total in zip(things, totals, strict=False) if total >= totals.max() + _EQUAL]
+        away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
+        near = min(away, key=away.__getitem__, default=best.meant.id)
+        if near == best.meant.id:
+            return best
+        scores = np.where(root.about(near, self.encoder.number), root.scores, -np.inf)
+        return self._best(replace(root, scores=scores), 1)[0] if np.isfinite(scores).any() else best
+
+    def _picked(self, tree: ParseTree, *, landmark: bool) -> Scored:
         """The scores of a phrase that picks one grounding.
 
         Args:
@@ -198,7 +167,7 @@ class Search:
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
-    def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
+    def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
         modifiers = self._all_modifiers(tree)
         picks = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
@@ -214,7 +183,7 @@ class Search:
         for modifier in modifiers:
             base = base + modifier.log_psi
             placed = placed + modifier.log_psi
-        return _Scored(
+        return Scored(
             tree,
             combos,
             [Correspondence.ACTIVE],
@@ -227,7 +196,7 @@ class Search:
             compared,
         )
 
-    def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> _Scored:
+    def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
         patterns = Patterns(self.encoder.number)
@@ -239,7 +208,7 @@ class Search:
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
         which, code = spread(found, len(self.encoder.world.meanable))
-        return _Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
+        return Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
 
     def _sums(self, values: Floats, found: Sequence[tuple[int, dict[int, int]]]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
@@ -250,7 +219,7 @@ class Search:
             known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
         return [known[key] for key in keys]
 
-    def _no_group(self, tree: ParseTree, found: _Scored) -> _Scored:
+    def _no_group(self, tree: ParseTree, found: Scored) -> Scored:
         """Without groups, where a landmark in the singular names a thing: "the green block" is no cluster of them."""
         phrase, named = tree.phrase, found.named
         if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
@@ -262,7 +231,7 @@ class Search:
         group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
         return replace(found, scores=np.where(group[None, :, None], -np.inf, found.scores))
 
-    def _only_objects(self, tree: ParseTree, found: _Scored) -> _Scored:
+    def _only_objects(self, tree: ParseTree, found: Scored) -> Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
         if world.meant is None and not world.groups and not world.places:
@@ -281,7 +250,7 @@ class Search:
             code = None
         return replace(found, scores=scores, log_odds=odds, log_fit=fit, code=code)
 
-    def _or_absent(self, tree: ParseTree, found: _Scored) -> _Scored:
+    def _or_absent(self, tree: ParseTree, found: Scored) -> Scored:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
@@ -303,7 +272,7 @@ class Search:
         """The words of a noun phrase that say something of groups or attributes."""
         return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
 
-    def _best(self, scored: _Scored, beam: int) -> list[Hypothesis]:
+    def _best(self, scored: Scored, beam: int) -> list[Hypothesis]:
         """The best configurations of a phrase; equal scores stay in the order of the world's objects."""
         tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
         kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all

@@ -1,0 +1,67 @@
+"""The scores of a phrase that picks one grounding: values of a search."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
+from dcg_torch.types import Correspondence, ParseTree, PhraseKind
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_FEW = 256
+"""Things up to which it does not pay to look for those whose scores are equal."""
+
+
+@dataclass(frozen=True)
+class Scored:
+    """The scores of a phrase that picks.
+
+    Attributes:
+        combos: hypotheses of the children, a tuple for each choice of them.
+        meant: the correspondences that are not INACTIVE.
+        scores: (combos, groundings, meant) log-score of every configuration.
+        code: (groundings,) equal numbers for groundings whose scores are equal, whatever the combo; None: unknown.
+        modifiers: of a noun phrase; what follows is of use for one alone.
+        log_odds: (groundings,) of ACTIVE against INACTIVE, modifiers included.
+        log_fit: (groundings,) log Psi(ACTIVE) by itself, modifiers included.
+        named: (groundings,) log Psi(ACTIVE) without the modifiers.
+        compared: (things,) those among which the phrase ranks; None where it does not.
+    """
+
+    tree: ParseTree
+    combos: Sequence[tuple[Hypothesis, ...]]
+    meant: Sequence[Correspondence]
+    scores: Floats
+    code: NDArray[np.int64] | None = None
+    modifiers: Sequence[ModifierFactor] = ()
+    log_odds: Floats | None = None
+    log_fit: Floats | None = None
+    named: Floats | None = None
+    compared: Bools | None = None
+
+    def totals(self) -> Floats:
+        """(groundings,) of every configuration about each."""
+        if self.code is None or len(self.code) <= _FEW:
+            found: Floats = np.logaddexp.reduce(self.scores, axis=(0, 2))
+            return found
+        _, first, which = np.unique(self.code, return_index=True, return_inverse=True)
+        few: Floats = np.logaddexp.reduce(self.scores[:, first], axis=(0, 2))
+        return few[which]
+
+    def about(self, meant: str, number: Mapping[str, int]) -> Bools:
+        """(combos, groundings, 1) or what broadcasts to it: which configurations are about an object.
+
+        Args:
+            number: of every thing by its id.
+        """
+        if self.tree.phrase.kind is PhraseKind.NOUN or not self.combos[0]:
+            found: Bools = np.arange(self.scores.shape[1])[None, :, None] == number[meant]
+        else:
+            found = np.array([combo[0].meant.id == meant for combo in self.combos], dtype=np.bool_)[:, None, None]
+        return found
