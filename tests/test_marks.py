@@ -192,3 +192,11 @@ def test_evidence_of_marks() -> None:
     found = [attribute_evidence(("brand: shell|hp",), given) for given in (shell, target, plain)]
     assert found == [("attribute: equal",), ("attribute: contrary",), ("attribute: silent",)]
     assert attribute_evidence(("not brand: shell",), shell) == ("attribute: contrary",)
+
+
+def test_a_text_with_what_stands_for_marks_is_read_as_it_is() -> None:
+    marks = [frozenset({f"label: m{k}"}) for k in range(3)]
+    things = [Percept(f"o{k}", "block", None, (2.0, float(k), 0.0), attributes=mark) for k, mark in enumerate(marks)]
+    model = pretrained()
+    world = model.world_model(things, Pose(0.0, 0.0), looked=True)
+    assert model.ground("take the quorba and quorbz", world).tree is not None

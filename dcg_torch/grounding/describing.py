@@ -199,8 +199,7 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
 
 def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...]:
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
-    given = {o.attributes for o in encoder.world.objects} if words else ()
-    told = {word: {fact for own in given for fact in attribute_evidence((word,), own)} for word in words}
+    told = {word: set(attribute_evidence((word,), encoder.given)) for word in words}
     return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
 
 

@@ -89,6 +89,11 @@ class WorldEncoder:
         return scene.layout(self.world)
 
     @cached_property
+    def given(self) -> frozenset[str]:
+        """The attributes that some object has."""
+        return frozenset().union(*{o.attributes for o in self.world.objects})
+
+    @cached_property
     def number(self) -> dict[str, int]:
         """Id of a thing -> its number."""
         return {thing.id: j for j, thing in enumerate(self.all)}

@@ -24,7 +24,8 @@ from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, ParseTree, Percept, Ph
 
 _Parsed = TypeVar("_Parsed", bound=ParsedCommand)
 _LONGEST: Final = 1000  # characters of a text whose marks are looked for; longer ones are no commands
-_STAND_INS: Final = tuple(f"quorb{letter}" for letter in "abcdefghijklmnopqrstuvwxyz")
+_STAND_IN: Final = "quorb"
+_STAND_INS: Final = tuple(f"{_STAND_IN}{letter}" for letter in "abcdefghijklmnopqrstuvwxyz")
 _OF_CLASS = "class"
 """The key of marks that are parts of the names of classes."""
 _BEARING = frozenset({"with", "of", "have"})
@@ -45,7 +46,7 @@ def heard(
     """
     things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
-    if marks is None or len(text) > _LONGEST:
+    if marks is None or len(text) > _LONGEST or _STAND_IN in text.lower():
         return parse(text, vocabulary)
     stood = dict(zip(_STAND_INS, find_marks(text, marks), strict=False))
     spoken = _in_order(_replaced(text, stood), stood, marks.heads) if stood else text
@@ -75,7 +76,7 @@ def _patterns(name: str, heads: frozenset[str] = frozenset()) -> tuple[tuple[re.
     rows = mark_words()["patterns"][name]
     rows = [[rows, ""]] if isinstance(rows, str) else rows
     bearers = "|".join(("one", "thing", *sorted(heads | mark_words()["carriers"])))
-    filled = [(old.replace("<M>", r"quorb\w").replace("<HEADS>", bearers), new) for old, new in rows]
+    filled = [(old.replace("<M>", rf"{_STAND_IN}\w").replace("<HEADS>", bearers), new) for old, new in rows]
     return tuple((re.compile(old, re.IGNORECASE), new) for old, new in filled)
 
 
