@@ -14,7 +14,7 @@ from dcg_torch.grounding.marks import heard
 from dcg_torch.language import default_parser, parse_command
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.marks import marks_of
-from dcg_torch.types import Phrase, PhraseKind
+from dcg_torch.types import Percept, Phrase, PhraseKind, Pose
 
 LOGOS = ["adidas", "BMW", "Burger King", "Coca Cola", "Heineken", "HP", "McDonalds", "Mercedes Benz", "Shell", "SRI",
          "Starbucks", "Stella Artois", "Target", "Twitter", "UPS"]  # fmt: skip
