@@ -200,3 +200,48 @@ def test_a_text_with_what_stands_for_marks_is_read_as_it_is() -> None:
     model = pretrained()
     world = model.world_model(things, Pose(0.0, 0.0), looked=True)
     assert model.ground("take the quorba and quorbz", world).tree is not None
+
+
+BRANDS = ("Shell", "Pepsi", "BMW")
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the block that is not pepsi and not bmw", {"o0"}),
+        ("the big block that is not shell and not pepsi", {"o2"}),
+        ("the shell block", {"o0"}),
+    ],
+)
+def test_marks_that_are_denied(text: str, meant: set[str]) -> None:
+    things = [
+        Percept(f"o{k}", "block", None, (2.0, float(k), 0.0), (0.2,) * 3, attributes=frozenset({f"brand: {brand}"}))
+        for k, brand in enumerate(BRANDS)
+    ]
+    model = pretrained()
+    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in answer.objects} == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("row 2 column 3", {"o6"}),
+        ("the red ones", {"o0", "o3", "o6", "o9"}),
+        ("two to the right of block 1", {"o2"}),
+        ("block 7", {"o6"}),
+        ("the blocks that are not red", {f"o{k}" for k in range(12) if k % 3}),
+        ("every block except the red ones", {f"o{k}" for k in range(12) if k % 3}),
+    ],
+)
+def test_numbers_that_are_marks_and_numbers_that_count(text: str, meant: set[str]) -> None:
+    colors = ("red", "blue", "green")
+    things = [
+        Percept(
+            f"o{k}", "block", colors[k % 3], (5.0 - k // 4, 1.5 - k % 4, 0.0), attributes=frozenset({f"digit: {k + 1}"})
+        )
+        for k in range(12)
+    ]
+    model = pretrained()
+    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in answer.objects} == meant

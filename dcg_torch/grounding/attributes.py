@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.attributes import HAS, NOT_, OF_KEY, attribute_key, named_key, states_value
+from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -24,6 +25,8 @@ _MADE = frozenset({"of", "from", "in"})
 """Prepositions before what a thing is made of."""
 _OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
 """Keys whose values people use as nouns: "the woman", "the blonde", "the ball"; "the iron" is no thing of iron."""
+_PLACES = frozenset({*PLACE_WORDS, *LINE_OF})
+"""Nouns that name parts of a scene, whatever keys there are: a column is no `shape`."""
 _ENDINGS = ("ed", "d")
 """Of "bearded", "blue-eyed": what is left is tried as a key."""
 
@@ -105,7 +108,7 @@ class _Speaking:
     def possessed(self, noun: ParseTree, *, denied: bool) -> list[str]:
         """The words that say that an object has what a noun phrase names; none if it names no key."""
         phrase = noun.phrase
-        if phrase.noun is None or names_one_of(phrase.noun, self.types):
+        if phrase.noun is None or phrase.noun in _PLACES or names_one_of(phrase.noun, self.types):
             return []
         key = named_key(phrase.noun, self.keys)
         if key is None:

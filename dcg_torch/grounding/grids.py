@@ -32,11 +32,14 @@ def with_cells(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
         return world
     grid = _grid(world)
     cells = {} if grid is None else grid.cells
-    objects = tuple(
-        replace(o, attributes=o.attributes | {f"{CELL}{OF_KEY}{_name(cells[o.id])}"}) if o.id in cells else o
-        for o in world.objects
-    )
+    objects = tuple(_in_cell(o, cells.get(o.id)) for o in world.objects)
     return replace(world, objects=objects)
+
+
+def _in_cell(thing: Object, cell: Cell | None) -> Object:
+    """A thing with its cell as an attribute, and none where it was before."""
+    own = {a for a in thing.attributes if not a.startswith(f"{CELL}{OF_KEY}")}
+    return replace(thing, attributes=frozenset(own if cell is None else {*own, f"{CELL}{OF_KEY}{_name(cell)}"}))
 
 
 def by_cells(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:

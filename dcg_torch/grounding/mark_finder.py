@@ -74,7 +74,7 @@ class _Finder:
     def _at(self, i: int) -> tuple[int, int, FoundMark] | None:
         """The mark that begins at a word: the first and the last of the words that belong to it."""
         for n in range(min(_JOINED, len(self.words) - i), 0, -1):
-            if n > 1 and not self._joined(i, i + n):
+            if self.words[i] == "ones" or (n > 1 and not self._joined(i, i + n)):
                 continue
             owned = self.words[i + n - 1].endswith("'s")
             mark = self.marks.named(self.words[i : i + n])
@@ -102,6 +102,14 @@ class _Finder:
     def _is_name(self, i: int, stop: int) -> bool:
         """Is a number or a letter a name here, and no count and no word of its own?"""
         lists, before, after = mark_words(), self.word(i - 1), self.word(stop)
+        if (
+            self.words[i] == "ones"
+            or before in lists["lines"]
+            or (before in lists["before"] and self.word(i - 2) in lists["lines"])
+        ):
+            return False
+        if i == 0 and self.words[i].isalpha() and len(self.words[i]) > 1 and after in lists["ways"]:
+            return False
         introduced = before in lists["before"] or singular(before) in self.marks.heads or self._hashed(i)
         if introduced and not (before in self.marks.heads and after in lists["units"]):
             return self._joined(i - 1, i + 1) if before else True

@@ -20,7 +20,7 @@ from dcg_torch.grounding.spoken import ParsedCommand
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, color_evidence
 from dcg_torch.names.marks import Marks, is_strange, mark_words, marks_of
 from dcg_torch.names.normal import singular
-from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
+from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 
 _Parsed = TypeVar("_Parsed", bound=ParsedCommand)
 _LONGEST: Final = 1000  # characters of a text whose marks are looked for; longer ones are no commands
@@ -70,7 +70,7 @@ def _replaced(text: str, stood: dict[str, FoundMark]) -> str:
     return "".join([*parts, text[at:]])
 
 
-@functools.cache
+@functools.lru_cache(maxsize=256)
 def _patterns(name: str, heads: frozenset[str] = frozenset()) -> tuple[tuple[re.Pattern[str], str], ...]:
     """Of `data/marks.yaml`, with what they are replaced by; `heads` are the names of classes."""
     rows = mark_words()["patterns"][name]
@@ -107,9 +107,12 @@ class _Restored:
         self.types = {o.type for o in self.things if o.type is not None}
 
     def command(self, read: Any) -> Any:
-        """The command as it was said, and its readings: what a parser gives are frozen dataclasses."""
-        readings = tuple(dataclasses.replace(r, tree=self.tree(r.tree)) for r in read.readings)
-        readings = tuple(dataclasses.replace(r, unread=tuple(map(self.said, r.unread))) for r in readings)
+        """The command as it was said, and its readings, if what the parser gives are dataclasses; else as they are."""
+        if not all(map(dataclasses.is_dataclass, (read, *read.readings))):
+            return read
+        readings: tuple[Any, ...] = tuple(dataclasses.replace(r, tree=self.tree(r.tree)) for r in read.readings)
+        if all(hasattr(r, "unread") for r in readings):
+            readings = tuple(dataclasses.replace(r, unread=tuple(map(self.said, r.unread))) for r in readings)
         return dataclasses.replace(read, text=self.text, readings=readings)
 
     def tree(self, tree: ParseTree) -> ParseTree:
@@ -147,7 +150,9 @@ class _Restored:
         words: list[str] = []
         noun = phrase.noun
         spoken = (noun or "").split(" ")
-        other = [part for word in phrase.words for part in word.split(" ")]
+        denied = {word for word in phrase.words if word.startswith(f"{NOT} ")}
+        other = [part for word in phrase.words if word not in denied for part in word.split(" ")]
+        words += [f"{NOT} {o.mark.word}" for w in denied for p in w.split(" ") if (o := self.of(p)) and o.mark.word]
         marked = [one for word in (*other, *spoken) if (one := self.of(word)) is not None]
         plain = tuple(w for w in phrase.words if all(self.of(part) is None for part in w.split(" ")))
         phrase = replace(phrase, words=plain)

@@ -104,7 +104,7 @@ _AS_WELL = 0.5
 """An object is one of several that are meant if it is described at least half as well as the best."""
 
 
-_LIKELY = 0.1
+_LIKELY = 0.2
 """Share of the best object's probability from which another is one of several: what all fit well, this tells apart."""
 _EXCLUDED = 1e-3
 """An object so much less probable than the best is no further one of a number: it has another name."""

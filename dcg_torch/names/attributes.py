@@ -245,7 +245,8 @@ def named_key(noun: str, keys: frozenset[str]) -> str | None:
     Args:
         keys: as `attribute_key` has them.
     """
-    return max((key for key in keys if log_odds(noun, key) > _KEY_ODDS), key=lambda k: log_odds(noun, k), default=None)
+    near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
+    return max(near, key=lambda key: log_odds(noun, key), default=None)
 
 
 @functools.lru_cache(maxsize=4096)

@@ -18,7 +18,7 @@ from rapidfuzz.distance import OSA
 from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
 from dcg_torch.names.evidence import evidence, unheard_of
 from dcg_torch.names.normal import normalise, read_data, singular
-from dcg_torch.names.palette import region
+from dcg_torch.names.palette import color_words, region
 
 _WORD: Final = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 _JOINED: Final = 4  # words of a text that may be one mark
@@ -186,7 +186,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
 def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
     """The keys and values of attributes that are names: neither looks nor yes or no, and no numbers among other values.
 
-    Where half of the values of a key are colours, they are looks.
+    Where half of the values of a key are basic colours, they are looks.
     """
     for key in sorted({key for key, _ in given}):
         values = sorted(value for of, value in given if of == key)
@@ -194,7 +194,7 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
         if any(value not in "01" for value in numbers):
             yield from ((key, value) for value in numbers)
         others = [value for value in values if value not in numbers and 0 < len(words_of(value)) <= _JOINED]
-        colors = [value for value in others if region(normalise(value)) is not None]
+        colors = [value for value in others if normalise(value).split(" ")[-1] in color_words().basic]
         if 2 * len(colors) < len(others):
             yield from ((key, value) for value in others if not describes(attribute_key(key), value))
 
