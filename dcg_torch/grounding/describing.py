@@ -14,7 +14,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, size_side
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.vocabulary import RANKING
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
@@ -129,7 +129,8 @@ def comparison_set(
     They compare with all of the phrase's name where places leave one size alone ("the large one at the top").
     """
     phrase = tree.phrase
-    table = tables.unranked(encoder, replace(phrase, words=of_attributes(phrase.words, encoder)))
+    told = tuple(word for word in of_attributes(phrase.words, encoder) if not says_size(word))
+    table = tables.unranked(encoder, replace(phrase, words=told))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]

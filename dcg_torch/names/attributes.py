@@ -263,10 +263,15 @@ def size_side(word: str) -> int | None:
     >>> size_side("huge"), size_side("tiny"), size_side("medium"), size_side("bigger"), size_side("tall")
     (1, -1, 0, None, None)
     """
-    meant = dict(_meanings()[0].get(word, ()))
-    if word.endswith(_COMPARED) or set(meant) != {"size"}:
+    if word.endswith(_COMPARED) or not says_size(word):
         return None
-    return meant["size"] - 1
+    return dict(_meanings()[0][word])["size"] - 1
+
+
+@functools.lru_cache(maxsize=4096)
+def says_size(word: str) -> bool:
+    """Does a word say how large a thing is, or how large among others: "big", "biggest"?"""
+    return {key for key, _ in _meanings()[0].get(word, ())} == {"size"}
 
 
 def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str, int]]:
