@@ -117,9 +117,9 @@ def _version(status: os.stat_result) -> tuple[int, int, int]:
 
 
 def _under_way(directory: Path, others: Sequence[str], last: str) -> bool:
-    """Whether a writing may be between taking away what is old and putting in place what is new."""
+    """Whether a writing may be between taking away what is old and putting in place what is new, or has just been."""
     if directory.exists():
-        return not (directory / last).exists() and any((directory / name).exists() for name in others)
+        return any((directory / name).exists() for name in (*others, last))
     return any(directory.parent.glob(f".{glob.escape(directory.name)}.*{_MARK}"))
 
 
