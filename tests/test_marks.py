@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import random
+from collections.abc import Collection
+from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -245,3 +248,17 @@ def test_numbers_that_are_marks_and_numbers_that_count(text: str, meant: set[str
     model = pretrained()
     answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
     assert {o.id for o in answer.objects} == meant
+
+
+def test_a_parser_of_ones_own_need_not_give_dataclasses() -> None:
+    brands = [frozenset({f"brand: {brand}"}) for brand in BRANDS]
+    things = [Percept(f"o{k}", "block", None, (2.0, float(k), 0.0), attributes=own) for k, own in enumerate(brands)]
+
+    asked: list[str] = []
+
+    def parse(text: str, vocabulary: Collection[str]) -> Any:
+        asked.append(text)
+        return SimpleNamespace(text=text, readings=(object(),), problem=None)
+
+    heard(parse, "take the shell block", (), things)
+    assert asked[-1] == "take the shell block"

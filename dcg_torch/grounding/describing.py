@@ -129,8 +129,8 @@ def comparison_set(
     They compare with all of the phrase's name where places leave one size alone ("the large one at the top").
     """
     phrase = tree.phrase
-    told = tuple(word for word in of_attributes(phrase.words, encoder) if not says_size(word))
-    table = tables.unranked(encoder, replace(phrase, words=told))
+    told = of_attributes(phrase.words, encoder)
+    table = tables.unranked(encoder, replace(phrase, words=tuple(word for word in told if not says_size(word))))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
@@ -138,8 +138,8 @@ def comparison_set(
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     log_size = np.zeros(len(fit))
-    if is_sized(phrase):
-        sizes = _sizes(phrase, encoder)
+    sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
+    if sizes:
         off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named)
         if off is not None:
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
@@ -159,18 +159,8 @@ def comparison_set(
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
     """Does a noun phrase say more than a name of what is ranked from a landmark: "the red one closest to the door"?"""
     looks = phrase.color is not None or bool(phrase.look)
-    return looks or is_sized(phrase) or bool(of_attributes(phrase.words, encoder))
-
-
-def is_sized(phrase: Phrase) -> bool:
-    """Does a noun phrase say how large its object is?"""
-    return any(size_side(word) is not None for word in phrase.words)
-
-
-def _sizes(phrase: Phrase, encoder: WorldEncoder) -> dict[str, int]:
-    """The words of a noun phrase for a size that no attribute tells, each with its side."""
-    told = of_attributes(phrase.words, encoder)
-    return {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
+    sized = any(size_side(word) is not None for word in phrase.words)
+    return looks or sized or bool(of_attributes(phrase.words, encoder))
 
 
 def _described(fit: Floats, odds: Floats) -> Bools:
@@ -191,7 +181,7 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
     logs = np.log([v if v > 0.0 else math.nan for v in sizes])
     for among in sets:
         known = logs[among[: len(logs)] & np.isfinite(logs)]
-        if sides and len(known) > 1 and np.ptp(known) > _SAME_SIZE:
+        if len(known) > 1 and np.ptp(known) > _SAME_SIZE:
             place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
             off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
             return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))

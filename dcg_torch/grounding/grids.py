@@ -28,7 +28,7 @@ _SAME = frozenset({"color: equal", "color: same hue", "color: alike"})
 
 def with_cells(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     """The world whose things have the cells of their grid as attributes, if a tree speaks of cells."""
-    if not any(f"{CELL}{OF_KEY}" in word for tree in trees for node in tree.walk() for word in node.phrase.words):
+    if not any(CELL in word for tree in trees for node in tree.walk() for word in node.phrase.words):
         return world
     grid = _grid(world)
     cells = {} if grid is None else grid.cells
@@ -38,8 +38,8 @@ def with_cells(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
 
 def _in_cell(thing: Object, cell: Cell | None) -> Object:
     """A thing with its cell as an attribute, and none where it was before."""
-    own = {a for a in thing.attributes if not a.startswith(f"{CELL}{OF_KEY}")}
-    return replace(thing, attributes=frozenset(own if cell is None else {*own, f"{CELL}{OF_KEY}{_name(cell)}"}))
+    own = {a for a in thing.attributes if not a.startswith(CELL)}
+    return replace(thing, attributes=frozenset(own if cell is None else {*own, f"{CELL}{_name(cell)}"}))
 
 
 def by_cells(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
@@ -106,7 +106,7 @@ class _Speaking:
                 phrase = replace(phrase, words=tuple(w for w in phrase.words if not _number((w,))), count=None)
         found = found or self.corner(phrase, tree.children)
         if found:
-            phrase = replace(phrase, words=(*phrase.words, f"{CELL}{OF_KEY}{'|'.join(map(_name, sorted(found)))}"))
+            phrase = replace(phrase, words=(*phrase.words, f"{CELL}{'|'.join(map(_name, sorted(found)))}"))
         return ParseTree(phrase, tuple(kept))
 
     def lines(self, place: ParseTree) -> Iterable[set[Cell]]:
@@ -254,7 +254,7 @@ def _fits(phrase: Phrase, thing: Object, cell: Cell) -> bool:
     colored = phrase.color is not None and thing.color is not None
     if colored and _SAME.isdisjoint(color_evidence(phrase.color or "", thing.color or "")):
         return False
-    own = thing.attributes - {LOOKED_ROUND} | {f"{CELL}{OF_KEY}{_name(cell)}"}
+    own = thing.attributes - {LOOKED_ROUND} | {f"{CELL}{_name(cell)}"}
     return not any("attribute: contrary" in attribute_evidence((w,), own) for w in phrase.words if OF_KEY in w)
 
 

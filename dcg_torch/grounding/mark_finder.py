@@ -6,12 +6,11 @@ import re
 from dataclasses import dataclass, replace
 from typing import Final
 
-from dcg_torch.names.marks import Mark, Marks, mark_words
+from dcg_torch.names.marks import MARK_WORDS, Mark, Marks, mark_words
 from dcg_torch.names.normal import singular
 
 _TOKEN: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 _SHORTENED: Final = ("no", "nr", "num")
-_JOINED: Final = 4  # words that may be one mark
 
 
 @dataclass(frozen=True)
@@ -73,7 +72,7 @@ class _Finder:
 
     def _at(self, i: int) -> tuple[int, int, FoundMark] | None:
         """The mark that begins at a word: the first and the last of the words that belong to it."""
-        for n in range(min(_JOINED, len(self.words) - i), 0, -1):
+        for n in range(min(MARK_WORDS, len(self.words) - i), 0, -1):
             if self.words[i] == "ones" or (n > 1 and not self._joined(i, i + n)):
                 continue
             owned = self.words[i + n - 1].endswith("'s")

@@ -51,7 +51,10 @@ def heard(
     stood = dict(zip(_STAND_INS, find_marks(text, marks), strict=False))
     spoken = _in_order(_replaced(text, stood), stood, marks.heads) if stood else text
     words = [*vocabulary, *stood, *(f"{s}s" for s in stood)] if stood else vocabulary
-    restored: _Parsed = _Restored(marks, stood, things, text).command(parse(spoken, words))
+    read = parse(spoken, words)
+    if not all(map(dataclasses.is_dataclass, (read, *read.readings))):
+        return parse(text, vocabulary)  # a parser of somebody else, whose trees cannot be put back
+    restored: _Parsed = _Restored(marks, stood, things, text).command(read)
     return restored
 
 
@@ -107,9 +110,7 @@ class _Restored:
         self.types = {o.type for o in self.things if o.type is not None}
 
     def command(self, read: Any) -> Any:
-        """The command as it was said, and its readings, if what the parser gives are dataclasses; else as they are."""
-        if not all(map(dataclasses.is_dataclass, (read, *read.readings))):
-            return read
+        """The command as it was said, and its readings: all dataclasses."""
         readings: tuple[Any, ...] = tuple(dataclasses.replace(r, tree=self.tree(r.tree)) for r in read.readings)
         if all(hasattr(r, "unread") for r in readings):
             readings = tuple(dataclasses.replace(r, unread=tuple(map(self.said, r.unread))) for r in readings)
@@ -145,19 +146,21 @@ class _Restored:
         """The mark that a word stands for."""
         return self.stood.get(word) or self.stood.get(word.removesuffix("s"))
 
+    def marked(self, words: Iterable[str]) -> list[FoundMark]:
+        """The marks that some words, which may be several in one, stand for."""
+        return [one for word in words for part in word.split(" ") if (one := self.of(part)) is not None]
+
     def phrase(self, phrase: Phrase) -> Phrase:
         """A noun phrase whose noun and words say what is said of the marks."""
-        words: list[str] = []
         noun = phrase.noun
         spoken = (noun or "").split(" ")
-        denied = {word for word in phrase.words if word.startswith(f"{NOT} ")}
-        other = [part for word in phrase.words if word not in denied for part in word.split(" ")]
-        words += [f"{NOT} {o.mark.word}" for w in denied for p in w.split(" ") if (o := self.of(p)) and o.mark.word]
-        marked = [one for word in (*other, *spoken) if (one := self.of(word)) is not None]
-        plain = tuple(w for w in phrase.words if all(self.of(part) is None for part in w.split(" ")))
+        denied = [word for word in phrase.words if word.startswith(f"{NOT} ")]
+        others = [word for word in phrase.words if word not in denied]
+        marked = self.marked([*others, *spoken])
+        words = [f"{NOT} {one.mark.word}" for one in self.marked(denied) if one.mark.word]
+        words += [one.mark.word for one in marked if one.mark.word]
+        plain = tuple(word for word in phrase.words if not self.marked([word]))
         phrase = replace(phrase, words=plain)
-        for one in marked:
-            words += [one.mark.word] if one.mark.word else []
         if marked:
             left = [word for word in spoken if self.of(word) is None]
             noun = " ".join(left) or marked[-1].noun

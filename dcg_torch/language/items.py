@@ -66,6 +66,12 @@ class Item:
         """The same with all below it, to stand somewhere else as well."""
         return replace(self, children=[child.copy() for child in self.children])
 
+    def take_up(self, more: Item) -> None:
+        """Say what another noun phrase says of the same thing."""
+        self.color = self.color or more.color
+        self.words += tuple(word for word in more.words if word not in self.words)
+        self.children += [child for child in more.children if child not in self.children]
+
     def behind(self, preposition: str) -> Item:
         """A preposition with this noun phrase, which nobody said so."""
         return Item(Kind.PREPOSITION, self.start, self.stop, self.text, (preposition,), children=[self])

@@ -26,9 +26,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
         elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
             same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
             if same and "other" not in more.words:
-                noun.color = noun.color or more.color
-                noun.words += more.words
-                noun.children += [child for child in more.children if child not in noun.children]
+                noun.take_up(more)
 
 
 def describe_landmarks(clauses: Sequence[Clause]) -> None:
@@ -41,9 +39,7 @@ def describe_landmarks(clauses: Sequence[Clause]) -> None:
         below = [node for top in tops for child in top.children for node in child.walk()]
         again = [node for node in below if node.noun == more.noun and None in (node.color, more.color)]
         if again and all(top.noun != more.noun for top in tops):
-            again[-1].color = again[-1].color or more.color
-            again[-1].words += more.words
-            again[-1].children += more.children
+            again[-1].take_up(more)
             clause.objects = []
 
 
@@ -62,10 +58,10 @@ def one_of_the(one: Item) -> None:
     for place in one.children:
         group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
         if one.noun is None and group.plural and group.noun and not group.is_a("not_solid"):
-            one.noun, one.pronoun, one.color = group.noun, False, one.color or group.color
-            counted = (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
-            one.words += (*(word for word in group.words if word not in one.words), *counted)
-            one.children = [*(child for child in one.children if child is not place), *group.children]
+            one.noun, one.pronoun = group.noun, False
+            one.children.remove(place)
+            one.take_up(group)
+            one.words += (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
             return
 
 

@@ -21,7 +21,7 @@ from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 
 _WORD: Final = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
-_JOINED: Final = 4  # words of a text that may be one mark
+MARK_WORDS: Final = 4  # words at most of a text that are one mark
 _SPELT, _LONG = 5, 8  # letters from which one slip, and two, may be in a name
 _PART = 3  # letters of a part of a mark
 _BOARD = 3  # classes at least that are told apart by marks
@@ -193,7 +193,7 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
         numbers = [value for value in values if value.isdecimal()]
         if any(value not in "01" for value in numbers):
             yield from ((key, value) for value in numbers)
-        others = [value for value in values if value not in numbers and 0 < len(words_of(value)) <= _JOINED]
+        others = [value for value in values if value not in numbers and 0 < len(words_of(value)) <= MARK_WORDS]
         colors = [value for value in others if normalise(value).split(" ")[-1] in color_words().basic]
         if 2 * len(colors) < len(others):
             yield from ((key, value) for value in others if not describes(attribute_key(key), value))

@@ -68,8 +68,8 @@ LINE_ENDS: dict[str, tuple[int | None, int]] = {
     "last": (None, -1),
 }
 """Word -> is it an end of rows (0), of columns (1) or of both, and is it the first (1) or the last (-1)?"""
-CELL = "cell"
-"""The key of the row and the column that a thing stands in, where things stand in a grid."""
+CELL = "cell: "
+"""Begins the attribute that tells in which row and column of a grid a thing stands."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
 CELL_STEPS |= {"north of": (-1, 0), "south of": (1, 0), "west of": (0, -1), "east of": (0, 1)}
