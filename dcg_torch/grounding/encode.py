@@ -77,6 +77,7 @@ class WorldEncoder:
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
         self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
+        self._standing: dict[tuple[int, ...], scene.Standing] = {}
 
     @cached_property
     def all(self) -> tuple[Object, ...]:
@@ -178,12 +179,12 @@ class WorldEncoder:
     ) -> list[NDArray[np.int16]]:
         """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
         if members is not None:
-            return list(scene.relations(self.layout, landmarks, among, members))
+            return list(scene.relations(self.layout, landmarks, among, members, self._standing))
         new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
         step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
         for start in range(0, len(new), max(1, step)):
             part = new[start : start + step]
-            found = scene.relations(self.layout, part, among)
+            found = scene.relations(self.layout, part, among, known=self._standing)
             self._found.update({(of, among): one for of, one in zip(part, found, strict=True)})
         return [self._found[of, among] for of in landmarks]
 

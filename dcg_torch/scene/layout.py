@@ -89,6 +89,20 @@ class Layout:
         return solid
 
     @functools.cached_property
+    def line(self) -> Bools:
+        """(n,) is it a row or a column of the whole scene?"""
+        found = np.zeros(len(self.things), dtype=np.bool_)
+        found[[j for j in self.members if not self.things[j].attributes.isdisjoint(LINES)]] = True
+        return found
+
+    @functools.cached_property
+    def wide(self) -> Floats | None:
+        """(n, 2) what of the half extents makes objects more than points; None where all things are points."""
+        if self.bodies is not None:
+            return self.bodies.wide
+        return np.zeros_like(self.half) if self.half.any() else None
+
+    @functools.cached_property
     def colors(self) -> tuple[str, ...]:
         """The colours that are there, in alphabetical order."""
         return tuple(sorted({o.color for o in self.things if o.color is not None}))
@@ -143,7 +157,7 @@ class Layout:
         code = np.full(len(self.things), -1, dtype=np.int64)
         longest = np.zeros(len(self.things), dtype=np.int64)
         for k, (group, inside) in enumerate(self.members.items()):
-            if not self.things[group].attributes.isdisjoint(LINES):
+            if self.line[group]:
                 continue
             better = inside[longest[inside] < len(inside)]
             longest[better], code[better] = len(inside), k
