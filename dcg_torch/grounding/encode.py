@@ -77,7 +77,7 @@ class WorldEncoder:
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
         self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
-        self._standing: dict[tuple[int, ...], scene.Standing] = {}
+        self._standing: dict[int, scene.Standing] = {}
 
     @cached_property
     def all(self) -> tuple[Object, ...]:

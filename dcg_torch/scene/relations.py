@@ -50,9 +50,11 @@ RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
 _COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
 
+_BETWEEN = list(RELATIONS).index("between")
+
 Standing = tuple[NDArray[np.int16], Floats, Bools]
-"""How things stand to one tuple of landmarks, whatever they are compared with: (families, n) indices into
-`RELATION_NAMES`, (n,) how far they are from the first, and which of them may be the closest or the farthest."""
+"""How things stand to one landmark, whatever they are compared with: (families, n) indices into `RELATION_NAMES`, (n,)
+how far they are from it, and which of them may be the closest or the farthest."""
 
 
 def relations(
@@ -60,7 +62,7 @@ def relations(
     landmarks: Sequence[Sequence[int]],
     among: str,
     members: Bools | None = None,
-    known: dict[tuple[int, ...], Standing] | None = None,
+    known: dict[int, Standing] | None = None,
 ) -> NDArray[np.int16]:
     """The relation features of every thing to every tuple of landmarks.
 
@@ -74,20 +76,20 @@ def relations(
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
     known = {} if known is None else known
-    wanted = [tuple(of) for of in landmarks]
-    if new := [of for of in dict.fromkeys(wanted) if of not in known]:
-        known.update(zip(new, _standing(where, new), strict=True))
+    first = [of[0] for of in landmarks]
+    if new := [j for j in dict.fromkeys(first) if j not in known]:
+        known.update(zip(new, _standing(where, np.array(new)), strict=True))
     alike = where.alike(among) if members is None else Alike.by(np.where(members & ~where.place, 0, -1))
-    found, distance, may = (np.array(part) for part in zip(*(known[of] for of in wanted), strict=True))
-    first = np.array([of[0] for of in wanted], dtype=np.int64)
-    found[:, _COMPARED] = _orders(where, first, distance, may, alike)
+    found, distance, may = (np.array(part) for part in zip(*(known[j] for j in first), strict=True))
+    found[:, _COMPARED] = _orders(where, np.array(first), distance, may, alike)
+    if any(len(of) > 1 for of in landmarks):
+        found[:, _BETWEEN] = between(where, landmarks)
     out: NDArray[np.int16] = found.transpose(0, 2, 1)
     return out
 
 
-def _standing(where: Layout, landmarks: Sequence[tuple[int, ...]]) -> Iterable[Standing]:
-    """Of each tuple of landmarks."""
-    first = np.array([of[0] for of in landmarks], dtype=np.int64)
+def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
+    """Of each landmark."""
     position, place = where.position, where.place[first][:, None]
     x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
     covers = apart = None
@@ -120,8 +122,6 @@ def _standing(where: Layout, landmarks: Sequence[tuple[int, ...]]) -> Iterable[S
     found |= _sides(where, first, x, y, aside)
     if where.group[first].any():
         found |= _members(where, first)
-    if any(len(of) > 1 for of in landmarks):
-        found["between"] = _between(position, landmarks)
     out = np.full((len(RELATIONS), *distance.shape), -1, dtype=np.int16)
     for of_family, family in zip(out, RELATIONS, strict=True):
         if family in found:
@@ -244,8 +244,13 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
     return found
 
 
-def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
-    """Is a thing between the first two landmarks: over their line, and not off to the side?"""
+def between(where: Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int16]:
+    """Is a thing between the first two landmarks: over their line, and not off to the side?
+
+    Returns:
+        (c, n) indices into `RELATION_NAMES`, -1 where there are no two.
+    """
+    position = where.position
     pairs = np.array([(of[0], of[1] if len(of) > 1 else of[0]) for of in landmarks], dtype=np.int64)
     start, span = position[pairs[:, 0], :2], position[pairs[:, 1], :2] - position[pairs[:, 0], :2]
     length = np.hypot(*span.T)
@@ -257,5 +262,6 @@ def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
         apart = (pairs[:, 0] != pairs[:, 1]) & np.isfinite(length) & (length >= TIE)
     numbers = np.arange(len(position))
     end = (numbers[None] == pairs[:, :1]) | (numbers[None] == pairs[:, 1:])
-    out: Ints = np.where(apart[:, None] & ~end & np.isfinite(along), np.where(inside, 0, 1), -1)
+    value = _STARTS[_BETWEEN] + np.where(inside, 0, 1)
+    out: NDArray[np.int16] = np.where(apart[:, None] & ~end & np.isfinite(along), value, -1).astype(np.int16)
     return out
