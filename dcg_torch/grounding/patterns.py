@@ -60,8 +60,8 @@ def spread(found: Sequence[tuple[int, dict[int, int]]], groundings: int) -> tupl
     which = np.empty((len(found), groundings), dtype=np.int64)
     which[:] = np.array([rest for rest, _ in found])[:, None]
     code = np.zeros(groundings, dtype=np.int64)
-    for row, (_, special) in zip(which, found, strict=True):
-        for j, number in special.items():
-            row[j] = number
-            code[j] = j + 1
+    rows = [row for row, (_, special) in enumerate(found) for _ in special]
+    columns = [j for _, special in found for j in special]
+    which[rows, columns] = [number for _, special in found for number in special.values()]
+    code[columns] = [j + 1 for j in columns]
     return which, code

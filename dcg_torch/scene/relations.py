@@ -228,19 +228,18 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
     """To a group: is a thing in it, on top of it, at its end or in the middle?"""
     shape = (len(first), len(where.things))
     found = {family: np.full(shape, -1, dtype=np.int64) for family in ("member", "member top", "member place")}
-    for c, g in enumerate(first):
-        if not where.group[g]:
-            continue
-        inside = np.sort(where.members[int(g)])
-        found["member"][c] = 1
-        found["member"][c, inside] = 0
-        height = where.position[inside, 2]
-        found["member top"][c, inside] = np.where(height > height.max() - TIE, 0, 1)
-        reach = np.linalg.norm(where.position[inside] - where.position[g], axis=1)
-        place = np.full(len(inside), 2)
-        place[reach > reach.max() - 0.25] = 0
-        place[reach < min(0.25, reach.min() + TIE)] = 1
-        found["member place"][c, inside] = place
+    row = np.flatnonzero(where.group[first])
+    members = [where.members[g] for g in first[row].tolist()]
+    found["member"][row] = 1
+    counts, inside = np.array([len(of) for of in members]), np.concatenate(members)
+    starts, row, group = np.cumsum(counts) - counts, np.repeat(row, counts), np.repeat(first[row], counts)
+    found["member"][row, inside] = 0
+    height = where.position[inside, 2]
+    found["member top"][row, inside] = height <= np.repeat(np.maximum.reduceat(height, starts), counts) - TIE
+    reach = np.linalg.norm(where.position[inside] - where.position[group], axis=1)
+    least, most = (np.repeat(of.reduceat(reach, starts), counts) for of in (np.minimum, np.maximum))
+    end, middle = reach > most - 0.25, reach < np.minimum(0.25, least + TIE)
+    found["member place"][row, inside] = np.where(middle, 1, np.where(end, 0, 2))
     return found
 
 
