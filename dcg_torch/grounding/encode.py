@@ -79,6 +79,10 @@ class WorldEncoder:
         self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
         self._standing: dict[int, scene.Standing] = {}
 
+    def of(self, world: WorldModel) -> WorldEncoder:
+        """That of another world under these features."""
+        return WorldEncoder(self.features, world, self._kinds)
+
     @cached_property
     def all(self) -> tuple[Object, ...]:
         """The things of the world."""
@@ -127,12 +131,17 @@ class WorldEncoder:
         return Coded(padded(rows), code), first
 
     def _group_or_place(self, thing: Object, states: tuple[str, ...]) -> list[int]:
-        colors: list[str] = []
+        colors: tuple[str, ...] = ()
         if thing.members:
-            colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
+            members = (self.all[self.number[m]].color for m in thing.members)
+            colors = tuple(dict.fromkeys(c for c in members if c is not None))
         if self.related:
             states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
-        return self.features.thing_columns(thing, states, colors)
+        key = thing.type, thing.known, thing.color, states, colors
+        columns = self._kinds.get(key)
+        if columns is None:
+            columns = self._kinds[key] = self.features.thing_columns(thing, states, colors)
+        return columns
 
     def things(self, phrase: Phrase) -> Bag:
         """(things, k) bag of a noun phrase's factors, but for the ranks that it speaks of."""

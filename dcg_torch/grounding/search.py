@@ -85,7 +85,7 @@ class Search:
             by_id(np.exp(totals - np.logaddexp.reduce(totals))),
             by_id(fits),
             by_id(odds),
-            None if brief else self._runner_up(root, best),
+            None if brief else self.runner_up(tree, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,
             1.0 if noun is None else self._named(noun),
@@ -102,8 +102,9 @@ class Search:
         seen = noun.named[: len(noun.scores[0])][self.encoder.perceived[: len(noun.scores[0])]]
         return float(np.exp(seen.max())) if len(seen) else 0.0
 
-    def _runner_up(self, root: Scored, best: Hypothesis) -> Hypothesis | None:
-        """The best configuration about another object; None if there is none."""
+    def runner_up(self, tree: ParseTree, best: Hypothesis) -> Hypothesis | None:
+        """The best configuration of a tree about another object than that of the best; None if there is none."""
+        root = self._picked(tree, landmark=False)
         scores = np.where(root.about(best.meant.id, self.encoder.number), -np.inf, root.scores)
         found = self._best(root, 1, scores)[0]
         return found if math.isfinite(found.log_score) else None
