@@ -24,13 +24,13 @@ def in_part(things: list[Percept], text: str, kind: str) -> list[Percept]:
     depth = [o.position[0] for o in things]
     middle = (min(depth) + max(depth)) / 2
     side = [w for w in text.split() if w in ("left", "right", "front", "back")][-1]
-    beyond: dict[str, Callable[[Percept], float]] = {
+    ways: dict[str, Callable[[Percept], float]] = {
         "left": lambda o: o.position[1],
         "right": lambda o: -o.position[1],
         "front": lambda o: middle - o.position[0],
         "back": lambda o: o.position[0] - middle,
-    }[side]
-    return [o for o in things if o.type == kind and beyond(o) > 0]
+    }
+    return [o for o in things if o.type == kind and ways[side](o) > 0]
 
 
 @pytest.mark.parametrize("seed", range(20))
