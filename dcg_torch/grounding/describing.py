@@ -70,20 +70,25 @@ def modifier_factor(
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = [tuple(beams[0][k] for k in of) for of in chosen]
+        landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
     if of_each or len(beams) > 1:
-        scores = scores - _APART * _spread(combos, encoder)
+        scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
 
 
-def _spread(combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units."""
-    number, place = encoder.number, encoder.layout.position[:, :2]
-    at = np.array([[place[number[h.child.grounding.object.id]] for h in combo] for combo in combos])
+def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
+    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
+
+    Args:
+        landmarks: (combos, k) numbers of things.
+        place: (things, 2).
+    """
+    at, ordered = place[landmarks], np.sort(landmarks, axis=1)
     apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
-    once = np.array([len({h.child.grounding.object.id for h in combo}) < len(combo) for combo in combos])
+    once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
     apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
     near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
     return near

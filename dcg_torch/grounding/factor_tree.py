@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
@@ -74,22 +75,38 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
-    if world is None:
-        return _factor_tree(tree, frozenset(), (False, False), "")
+    return in_setting(tree, _NOWHERE if world is None else setting_of(world))
+
+
+class Setting(NamedTuple):
+    """What a tree of factors depends on of a world.
+
+    Attributes:
+        there: the names of the types that may be there.
+        level: does all stand on one level, or as on a page that stands upright?
+        scene: the kind of scene.
+    """
+
+    there: frozenset[str]
+    level: tuple[bool, bool]
+    scene: str
+
+
+_NOWHERE = Setting(frozenset(), (False, False), "")
+
+
+def setting_of(world: WorldModel) -> Setting:
+    """Of a world."""
     heights = [o.position[2] for o in world.objects if o.position is not None]
     flat = bool(heights) and max(heights) - min(heights) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
-    return _factor_tree(tree, heads(world.classes), (flat, upright), scene_kind(world))
+    return Setting(heads(world.classes), (flat, upright), scene_kind(world))
 
 
 @functools.lru_cache(maxsize=1024)
-def _factor_tree(tree: ParseTree, there: frozenset[str], level: tuple[bool, bool], scene: str) -> ParseTree:
-    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind.
-
-    Args:
-        level: does all stand on one level, or as on a page that stands upright?
-    """
-    flat, upright = level
+def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
+    """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
+    there, (flat, upright), scene = setting
     found = _described(in_plain_words(tree, there, flat=flat or upright, upright=upright))
     return _said_in(found, scene) if scene else found
 
