@@ -15,7 +15,7 @@ from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import RANKING
+from dcg_torch.names.vocabulary import LATERAL, RANKING
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -36,6 +36,8 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
+_BEYOND = 1e6
+"""More than any coordinate: what is not described as well comes after all that is."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -153,12 +155,28 @@ def comparison_set(
     several, objects = picked_from(phrase), len(encoder.world.objects)
     if several is not None and several <= objects:
         found = np.zeros(len(fit), dtype=np.bool_)
-        found[highest(fit[:objects], several)] = True
+        found[highest(_along_a_side(fit, modifiers, encoder)[:objects], several)] = True
         return Comparison(found, log_size, phrase)
     described = _described(fit, odds)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats:
+    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
+
+    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others.
+    """
+    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if len(m.tree.children) == 1]
+    sides = [(m, side) for m, side in sided if side in LATERAL and NOT not in m.tree.phrase.words]
+    if len(sides) != 1:
+        return fit
+    modifier, side = sides[0]
+    rest = fit - modifier.log_psi
+    y = encoder.layout.position[:, 1]
+    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
+    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
