@@ -23,7 +23,7 @@ from dcg_torch.grounding.describing import (
 )
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.patterns import Patterns, spread
+from dcg_torch.grounding.patterns import Key, Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
@@ -203,23 +203,23 @@ class Search:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
         patterns = Patterns(self.encoder.number)
-        found = [patterns.of(tuple([h.child for h in combo])) for combo in combos]
+        choices = [tuple([h.child for h in combo]) for combo in combos]
+        keys, which, code = patterns.spread(choices, len(self.encoder.world.meanable))
         table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
         inactive = table[correspondences.index(Correspondence.INACTIVE)]
-        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, found)
+        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, keys)
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        which, code = spread(found, len(self.encoder.world.meanable))
         return Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
 
-    def _sums(self, values: Floats, found: Sequence[tuple[int, dict[int, int]]]) -> list[float]:
+    def _sums(self, values: Floats, keys: Sequence[Key]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
-        known: dict[tuple[int, ...], float] = {}
         n, own = len(self.encoder.world.meanable), values.tolist()
-        keys = [(rest, *special.values()) for rest, special in found]
-        for key in dict.fromkeys(keys):
-            known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
+        known = {
+            key: exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
+            for key in dict.fromkeys(keys)
+        }
         return [known[key] for key in keys]
 
     def _no_group(self, tree: ParseTree, found: Scored) -> Scored:

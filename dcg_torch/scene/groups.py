@@ -127,15 +127,17 @@ def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[flo
     ids = tuple(o.id for o in members)
     types, colors = {o.type for o in members}, {o.color for o in members}
     one_type = next(iter(types)) if len(types) == 1 else None
-    deep, wide, _ = map(_extent, zip(*position, strict=True))
-    lies = {ACROSS if wide >= deep else ALONG} if kind == ROW else set()
+    attributes = {kind, f"of {len(members)}"}
+    if kind == ROW:
+        deep, wide, _ = map(_extent, zip(*position, strict=True))
+        attributes.add(ACROSS if wide >= deep else ALONG)
     return Object(
         id=f"{kind}: {' '.join(ids)}",
         type=one_type,
         known=one_type is not None and all(o.known for o in members),
         color=next(iter(colors)) if len(colors) == 1 else None,
         position=members[0].position,
-        attributes=frozenset({kind, f"of {len(members)}", *lies}),
+        attributes=frozenset(attributes),
         members=ids,
     )
 
