@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -39,6 +39,14 @@ _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
 
 
+@dataclass
+class _Found:
+    """What was found of a phrase: its scores, and its best hypotheses once they have been asked for."""
+
+    scored: Scored
+    beam: list[Hypothesis] | None = None
+
+
 class Search:
     """Leaf-to-root inference in one world. What several trees have in common is scored once.
 
@@ -52,8 +60,7 @@ class Search:
         self.encoder = encoder
         self._tables = tables
         self._beam = beam
-        self._nouns: dict[tuple[ParseTree, bool], Scored] = {}
-        self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
+        self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
 
@@ -130,27 +137,30 @@ class Search:
         Args:
             landmark: is it one of a modifier? It alone may be a place: what a command is about is an object.
         """
-        key = (tree, landmark)
-        found = self._nouns.get(key)
-        if found is None:
-            below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
-            combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
-            is_noun = tree.phrase.kind is PhraseKind.NOUN
-            found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            if landmark:
-                found = self._no_group(tree, found) if is_noun else found
-            else:
-                found = self._only_objects(tree, found)
-                found = self._or_absent(tree, found) if is_noun else found
-            self._nouns[key] = found
-        return found
+        return self._found_of(tree, landmark).scored
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
+        found = self._found_of(tree, landmark)
+        if found.beam is None:
+            found.beam = self._best(found.scored, self._beam)
+        return found.beam
+
+    def _found_of(self, tree: ParseTree, landmark: bool) -> _Found:
         key = (tree, landmark)
-        found = self._beams.get(key)
-        if found is None:
-            found = self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
-        return found
+        kept = self._found.get(key)
+        if kept is not None:
+            return kept
+        below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
+        combos = list(itertools.product(*[self._beam_of(child, landmark=False) for child in below]))
+        is_noun = tree.phrase.kind is PhraseKind.NOUN
+        scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
+        if landmark:
+            scored = self._no_group(tree, scored) if is_noun else scored
+        else:
+            scored = self._only_objects(tree, scored)
+            scored = self._or_absent(tree, scored) if is_noun else scored
+        kept = self._found[key] = _Found(scored)
+        return kept
 
     def _modifier(self, tree: ParseTree, compared: Bools | None = None) -> ModifierFactor:
         """The factor of a modifier; what it ranks, it ranks among `compared`."""
