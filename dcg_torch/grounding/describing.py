@@ -43,6 +43,8 @@ _MOST_COUNTED = 3
 _APART, _FARTHEST = 0.5, 8.0
 """Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
 speak of two things at once that stand together."""
+_FEW = 320
+"""Values up to which it takes less time to sort all than to find the highest."""
 _LANDMARKS = 8
 """Landmarks that are weighed where several are meant together."""
 
@@ -221,11 +223,13 @@ def highest(values: Floats, count: int) -> NDArray[np.int64]:
     """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
     if count == 1:
         return np.array([values.argmax()])
-    if len(values) <= max(512, 2 * count):
-        return np.argsort(-values, kind="stable")[:count]
+    if len(values) <= max(_FEW, 2 * count):
+        best: NDArray[np.int64] = (-values).argsort(kind="stable")[:count]
+        return best
     least = np.partition(values, len(values) - count)[len(values) - count]
-    among = np.flatnonzero(values >= least)
-    return among[np.argsort(-values[among], kind="stable")[:count]]
+    among = (values >= least).nonzero()[0]
+    best = among[(-values[among]).argsort(kind="stable")[:count]]
+    return best
 
 
 def ranks(tree: ParseTree) -> bool:

@@ -84,7 +84,11 @@ class Search:
             return {} if values is None else dict(zip(ids, values.tolist(), strict=True))
 
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
-        odds = None if noun is None or noun.log_odds is None else np.exp(np.clip(noun.log_odds, -700.0, 700.0))
+        odds = (
+            None
+            if noun is None or noun.log_odds is None
+            else np.exp(np.minimum(np.maximum(noun.log_odds, -700.0), 700.0))
+        )
         return Solution(
             tree,
             world,

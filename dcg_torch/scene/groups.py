@@ -313,8 +313,9 @@ def _over(position: Floats) -> tuple[Ints, Ints]:
 def _close_pairs(points: Floats, reach: float) -> tuple[Ints, Ints]:
     """The pairs of points (n, 2) that are less than so far apart, the lower number first, in the order of numbers."""
     if len(points) <= _MANY:
-        i, j = np.nonzero(np.triu(np.linalg.norm(points[None] - points[:, None], axis=2) < reach, 1))
-        return i, j
+        x, y = (own[None, :] - own[:, None] for own in points.T)
+        i, j = np.nonzero(np.sqrt(x * x + y * y) < reach)
+        return i[i < j], j[i < j]
     from scipy.spatial import cKDTree  # here: few worlds are so large
 
     i, j = cKDTree(points).query_pairs(reach, output_type="ndarray").T
