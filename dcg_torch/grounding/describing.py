@@ -223,13 +223,14 @@ def highest(values: Floats, count: int) -> NDArray[np.int64]:
     """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
     if count == 1:
         return np.array([values.argmax()])
+    order: NDArray[np.int64]
     if len(values) <= max(_FEW, 2 * count):
-        best: NDArray[np.int64] = (-values).argsort(kind="stable")[:count]
-        return best
+        order = (-values).argsort(kind="stable")
+        return order[:count]
     least = np.partition(values, len(values) - count)[len(values) - count]
     among = (values >= least).nonzero()[0]
-    best = among[(-values[among]).argsort(kind="stable")[:count]]
-    return best
+    order = (-values[among]).argsort(kind="stable")
+    return among[order[:count]]
 
 
 def ranks(tree: ParseTree) -> bool:
