@@ -14,8 +14,9 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.grounding.together import closest_together
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import LATERAL, RANKING
+from dcg_torch.names.vocabulary import LATERAL, RANKING, SIDED, TOGETHER, WITHIN, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -38,6 +39,8 @@ _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
 _BEYOND = 1e6
 """More than any coordinate: what is not described as well comes after all that is."""
+_ALIKE = 0.7
+"""Nats by which things differ that are described alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -106,6 +109,11 @@ def ranks_from(tree: ParseTree) -> bool:
     return name in RANKING or name.partition(" ")[2] in RANKING
 
 
+def picks_a_side(tree: ParseTree) -> bool:
+    """Is it a modifier that picks by a side: "(of the two cubes) the one on the left"?"""
+    return tree.phrase.words[0] != WITHIN and len(tree.children) == 1 and tree.children[0].phrase.noun in SIDED
+
+
 def is_to_a_place(tree: ParseTree) -> bool:
     """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
     return "to a thing" not in tree.phrase.context
@@ -118,7 +126,7 @@ class Comparison:
     Attributes:
         among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
             as it says that there are: "the middle one of the five on the left".
-        log_size: (things,) log-factor of the size that it says.
+        log_size: (things,) log-factor of the size that it says, and of standing close together.
         phrase: the phrase without the words that `log_size` has taken up.
     """
 
@@ -152,26 +160,55 @@ def comparison_set(
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
             log_size = -_SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
-    several, objects = picked_from(phrase), len(encoder.world.objects)
-    if several is not None and several <= objects:
-        found = np.zeros(len(fit), dtype=np.bool_)
-        found[highest(_along_a_side(fit, modifiers, encoder)[:objects], several)] = True
-        return Comparison(found, log_size, phrase)
+    several = counted(phrase.words, TOGETHER)
+    close = several is not None
+    several = several or picked_from(phrase)
+    among = _so_many(several, own if close else fit, fit, modifiers, encoder, close) if several else None
+    if among is not None:
+        return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     described = _described(fit, odds)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
 
 
-def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats:
+def _so_many(
+    several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
+) -> tuple[Bools, Floats] | None:
+    """The so many things that a phrase speaks of, and the log-factor of being one of those that stand together.
+
+    Where more are described alike, or they are said to be `close` together, they are those that stand closest together.
+    None where there are not so many.
+    """
+    objects = len(encoder.world.objects)
+    position = encoder.layout.position
+    there = np.isfinite(position[:objects]).all(axis=1) & np.isfinite(own[:objects])
+    if several > there.sum():
+        return None
+    found = np.zeros(len(fit), dtype=np.bool_)
+    sided = None if close else _along_a_side(fit, modifiers, encoder)
+    values = np.where(there, (own if sided is None else sided)[:objects], -np.inf)
+    first = highest(values, several + 1)
+    last = float(values[first[several - 1]])
+    tied = len(first) > several and last - values[first[several]] < _ALIKE
+    if sided is not None or not (close or tied):
+        found[first[:several]] = True
+        return found, np.zeros(len(fit))
+    alike = np.zeros(len(fit), dtype=np.bool_)
+    alike[:objects] = values >= last - _ALIKE
+    return closest_together(position, alike, fit, several)
+
+
+def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
     """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
 
-    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others.
+    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others. None where
+    nothing is ranked within a side.
     """
-    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if len(m.tree.children) == 1]
-    sides = [(m, side) for m, side in sided if side in LATERAL and NOT not in m.tree.phrase.words]
+    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if m.tree.phrase.words[0] == WITHIN]
+    sides = [(m, side) for m, side in sided if side in LATERAL]
     if len(sides) != 1:
-        return fit
+        return None
     modifier, side = sides[0]
     rest = fit - modifier.log_psi
     y = encoder.layout.position[:, 1]

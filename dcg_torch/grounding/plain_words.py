@@ -21,6 +21,7 @@ from dcg_torch.names.vocabulary import (
     LINE_FROM,
     LINE_OF,
     MIDDLE_LINE,
+    MUTUAL,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -31,8 +32,10 @@ from dcg_torch.names.vocabulary import (
     SIDE_OF,
     SIDED,
     SYNONYMS,
+    TOGETHER,
     VERTICAL,
     WORKSPACE,
+    counted,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
@@ -57,7 +60,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
+    tree = _farthest_to_a_side(_middle_of_set(_of_a_pair(_sided(tree))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -85,7 +88,35 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
-    return ParseTree(replace(phrase, words=words), children)
+    return _together(ParseTree(replace(phrase, words=words), children))
+
+
+def _of_a_pair(tree: ParseTree) -> ParseTree:
+    """ "The darker one of the pair of dots" is one of two that stand together."""
+    phrase = tree.phrase
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in INSIDE]
+    of = next((c.children[0] for c in places if _PAIR in c.children[0].phrase.words), None)
+    if phrase.kind is not PhraseKind.NOUN or of is None or phrase.plural:
+        return tree
+    words = tuple(dict.fromkeys((*phrase.words, *of.phrase.words, "of 2")))
+    one = replace(phrase, noun=phrase.noun or of.phrase.noun, color=phrase.color or of.phrase.color, words=words)
+    kept = tuple(c for c in tree.children if c.children[:1] != (of,) and c not in of.children)
+    return ParseTree(one, (*kept, *of.children))
+
+
+def _together(tree: ParseTree) -> ParseTree:
+    """ "The two cubes next to each other", "the left one of the pair": those that are nearest to one another."""
+    phrase = tree.phrase
+    several = counted(phrase.words) or phrase.count or 0
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in MUTUAL]
+    close = [c for c in places if _EACH_OTHER in c.children[0].phrase.words]
+    if several < 2 or not (close or _PAIR in phrase.words):
+        return tree
+    words = (*(word for word in phrase.words if word != _PAIR), f"{TOGETHER}{several}")
+    return ParseTree(replace(phrase, words=words), tuple(c for c in tree.children if c not in close))
+
+
+_EACH_OTHER, _PAIR = "each other", "pair"
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -184,7 +215,7 @@ def _middle_of_set(tree: ParseTree) -> ParseTree:
         if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
             continue
         others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
-        number = next((int(w[3:]) for w in landmark.words if w[:3] == "of " and w[3:].isdecimal()), landmark.count)
+        number = counted(landmark.words) or landmark.count
         if others or number == 2 or phrase.plural:
             continue
         few = () if number is None else (f"of {number}",)

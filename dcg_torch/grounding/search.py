@@ -18,6 +18,7 @@ from dcg_torch.grounding.describing import (
     is_to_a_place,
     modifier_factor,
     of_attributes,
+    picks_a_side,
     ranks,
     ranks_from,
 )
@@ -28,6 +29,7 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
+from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -164,9 +166,10 @@ class Search:
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
-        others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
+        several = counted(tree.phrase.words) is not None
+        others = {id(c): self._modifier(c) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = len(others) < len(own) and (bool(parts) or is_narrowed(tree.phrase, self.encoder))
+        some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 

@@ -63,7 +63,10 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     one.color = one.color or group.color
     for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
         one.children.remove(place)  # "(there are five cones,) the one in the middle" is the middle one of the five
-        one.words += ("middle", *((f"of {group.count}",) if (group.count or 0) > 2 else ()))
+        one.words += ("middle",)
+    if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
+        pair = (word for word in group.words if word in SETS["close_pairs"])
+        one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 

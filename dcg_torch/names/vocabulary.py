@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 # What people call the places; the side is the one that the word itself names, seen from the robot.
 PLACE_WORDS = {
     "corner": ("corner", None),
@@ -86,6 +88,10 @@ ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
     **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
 }
+TOGETHER = "together "
+"""Begins the word that says how many of a kind stand together, and are meant or picked from: "together 2"."""
+MUTUAL = frozenset({"next to", "touching", "near", "close to", "beside"})
+"""Prepositions by which several stand together: "two cubes next to each other"."""
 ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
@@ -157,3 +163,8 @@ PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
 def is_superlative(word: str) -> bool:
     """Does a word pick the end of an order: "nearest", "leftmost", "middle"?"""
     return word.endswith(("est", "most")) or word == "middle"
+
+
+def counted(words: Iterable[str], of: str = "of ") -> int | None:
+    """How many the words of a noun phrase say that there are: 5 for "of 5"; None where they do not."""
+    return next((int(word[len(of) :]) for word in words if word.startswith(of) and word[len(of) :].isdecimal()), None)
