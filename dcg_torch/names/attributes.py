@@ -44,7 +44,7 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
-    for name in ("absent", "present", "part_of"):
+    for name in ("absent", "present", "part_of", "same_key", "clothes", "counted"):
         del data[name]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
@@ -182,7 +182,7 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
     like = said.removesuffix(key).strip()
     if not like or value in _words_of("absent"):
         return "attribute: contrary" if value in _words_of("absent") else "attribute: equal"
-    if value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
+    if value == key or value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
         whole = read_data("values.yaml")["part_of"].get(key)
         told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
         return _possession_fact(f"{like} {whole}", told) if told else "attribute: silent"
@@ -231,11 +231,21 @@ def attribute_key(key: str) -> str:
     ('beard', 'hair', 'orientation')
     """
     words = normalise(key).split(" ")
-    if words == ["sex"]:
-        return "gender"
     while len(words) > 1 and words[0] in ("has", "ha", "is", "with", "wears", "wear", "wearing"):
         words = words[1:]
-    return " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+    found = " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+    return str(read_data("values.yaml")["same_key"].get(found, found))
+
+
+@functools.lru_cache(maxsize=4096)
+def counts(key: str) -> bool:
+    """Are the values of a key numbers, so that 1 and 0 do not mean yes and no: "row"?"""
+    return attribute_key(key) in _words_of("counted")
+
+
+def is_clothing(key: str) -> bool:
+    """Does a key or a noun name what people wear, of which a colour is told: "in black"?"""
+    return key in _words_of("clothes")
 
 
 @functools.lru_cache(maxsize=4096)
