@@ -33,8 +33,9 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
-_CONTRARY = 4.0
-"""Of each word that an attribute of the thing contradicts: "with a hat" said of who wears none."""
+_CONTRARY = (5.0, 1.5)
+"""Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:
+who has misjudged one thing may have misjudged two."""
 _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
@@ -70,7 +71,8 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
     if phrase.words:
-        odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
+        contrary = np.array([_contradicted(phrase.words, o) for o in objects])
+        odd = odd + _CONTRARY[0] * np.minimum(1.0, contrary) + _CONTRARY[1] * np.maximum(0.0, contrary - 1.0)
     return _RARE + float((strange + odd)[seen].min())
 
 

@@ -10,9 +10,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.attributes import HAS, NOT_, OF_KEY, attribute_key, is_clothing, named_key, states_value
+from dcg_torch.names.attributes import (
+    HAS,
+    NOT_,
+    OF_KEY,
+    attribute_key,
+    is_clothing,
+    named_key,
+    says_value,
+    states_value,
+)
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.palette import region
+from dcg_torch.names.normal import normalise, singular
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS
 from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
@@ -76,11 +85,13 @@ class _Speaking:
     def root(self, tree: ParseTree) -> ParseTree:
         """The whole tree: "he has dark hair and a tie", "glasses, no beard" name the thing by what it has."""
         nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
-        had = [word for noun in nouns for word in self.possessed(noun, denied=False)]
-        owners = [noun for noun in nouns if not self.possessed(noun, denied=False)]
+        wears = "wear" in tree.phrase.words
+        of_each = [self.possessed(noun, denied=False) if wears or noun.phrase.noun else [] for noun in nouns]
+        had = [word for words in of_each for word in words]
+        owners = [noun for noun, words in zip(nouns, of_each, strict=True) if not words]
         if had and (len(nouns) > 1 or not set(tree.phrase.words).isdisjoint(_HAVING) or not tree.phrase.words):
             first = owners[0] if owners else ParseTree(Phrase(PhraseKind.NOUN, ""))
-            below = tuple(c for noun in nouns if self.possessed(noun, denied=False) for c in noun.children)
+            below = tuple(c for noun, words in zip(nouns, of_each, strict=True) if words for c in noun.children)
             owner = _with_words(replace(first, children=(*first.children, *below)), had)
             rest = [child for child in tree.children if all(child is not noun for noun in nouns)]
             tree = replace(tree, children=(owner, *owners[1:], *rest))
@@ -106,6 +117,9 @@ class _Speaking:
 
     def pictured(self, tree: ParseTree) -> ParseTree:
         """ "The picture of the old man", "the man in the left picture": what shows somebody stands for who is shown."""
+        shows = (tree.phrase.noun or "").split(" ")
+        if len(shows) > 1 and shows[-1] in _PICTURES:
+            return replace(tree, phrase=replace(tree.phrase, noun=" ".join(shows[:-1])))
         for k, place in enumerate(tree.children):
             if place.phrase.kind is not PhraseKind.PREPOSITION or len(place.children) != 1:
                 continue
@@ -150,7 +164,7 @@ class _Speaking:
         phrase = noun.phrase
         said = [word for word in (phrase.color, *phrase.words) if word]
         if phrase.noun is None or (phrase.noun in _CLOTHES and phrase.noun not in self.keys):
-            return self.dressed(said, denied=denied)
+            return self.dressed(phrase, denied=denied)
         if phrase.noun in _PLACES or names_one_of(phrase.noun, self.types):
             return []
         key = named_key(phrase.noun, self.keys)
@@ -163,14 +177,22 @@ class _Speaking:
         own = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
         return [*(f"{NOT_}{word}" if denied else word for word in own), *whole]
 
-    def dressed(self, said: Sequence[str], *, denied: bool) -> list[str]:
+    def dressed(self, phrase: Phrase, *, denied: bool) -> list[str]:
         """The words of "(wearing) black", "in formal clothes", where what people wear is told."""
-        values = [word for word in said if states_value(word, self.keys & {"suit"})]
-        if len(self.worn) == 1:
-            values += [
-                f"{HAS}{word} {self.worn[0]}" for word in said if word not in values and region(word) is not None
-            ]
+        values = [word for word in phrase.words if states_value(word, self.keys & {"suit"})]
+        if len(self.worn) == 1 and phrase.color is not None:
+            values.append(f"{HAS}{phrase.color} {self.worn[0]}")
         return [f"{NOT_}{word}" if denied else word for word in values]
+
+    def without_values(self, noun: str, phrase: Phrase) -> tuple[str | None, list[str]]:
+        """A noun without what states values before it: "redhead man"; None where it is all of a value: "red head"."""
+        before, last = noun.split(" ")[:-1], noun.split(" ")[-1]
+        if any(" " in word and singular(word.split(" ")[-1]) == noun and says_value(word) for word in phrase.words):
+            return None, []
+        if not before or noun in map(normalise, self.types) or not all(states_value(w, self.keys) for w in before):
+            return noun, []
+        known = names_one_of(last, self.types) or (self.of_people and _is_person(last))
+        return (last, before) if known else (noun, [])
 
     def own_words(self, phrase: Phrase) -> Phrase:
         """A noun phrase whose noun, colour and participles say what attributes hold: "woman", "grey-haired"."""
@@ -187,6 +209,10 @@ class _Speaking:
                 like = [words[k - 1]]  # "dark-haired"
             words[k] = f"{NOT_ if denied else ''}{HAS}{' '.join((*like, key))}"
         noun = phrase.noun
+        if noun is not None:
+            noun, values = self.without_values(noun, phrase)
+            words += values
+            color = None if noun is None else color
         if noun is not None and states_value(noun, self.keys):
             named = names_one_of(noun, self.types)
             if named or states_value(noun, self.keys & _OF_LOOKS):
@@ -195,7 +221,9 @@ class _Speaking:
         if self.of_people and noun is not None and _is_person(noun) and not names_one_of(noun, self.types):
             noun = noun if any(_is_person(type_) for type_ in self.types) else None
         if color is not None and not self.colored:
-            words.append(color)
+            own = {part for word in phrase.text.split() for part in normalise(word).split()}
+            dressed = len(self.worn) == 1 and own.isdisjoint(color.split())  # "the guy in black"
+            words.append(f"{HAS}{color} {self.worn[0]}" if dressed else color)
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
 
 

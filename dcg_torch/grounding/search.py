@@ -35,6 +35,8 @@ Bools = NDArray[np.bool_]
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
+_NOT_THIS = 50.0
+"""Nats that take a hypothetical object out."""
 _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
 
@@ -260,13 +262,15 @@ class Search:
         log_odds = self._absence[bare]
         there = self.encoder.perceived[: found.scores.shape[1]]
         if log_odds is None:
-            shift = less_for_many_types(self.encoder)
-        else:
+            shift = np.where(there, 0.0, less_for_many_types(self.encoder))
+        else:  # what is not there is one thing, whatever its type is
             totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
-            shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
-        if shift == 0.0 or not np.isfinite(shift):
+            one = np.where(there, -np.inf, totals).argmax()
+            shift = np.where(there, 0.0, -_NOT_THIS)
+            shift[one] = log_odds + np.logaddexp.reduce(totals[there]) - totals[one]
+        if not shift.any() or not np.isfinite(shift).all():
             return found
-        return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
+        return replace(found, scores=found.scores + shift[:, None])
 
     def _told(self, phrase: Phrase) -> tuple[str, ...]:
         """The words of a noun phrase that say something of groups or attributes."""

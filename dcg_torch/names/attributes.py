@@ -44,7 +44,7 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
-    for name in ("absent", "present", "part_of", "same_key", "clothes", "counted"):
+    for name in ("absent", "present", "part_of", "same_key", "clothes", "counted", "sides"):
         del data[name]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
@@ -89,7 +89,9 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
         Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
         "contrary" too.
     """
-    said = (word if HAS in word or OF_KEY in word else normalise(word) for word in words)
+    said = (
+        word if HAS in word or OF_KEY in word else normalise(word) for word in words if word not in _words_of("sides")
+    )
     found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
 
@@ -257,6 +259,11 @@ def named_key(noun: str, keys: frozenset[str]) -> str | None:
     """
     near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
     return max(near, key=lambda key: log_odds(noun, key), default=None)
+
+
+def says_value(phrase: str) -> bool:
+    """Is it, as a whole, the value of some attribute: "red head"?"""
+    return normalise(phrase) in _meanings()[0]
 
 
 @functools.lru_cache(maxsize=4096)
