@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
+from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
@@ -23,6 +24,8 @@ Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 _IN_THE_SET = math.log(0.5)
+_GROUP_IN_THE_SET = math.log(0.1)
+"""The same of groups: a stack of four is less usual than one of three, and may be the tallest."""
 _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
@@ -150,7 +153,7 @@ def comparison_set(
         found = np.zeros(len(fit), dtype=np.bool_)
         found[highest(fit[:objects], several)] = True
         return Comparison(found, log_size, phrase)
-    described = _described(fit, odds)
+    described = _described(fit, odds, _GROUP_IN_THE_SET if in_group(phrase) else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
@@ -163,8 +166,8 @@ def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
     return looks or sized or bool(of_attributes(phrase.words, encoder))
 
 
-def _described(fit: Floats, odds: Floats) -> Bools:
-    described: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
+def _described(fit: Floats, odds: Floats, least: float = _IN_THE_SET) -> Bools:
+    described: Bools = (fit >= fit.max() + least) & (odds >= odds.max() - _BEHIND)
     return described
 
 

@@ -115,6 +115,9 @@ def _values(where: Layout) -> Floats:
     unsized = where.place | where.group
     sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
     volume, height = np.array([bulk(s) for s in sizes]), np.array([s[2] for s in sizes])
+    for group, inside in where.members.items():  # "the highest stack", "the largest group"
+        volume[group], height[group] = len(inside), np.ptp(z[inside]) if len(inside) else math.nan
+        z = np.where(np.arange(len(z)) == group, z[inside].max(initial=-math.inf), z)
     nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
