@@ -22,7 +22,9 @@ from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
+from dcg_torch.names.palette import lab, region
 from dcg_torch.names.vocabulary import CELL, PLACE_WORDS
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
@@ -33,6 +35,8 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
+_UNLIKE = (5.0, 1.6)
+"""The same of how untypical of the colour word a colour looks that no name is given of."""
 _CONTRARY = (5.0, 1.5)
 """Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:
 who has misjudged one thing may have misjudged two."""
@@ -54,13 +58,14 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     """The log-odds that nothing there is meant; None where that is not judged by names.
 
     That is so before the robot has looked all round, of groups and places, where nothing is there, and where colours
-    are judged by looking, for then any noun may be a colour ("coffee"). What the speaker has ruled out counts for
-    nothing.
+    are judged by looking alone while the noun is no name of a thing, for then it may be a colour ("coffee"). What the
+    speaker has ruled out counts for nothing.
     """
     objects = encoder.world.objects
     if not judges_absence(encoder):
         return None
-    if phrase.look and any(o.rgb is not None for o in objects):
+    shown = bool(phrase.look) and any(o.rgb is not None and o.color is None for o in objects)
+    if shown and (phrase.color is None or not _named(phrase.noun, objects)):
         return None
     if in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None
@@ -69,7 +74,8 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     if not seen.any() or not any(o.hypothetical and LOOKED_ROUND in o.attributes for o in objects):
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
-    odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
+    gap = _look_gap(phrase.color, objects) if shown else _color_gap(tables, encoder, phrase)
+    odd = _excess(gap, *(_UNLIKE if shown else _ODD))
     if phrase.words:
         contrary = np.array([_contradicted(phrase.words, o) for o in objects])
         odd = odd + _CONTRARY[0] * np.minimum(1.0, contrary) + _CONTRARY[1] * np.maximum(0.0, contrary - 1.0)
@@ -137,6 +143,21 @@ def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     best = tables.log_odds_of(color, [_like(None, phrase.color), _like(known, phrase.color, known=known is not None)])
     gap = best[[int(o.known) for o in objects]] - tables.log_odds(encoder, color)
     return np.where([o.color is not None for o in objects], np.maximum(0.0, gap), 0.0)
+
+
+def _named(noun: str | None, objects: Sequence[Object]) -> bool:
+    """Is a noun the name of something that is there, and no word for whatever there is?"""
+    types = {o.type for o in objects if o.type is not None and not o.hypothetical}
+    return noun is not None and not is_generic(noun) and names_one_of(noun, types)
+
+
+def _look_gap(color: str | None, objects: Sequence[Object]) -> Floats:
+    """(objects,) how untypical of a colour word each thing looks; 0 for what shows no colour, and for strange words."""
+    found, looks = region(color or ""), [j for j, o in enumerate(objects) if o.rgb is not None]
+    gap = np.zeros(len(objects))
+    if found is not None and looks:
+        gap[looks] = -found.log_density(lab(np.array([objects[j].rgb for j in looks], dtype=np.float64)))
+    return gap
 
 
 def _like(type_: str | None, color: str | None, *, known: bool = False) -> Object:

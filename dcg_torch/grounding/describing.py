@@ -182,9 +182,10 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
     """
     sizes = [math.nan if o.size is None else bulk(o.size) for o in encoder.world.objects]
     logs = np.log([v if v > 0.0 else math.nan for v in sizes])
-    for among in sets:
+    least = 2 if 0 in sides else 1  # of two none is of medium size
+    for among in (*sets, encoder.perceived) if 0 in sides else sets:
         known = logs[among[: len(logs)] & np.isfinite(logs)]
-        if len(known) > 1 and np.ptp(known) > _SAME_SIZE:
+        if len(known) > least and np.ptp(known) > _SAME_SIZE:
             place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
             off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
             return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))

@@ -94,7 +94,7 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += evidence(said.noun, thing.type)
     if look >= 0:
         found.append(LOOK_FACTS[look])
-    if (look < 0 or thing.rgb is None) and said.color is not None and thing.color is not None:
+    if said.color is not None and thing.color is not None:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
