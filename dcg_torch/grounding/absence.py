@@ -35,7 +35,7 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
-_UNLIKE = (5.0, 1.6)
+_UNLIKE = (3.0, 1.6)
 """The same of how untypical of the colour word a colour looks that no name is given of."""
 _CONTRARY = (5.0, 1.5)
 """Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:

@@ -35,6 +35,8 @@ _NEAR = 4.5
 
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
+_LIKE_SIZES = 0.15
+"""Sizes that differ by no more than this share of the differences among all of a kind are not told apart."""
 _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
@@ -129,7 +131,8 @@ def comparison_set(
     """What the words of a noun phrase compare with: what all the rest of it describes.
 
     Words for a size ("the upper large one") describe by degrees: how far is a thing from the largest, or the smallest?
-    They compare with all of the phrase's name where places leave one size alone ("the large one at the top").
+    They compare with all of the phrase's name where places leave one size alone ("the large one at the top"), or sizes
+    that differ by little beside those of all of its kind ("the tiny black specks").
     """
     phrase = tree.phrase
     told = of_attributes(phrase.words, encoder)
@@ -143,7 +146,7 @@ def comparison_set(
     log_size = np.zeros(len(fit))
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     if sizes:
-        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named)
+        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named, _of_kind(phrase, encoder, tables))
         if off is not None:
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
             log_size = -_SIZED * off**2
@@ -157,6 +160,14 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
+    """(things,) those that the noun of a phrase names."""
+    table = tables.unranked(encoder, replace(phrase, color=None, look=(), words=()))
+    number = tables.factor.correspondences.index
+    fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
+    return _described(fit, fit - table[number(Correspondence.INACTIVE)])
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -175,17 +186,20 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
     """(things,) from 0 to 1: how far a thing is from the largest (1), smallest (-1) or mean size (0) that is said.
 
     Args:
-        sets: (things,) the first of them that has several sizes is what is compared.
+        sets: (things,) the first of them that has several sizes is what is compared; the last is all of a kind.
 
     Returns:
         The largest of the distances, 0 for what has no size; None where all are of one size.
     """
     sizes = [math.nan if o.size is None else bulk(o.size) for o in encoder.world.objects]
     logs = np.log([v if v > 0.0 else math.nan for v in sizes])
+    differ = [
+        float(np.ptp(logs[own])) if (own := among[: len(logs)] & np.isfinite(logs)).any() else 0.0 for among in sets
+    ]
     least = 2 if 0 in sides else 1  # of two none is of medium size
     for among in (*sets, encoder.perceived) if 0 in sides else sets:
         known = logs[among[: len(logs)] & np.isfinite(logs)]
-        if len(known) > least and np.ptp(known) > _SAME_SIZE:
+        if len(known) > least and np.ptp(known) > max(_SAME_SIZE, _LIKE_SIZES * differ[-1]):
             place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
             off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
             return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))
