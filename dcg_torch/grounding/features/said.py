@@ -13,7 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence, color_evidence
+from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
+from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.colors import color_scores
 from dcg_torch.names.evidence import evidence
 from dcg_torch.names.palette import named_rgb
