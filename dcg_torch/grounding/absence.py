@@ -64,7 +64,7 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     objects = encoder.world.objects
     if not judges_absence(encoder):
         return None
-    shown = bool(phrase.look) and any(o.rgb is not None and o.color is None for o in objects)
+    shown = bool(phrase.look) and any(o.rgb is not None for o in objects)
     if shown and (phrase.color is None or not _named(phrase.noun, objects)):
         return None
     if in_group(phrase) or phrase.noun in PLACE_WORDS:
