@@ -7,6 +7,7 @@ import functools
 import pytest
 
 from dcg_torch.evaluation.episodes import EpisodeObject
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
@@ -70,8 +71,8 @@ def _model() -> GroundingModel:
     return pretrained()
 
 
-def _meant(text: str, things: tuple[dict[str, object], ...], type_: str) -> list[str]:
-    """Numbers of the things meant, which hang side by side; the first is the leftmost."""
+def _ground(text: str, things: tuple[dict[str, object], ...], type_: str) -> Solution:
+    """Among things that hang side by side; the first is the leftmost. Their ids are their numbers."""
     places = [{"id": str(k), "type": type_, "position": [2.0, 1.0 - 0.5 * k, 1.2]} for k in range(len(things))]
     objects = [EpisodeObject.model_validate({**place, **own}) for place, own in zip(places, things, strict=True)]
     percepts = [
@@ -79,8 +80,11 @@ def _meant(text: str, things: tuple[dict[str, object], ...], type_: str) -> list
         for k, o in enumerate(objects)
     ]
     world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    found = _model().ground(default_parser().parse(text), world)
-    return [o.id for o in found.objects if not o.hypothetical]
+    return _model().ground(default_parser().parse(text), world)
+
+
+def _meant(text: str, things: tuple[dict[str, object], ...], type_: str) -> list[str]:
+    return [o.id for o in _ground(text, things, type_).objects if not o.hypothetical]
 
 
 @pytest.mark.parametrize("type_", ["face", "portrait", "person", "img"])
@@ -171,3 +175,15 @@ def test_words_for_people() -> None:
     assert min(log_odds(noun, "man") for noun in ("chap", "fellow", "bloke", "gentleman", "lad")) > 2.0
     assert min(log_odds(noun, "person") for noun in ("lady", "dude", "kid", "gal")) > 2.0
     assert max(log_odds("woman", "man"), log_odds("man", "woman"), log_odds("lady", "boy")) < 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("the old man with glasses, a beard and a hat", "2"),  # he is not old
+        ("young man with red hair, a hat and a beard", "2"),  # his hair is dark
+    ],
+)
+def test_of_words_of_which_one_fits_nobody_the_others_count(text: str, number: str) -> None:
+    ranked = _ground(text, MEN, "man").probabilities
+    assert max((p, i) for i, p in ranked.items() if i.isdecimal())[1] == number

@@ -15,15 +15,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.grounding.describing import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
 from dcg_torch.names.palette import lab, region
-from dcg_torch.names.vocabulary import CELL, PLACE_WORDS
+from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
@@ -40,8 +40,6 @@ _UNLIKE = (3.0, 1.6)
 _CONTRARY = (5.0, 1.5)
 """Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:
 who has misjudged one thing may have misjudged two."""
-_UNMARKED = 2.0
-"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 
@@ -77,7 +75,7 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     gap = _look_gap(phrase.color, objects) if shown else _color_gap(tables, encoder, phrase)
     odd = _excess(gap, *(_UNLIKE if shown else _ODD))
     if phrase.words:
-        contrary = np.array([_contradicted(phrase.words, o) for o in objects])
+        contrary = np.array([contradicted(phrase.words, o) for o in objects])
         odd = odd + _CONTRARY[0] * np.minimum(1.0, contrary) + _CONTRARY[1] * np.maximum(0.0, contrary - 1.0)
     return _RARE + float((strange + odd)[seen].min())
 
@@ -92,15 +90,6 @@ def less_for_many_types(encoder: WorldEncoder) -> float:
     if not unseen or not all(LOOKED_ROUND in o.attributes for o in unseen):
         return 0.0
     return min(0.0, math.log(_TYPES / len(unseen)))
-
-
-def _contradicted(words: Sequence[str], thing: Object) -> float:
-    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.startswith(CELL)]
-    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
-    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
-    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
-    return others + _UNMARKED * marks
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:

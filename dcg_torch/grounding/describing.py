@@ -16,9 +16,9 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import RANKING
+from dcg_torch.names.vocabulary import CELL, RANKING
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -41,6 +41,11 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
+_UNMARKED = 2.0
+"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_AGAIN = 2.0
+"""Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
+counts, and one that nobody fits does not make all alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -116,7 +121,7 @@ class Comparison:
     Attributes:
         among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
             as it says that there are: "the middle one of the five on the left".
-        log_size: (things,) log-factor of the size that it says.
+        log_size: (things,) log-factor of the size that it says, and of what contradicts a thing more than once.
         phrase: the phrase without the words that `log_size` has taken up.
     """
 
@@ -143,13 +148,14 @@ def comparison_set(
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    log_size = np.zeros(len(fit))
+    log_size = _contradictions(told, encoder)
+    fit, odds = fit + log_size, odds + log_size
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     if sizes:
         off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named, _of_kind(phrase, encoder, tables))
         if off is not None:
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
-            log_size = -_SIZED * off**2
+            log_size = log_size - _SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
     several, objects = picked_from(phrase), len(encoder.world.objects)
     if several is not None and several <= objects:
@@ -168,6 +174,13 @@ def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
+
+
+def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
+    if len(told) < 2:
+        return np.zeros(len(encoder.all))
+    return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -210,6 +223,15 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
     told = {word: set(attribute_evidence((word,), encoder.given)) for word in words}
     return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
+
+
+def contradicted(words: Sequence[str], thing: Object) -> float:
+    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
+    heard = [word for word in words if not word.startswith(CELL)]
+    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
+    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
+    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
+    return others + _UNMARKED * marks
 
 
 def highest(values: Floats, count: int) -> NDArray[np.int64]:
