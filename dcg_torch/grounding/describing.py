@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
@@ -71,9 +72,13 @@ def modifier_factor(
     number, several = encoder.number, _counted_landmark(tree)
     combos = list(itertools.product(*beams))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
-    asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
-    table = tables.placed(encoder, tree.phrase, landmarks, compared)
-    log_psi = table[tables.factor.correspondences.index(asserted)]
+    denied = NOT in tree.phrase.words
+    if tree.phrase.words[0] in SAME_AS:
+        log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
+    else:
+        table = tables.placed(encoder, tree.phrase, landmarks, compared)
+        asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
+        log_psi = table[tables.factor.correspondences.index(asserted)]
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
