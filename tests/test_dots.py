@@ -99,6 +99,34 @@ def test_stacks_have_a_height(text: str, ids: set[str]) -> None:
     assert _meant(text, percepts) == ids
 
 
+PAIRS = (  # x, y, colour
+    (1.0, 0.6, "gray"),
+    (1.1, 0.45, "light gray"),
+    (1.4, -0.5, "black"),
+    (1.9, -0.2, "gray"),
+    (2.1, -0.45, "gray"),
+    (2.2, 0.6, "black"),
+    (0.6, -0.7, "light gray"),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "numbers"),
+    [
+        ("the two dots close together", {"0", "1"}),
+        ("the two that almost touch", {"0", "1"}),
+        ("two gray dots next to each other", {"3", "4"}),
+        ("the pair of dots that are next to each other", {"0", "1"}),
+        ("the three dots close together", {"2", "3", "4"}),
+        ("pair of dots close together, the lighter of them", {"1"}),
+        ("do you see a dot left of the light gray dot at the top? that's the one", {"0"}),
+    ],
+)
+def test_what_stands_close_together(text: str, numbers: set[str]) -> None:
+    percepts = [Percept(str(k), "dot", gray, (x, y, 0.0), (0.1,) * 3) for k, (x, y, gray) in enumerate(PAIRS)]
+    assert _meant(text, percepts) == numbers
+
+
 @pytest.mark.parametrize("word", ["camera", "viewer"])
 def test_the_camera_is_where_the_scene_is_seen_from(word: str) -> None:
     percepts = [Percept(str(k), "cube", "red", (1.0 + k, 0.3 * k, 0.05)) for k in range(3)]

@@ -47,6 +47,15 @@ _UNMARKED = 2.0
 _AGAIN = 2.0
 """Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
 counts, and one that nobody fits does not make all alike."""
+_ALIKE = 3.0
+"""The same of those that stand together: both are of the name and the colour."""
+_EACH_OTHER = "each other"
+_PER_TIME, _LOOSE = 4.0, 6.0
+"""Nats that a thing loses for each time that its nearest is as far again as the two nearest of all, and the most."""
+_OTHER_GROUP = 0.7
+"""Nats that all but the closest lose: of two pairs that are about as close one is meant, not one of each."""
+_TOUCH = 0.05
+"""Units below which all distances are alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -73,7 +82,9 @@ def modifier_factor(
     combos = list(itertools.product(*beams))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
     denied = NOT in tree.phrase.words
-    if tree.phrase.words[0] in SAME_AS:
+    if is_mutual(tree):  # what is described says it, see `comparison_set`
+        log_psi = np.zeros((len(combos), len(encoder.all)))
+    elif tree.phrase.words[0] in SAME_AS:
         log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
     else:
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
@@ -162,6 +173,11 @@ def comparison_set(
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
             log_size = log_size - _SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
+    if any(is_mutual(m.tree) for m in modifiers):
+        alike = _described(fit, odds)
+        alike &= own >= own[alike].max(initial=-np.inf) - _ALIKE
+        close = _in_close_group(phrase.count or 2, alike, encoder)
+        log_size, fit, odds = log_size + close, fit + close, odds + close
     several, objects = picked_from(phrase), len(encoder.world.objects)
     if several is not None and several <= objects:
         found = np.zeros(len(fit), dtype=np.bool_)
@@ -179,6 +195,29 @@ def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
+
+
+def is_mutual(tree: ParseTree) -> bool:
+    """Is it a modifier of things that stand together: "next to each other"?"""
+    return any(_EACH_OTHER in child.phrase.words for child in tree.children) and NOT not in tree.phrase.words
+
+
+def _in_close_group(several: int, described: Bools, encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of how much farther apart a thing and others are than so many that stand closest together.
+
+    Args:
+        several: of how many things a group is.
+        described: (things,) those that may be in one.
+    """
+    solid = np.flatnonzero(described[: len(encoder.world.objects)])
+    found, place = np.zeros(len(described)), encoder.layout.position[solid]
+    if not 2 <= several < len(solid) or not np.isfinite(place).all():
+        return found
+    apart = np.linalg.norm(place[:, None] - place[None], axis=2)
+    near = np.sort(apart, axis=1)[:, several - 1]  # the first is the thing itself
+    found[solid] = -np.minimum(_LOOSE, _OTHER_GROUP + _PER_TIME * (near / max(near.min(), _TOUCH) - 1.0))
+    found[solid[np.argsort(apart[near.argmin()], kind="stable")[:several]]] = 0.0
+    return found
 
 
 def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
@@ -251,5 +290,7 @@ def highest(values: Floats, count: int) -> NDArray[np.int64]:
 
 
 def ranks(tree: ParseTree) -> bool:
-    """Is it a noun phrase with words that may rank?"""
-    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None
+    """Is it a noun phrase with words that may rank, or of things that stand together?"""
+    if tree.phrase.kind is not PhraseKind.NOUN:
+        return False
+    return ranking(tree.phrase) is not None or any(is_mutual(child) for child in tree.children)
