@@ -127,7 +127,7 @@ SYNONYMS = {
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
-    **{"high": "highest", "low": "lowest"},
+    **{"high": "highest", "low": "lowest", "farther": "farthest", "closer": "closest", "nearer": "closest"},
     **{"isolated": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
