@@ -20,9 +20,9 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, unheard_of
-from dcg_torch.names.vocabulary import CELL, PLACE_WORDS
+from dcg_torch.names.vocabulary import PLACE_WORDS, WORKED_OUT
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
@@ -88,7 +88,7 @@ def less_for_many_types(encoder: WorldEncoder) -> float:
 
 def _contradicted(words: Sequence[str], thing: Object) -> float:
     """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.startswith(CELL)]
+    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
     told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
     marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
     others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)

@@ -53,6 +53,23 @@ def about_it(noun: Item) -> bool:
     return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
 
 
+def is_context(noun: Item, own: Clause, before: Sequence[Clause]) -> bool:
+    """ "(The mirror above the sink,) there are other mirrors": more things of a name that one has been told of by."""
+    if not (exists(own) and noun.plural and noun.noun):
+        return False
+    named = (other for clause in before for other in _mentions([clause]))
+    return any(other.noun == noun.noun and not other.plural and other.definite for other in named)
+
+
+def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
+    """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
+    for clause in later:
+        denied = main_object(clause) if clause.negated and clause.refused is None else None
+        if denied is not None and denied.noun == noun.noun is not None and not (denied.color or denied.children):
+            return not denied.words
+    return False
+
+
 def one_of_the(one: Item) -> None:
     """ "The middle one of the three cubes": a cube."""
     for place in one.children:

@@ -27,14 +27,17 @@ class Mention:
 def choices(clauses: Sequence[Clause]) -> list[Mention]:
     """Every noun phrase that some clause is about, in the order of the command."""
     found: list[Mention] = []
-    for clause in clauses:
+    for n, clause in enumerate(clauses):
         if clause.refused is not None:
             continue
-        penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
+        taken_back = target is not None and references.denied_later(target, clauses[n + 1 :])
+        penalty = TARGETS["negated"] if clause.negated or taken_back else 0.0
         if target is not None:
             told = _is_told(target, clause, clauses) and bool(target.noun or any(m.noun.plural for m in found))
-            found.append(Mention(target, clause, _object_score(clause, target, told) + penalty))
+            score = TARGETS["context"] if references.is_context(target, clause, clauses[:n]) else None
+            score = _object_score(clause, target, told) if score is None else score
+            found.append(Mention(target, clause, score + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -61,8 +64,9 @@ def _object_score(clause: Clause, target: Item, told: bool) -> float:
     if told:
         return TARGETS["identified" if verb else "named_last"]
     if clause.statement or not verb or references.exists(clause):
-        another = references.exists(clause) and ("other" in target.words or references.about_it(target))
-        return TARGETS["another" if another else "statement"]
+        if references.exists(clause) and ("other" in target.words or references.about_it(target)):
+            return TARGETS["another"]
+        return TARGETS["statement"]
     return next((TARGETS[name] for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), TARGETS["other"])
 
 
@@ -95,6 +99,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     references.describe_later(chosen.noun, chosen.clause, clauses)
     references.one_of_the(chosen.noun)
     references.one_of_several(chosen.noun, clauses)
+    for below in [node for child in chosen.noun.children for node in child.walk()]:
+        if below.is_a("unnamed"):
+            references.one_of_several(below, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()

@@ -37,14 +37,20 @@ def seen_by_speaker(world: WorldModel) -> WorldModel | None:
     return _turned(world, viewer)
 
 
-def seen_facing(world: WorldModel, thing: Object) -> WorldModel | None:
-    """The world as who stands in the middle of it and faces a thing sees it; None where that can't be told."""
+def seen_facing(world: WorldModel, thing: Object, *, away: bool = False) -> WorldModel | None:
+    """The world as who stands in the middle of it and faces a thing sees it; None where that can't be told.
+
+    Args:
+        away: has the viewer the back to the thing?
+    """
     middle = _middle(world)
     if middle is None or thing.position is None:
         return None
     x, y = middle if world.robot is None or not _is_among(world.robot, world) else (world.robot.x, world.robot.y)
     ahead = (thing.position[0] - x, thing.position[1] - y)
-    return None if math.hypot(*ahead) < world.unit / 2.0 else _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0])))
+    if math.hypot(*ahead) < world.unit / 2.0:
+        return None
+    return _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0]) + (math.pi if away else 0.0)))
 
 
 def _middle(world: WorldModel) -> tuple[float, float] | None:
