@@ -154,12 +154,25 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
     ]
     weights = [[frame + r.log_weight for r in readings] for _, frame in searches]
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
+    solution = _several_there(solution)
     if len(searches) == 1:
         return solution
     told = [
         np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
     ]
     return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
+
+
+def _several_there(solution: Solution) -> Solution:
+    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
+    best, other = solution.best, solution.runner_up
+    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
+        return solution
+    noun = solution.noun
+    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
+    if noun is None or not noun.plural or unseen >= 0.5:
+        return solution
+    return replace(solution, best=other, runner_up=best)
 
 
 def _fit(solution: Solution) -> float:

@@ -9,6 +9,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.names.evidence import FAR_APART, steps_apart
 
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
@@ -108,6 +109,10 @@ def correct(clauses: Sequence[Clause]) -> None:
             continue
         old = said[-1]
         old.refused = TAKEN_BACK
+        if new and not (clause.verb or clause.places) and (place := _repaired(new, old)) is not None:
+            place.children[-1] = new
+            clause.verb, clause.objects, clause.places = old.verb, old.objects, old.places
+            continue
         if new and new.is_a("where"):  # "... no, on the right"
             clause.objects, clause.places, new = [], new.children, None
         goal = old.places[0] if old.places and main_object(old) is None else None
@@ -123,6 +128,23 @@ def correct(clauses: Sequence[Clause]) -> None:
                 clause.places = [replace(goal, children=[new]), *clause.places]
             else:
                 clause.places = clause.places or old.places
+
+
+def _repaired(new: Item, old: Clause) -> Item | None:
+    """ "The pillow on the bed, no, the couch": the place whose landmark is said anew, by what is of a kind with it."""
+    was = main_object(old)
+    places = [*(was.children if was else ()), *old.places]
+    if not places or new.noun is None or new.words or new.color or len(places[-1].children) != 1:
+        return None
+    landmark = places[-1].children[0].noun
+    if landmark is None or landmark in SETS["places"]:
+        return None
+    thing = FAR_APART if was is None or was.noun is None else steps_apart(new.noun, was.noun)
+    return places[-1] if steps_apart(new.noun, landmark) + 1 < min(thing, _AKIN) else None
+
+
+_AKIN = 6
+"""Steps from which nouns are hardly said for one another."""
 
 
 def _replace_place(clause: Clause, old: Clause, was: Item | None) -> None:

@@ -143,6 +143,9 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     noun = chosen.noun
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
         earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
+        fronted = [c for c in earlier if c.clause.verb is None and c.clause.sentence == chosen.clause.sentence]
+        if fronted and fronted[-1].place is None and chosen.place is None:
+            return fronted[-1]  # "(Start at the church.) The tree closest to it, mark that."
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         if handled and chosen.place is None:
             return handled[-1]

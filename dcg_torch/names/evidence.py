@@ -194,6 +194,28 @@ def _relation(noun: str, name: str) -> str:
     return "sibling" if said.direct & named.direct else "apart"
 
 
+@functools.lru_cache(maxsize=8192)
+def steps_apart(one: str, other: str) -> int:
+    """How many steps two nouns are apart over the nearest thing that both are kinds of; `FAR_APART` for strangers.
+
+    >>> steps_apart("desk", "table"), steps_apart("couch", "bed"), steps_apart("couch", "pillow") > 4
+    (0, 4, True)
+    """
+    if _share_a_name(_name(one).text, _name(other).text) or one == other:
+        return 0
+    table, least = nouns(), FAR_APART
+    for said in table.senses(_name(one).text, _MAIN) or table.senses(_name(one).head, _MAIN):
+        above = table.ancestors(said, _UP)
+        for named in table.senses(_name(other).text, _MAIN) or table.senses(_name(other).head, _MAIN):
+            common = (above[s] + steps for s, steps in table.ancestors(named, _UP).items() if s in above)
+            least = min(least, min(common, default=FAR_APART))
+    return least
+
+
+_MAIN, _UP = 2, 5
+FAR_APART = 12
+
+
 def is_generic(noun: str) -> bool:
     """May it be said of whatever there is: "thing", "piece"?"""
     return _name(noun).text in _everyday().generic
