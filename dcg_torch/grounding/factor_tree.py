@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
-from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
+from dcg_torch.names.vocabulary import ANYTHING, INSIDE, LATERAL, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
@@ -73,22 +73,30 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
 
 
 def _by_height(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """Of things of one kind that hang or stand at quite other heights "the lower shelf" is the lowest."""
+    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest."""
     children = tuple(_by_height(child, world) for child in tree.children)
     phrase = tree.phrase
-    named = phrase.kind is PhraseKind.NOUN and phrase.noun and phrase.noun not in PLACE_WORDS
-    if named and not _HEIGHTS.keys().isdisjoint(phrase.words) and not any("left" in w or "right" in w for w in phrase.words):
-        kind = [o for o in world.objects if o.position is not None and o.type and names_one_of(phrase.noun or "", (o.type,))]
-        heights = [o.position[2] for o in kind if o.position is not None]
-        if len(heights) > 1 and max(heights) - min(heights) >= _APART:
-            phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
+    if not _HEIGHTS.keys().isdisjoint(phrase.words) and _stand_apart_in_height(phrase, world):
+        phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
     if phrase is tree.phrase and all(map(operator.is_, children, tree.children)):
         return tree
     return ParseTree(phrase, children)
 
 
+def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
+    noun = phrase.noun
+    if noun is None or noun in PLACE_WORDS or len(world.classes) < _CLASSES or {*phrase.words} & LATERAL:
+        return False
+    heights = [o.position[2] for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    return len(heights) > 1 and max(heights) - min(heights) >= _APART
+
+
+_CLASSES = 4
+"""Fewer classes make no room: on a board the bottom block is the nearest."""
 _APART = 0.3
-_HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest") | dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
+"""Metres by which the heights of some things of one name differ at least."""
+_HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
+_HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
 
 @functools.lru_cache(maxsize=1024)

@@ -23,7 +23,7 @@ from dcg_torch.grounding.factor_tree import (
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
-from dcg_torch.grounding.rooms import by_rooms, led_into_rooms
+from dcg_torch.grounding.rooms import by_rooms, is_only_a_room, led_into_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -80,9 +80,11 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
 
 
 def _speaks_of_what_is_not_there(tree: ParseTree, world: WorldModel) -> bool:
-    noun = next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
     types = [t for t in world.classes if not t.startswith(OPAQUE)]
-    return bool(noun and noun.noun and types) and not names_one_of(noun.noun or "", types) if noun else False
+    if noun is None or not types:
+        return False
+    return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

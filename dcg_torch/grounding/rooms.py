@@ -45,7 +45,7 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
     """
     types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
     nouns = [_first_noun(tree) for tree in trees]
-    rooms = [None if noun is None or _named_there(noun, types) else _room(noun) for noun in nouns]
+    rooms = [_room(noun) if noun and is_only_a_room(noun.noun or "", types) else None for noun in nouns]
     if all(room is None for room in rooms) or all(rooms):
         return [(tree, False) for tree in trees]
     speaking = _Speaking(_values(world), types)
@@ -62,8 +62,9 @@ def _first_noun(tree: ParseTree) -> Phrase | None:
     return next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
 
-def _named_there(phrase: Phrase, types: Collection[str]) -> bool:
-    return any(log_odds(phrase.noun or "", type_) > _NAMED for type_ in types)
+def is_only_a_room(noun: str, types: Collection[str]) -> bool:
+    """Does a noun name a room, and no class that is there?"""
+    return room_named(noun) is not None and not any(log_odds(noun, type_) > _NAMED for type_ in types)
 
 
 def _is_room(word: str) -> bool:
@@ -120,7 +121,7 @@ class _Speaking:
     def moved(
         self, children: Sequence[ParseTree], *, within: Collection[str] = within_words()
     ) -> tuple[list[str], list[ParseTree]]:
-        """The words for the rooms that places name, and what is left; what was said of the room is said of the thing."""
+        """The words for the rooms that places name, and what is left: what was said of the room is of the thing."""
         words: list[str] = []
         left: list[ParseTree] = []
         for child in children:
@@ -140,7 +141,7 @@ class _Speaking:
         if room.kind is PhraseKind.NOUN and _is_value(room):
             return next(filter(_is_room, room.words))
         name = _room(room)
-        if name is None or _named_there(room, self.types):
+        if name is None or not is_only_a_room(room.noun or "", self.types):
             return None
         if not self.values:
             return f"{LIKELY_ROOM}{name}"

@@ -16,7 +16,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
     told = SETS["be"] | {""}
     for clause in clauses:
-        there = exists(clause)
+        there = exists(clause) or tells_of_neighbour(clause)
         if clause is own or not clause.objects or clause.refused == TAKEN_BACK or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
@@ -26,7 +26,8 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
             noun.children.append(more.behind("with"))
         elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
             same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
-            if same and "other" not in more.words:
+            one_of_them = noun.plural and not more.plural and more.text not in SETS["stands_for"]
+            if same and not one_of_them and "other" not in more.words:
                 noun.take_up(more)
 
 
@@ -42,6 +43,24 @@ def describe_landmarks(clauses: Sequence[Clause]) -> None:
         if again and all(top.noun != more.noun for top in tops):
             again[-1].take_up(more)
             clause.objects = []
+
+
+def list_places(clauses: Sequence[Clause]) -> None:
+    """ "Dirty plate. Dining table.": names without articles, of which the first is by the others."""
+    bare = [clause.objects[0] for clause in clauses if len(clause.objects) == 1 and not (clause.verb or clause.places)]
+    if len(bare) < max(2, len(clauses)) or any(noun.determined or noun.plural or noun.pronoun for noun in bare):
+        return
+    if len({noun.noun for noun in bare}) < len(bare) or not all(noun.is_a("named") for noun in bare):
+        return
+    bare[0].children += [noun.behind("near") for noun in bare[1:]]
+    for clause in clauses[1:]:
+        clause.objects = []
+
+
+def tells_of_neighbour(clause: Clause) -> bool:
+    """ "Beside it is a stand": a clause that says what stands by what was named before."""
+    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else None
+    return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
 
 
 def exists(clause: Clause) -> bool:
@@ -65,7 +84,7 @@ def is_context(noun: Item, own: Clause, before: Sequence[Clause]) -> bool:
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
     for clause in later:
-        denied = main_object(clause) if clause.negated and clause.refused is None else None
+        denied = main_object(clause) if clause.negated else None
         if denied is not None and denied.noun == noun.noun is not None and not (denied.color or denied.children):
             return not denied.words
     return False
@@ -134,10 +153,14 @@ def _repaired(new: Item, old: Clause) -> Item | None:
     """ "The pillow on the bed, no, the couch": the place whose landmark is said anew, by what is of a kind with it."""
     was = main_object(old)
     places = [*(was.children if was else ()), *old.places]
-    if not places or new.noun is None or new.words or new.color or len(places[-1].children) != 1:
+    if not places or new.noun is None or len(places[-1].children) != 1:
         return None
     landmark = places[-1].children[0].noun
     if landmark is None or landmark in SETS["places"]:
+        return None
+    if new.noun == landmark:
+        return places[-1] if was is None or was.noun != landmark else None
+    if new.words or new.color:
         return None
     thing = FAR_APART if was is None or was.noun is None else steps_apart(new.noun, was.noun)
     return places[-1] if steps_apart(new.noun, landmark) + 1 < min(thing, _AKIN) else None

@@ -64,7 +64,8 @@ def _object_score(clause: Clause, target: Item, told: bool) -> float:
     if told:
         return TARGETS["identified" if verb else "named_last"]
     if clause.statement or not verb or references.exists(clause):
-        if references.exists(clause) and ("other" in target.words or references.about_it(target)):
+        there = references.exists(clause) and ("other" in target.words or references.about_it(target))
+        if there or references.tells_of_neighbour(clause):
             return TARGETS["another"]
         return TARGETS["statement"]
     return next((TARGETS[name] for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), TARGETS["other"])
@@ -83,6 +84,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
     references.describe_landmarks(clauses)
+    references.list_places(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -142,7 +144,8 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
     noun = chosen.noun
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
-        earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
+        before = found[: found.index(chosen)]
+        earlier = [choice for choice in before if not (choice.noun.pronoun and choice.noun.is_a("empty"))]
         fronted = [c for c in earlier if c.clause.verb is None and c.clause.sentence == chosen.clause.sentence]
         if fronted and fronted[-1].place is None and chosen.place is None:
             return fronted[-1]  # "(Start at the church.) The tree closest to it, mark that."
