@@ -64,6 +64,8 @@ def modifier_factor(
     asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     log_psi = table[tables.factor.correspondences.index(asserted)]
+    if tree.phrase.plural and asserted is Correspondence.ACTIVE and tree.phrase.words[0] in _AROUND:
+        log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -74,6 +76,30 @@ def modifier_factor(
         scores = scores - _APART * _spread(combos, encoder)
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
+
+    Where extents are known, by the gap between the two; the rest as it was.
+    """
+    where = encoder.layout
+    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+        return log_psi
+    n = len(where.bodies.half)
+    at, half = where.position[:n, :2], where.bodies.half
+    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
+    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
+    found = log_psi.copy()
+    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_REACH, _VAGUE = 0.6, 0.12
+"""Units of a gap up to which things stand around another, and how vague that is."""
 
 
 def _spread(combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder) -> Floats:

@@ -23,6 +23,7 @@ from dcg_torch.grounding.factor_tree import (
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
+from dcg_torch.grounding.room_corners import by_corners
 from dcg_torch.grounding.rooms import by_rooms, is_only_a_room, led_into_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
@@ -69,7 +70,7 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
-    led = led_into_rooms([by_rooms(tree, world) for tree, _, _ in trees], world)
+    led = led_into_rooms([by_corners(by_rooms(tree, world), world) for tree, _, _ in trees], world)
     trees = [
         (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
         for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)

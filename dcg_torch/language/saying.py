@@ -162,7 +162,7 @@ class NounPhrases:
             return
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
-        if is_state(predicate):
+        if noun.noun is None and is_state(predicate):
             self.say(noun, (str(predicate.noun),))
         elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
             noun.noun, noun.pronoun = predicate.noun, False
