@@ -160,13 +160,11 @@ def _repaired(new: Item, old: Clause) -> Item | None:
         return None
     if new.noun == landmark:
         return places[-1] if was is None or was.noun != landmark else None
-    if new.words or new.color:
-        return None
     thing = FAR_APART if was is None or was.noun is None else steps_apart(new.noun, was.noun)
     return places[-1] if steps_apart(new.noun, landmark) + 1 < min(thing, _AKIN) else None
 
 
-_AKIN = 6
+_AKIN = 8
 """Steps from which nouns are hardly said for one another."""
 
 

@@ -165,10 +165,13 @@ def _verb_of(word: str) -> str | None:
 def _is_for(base: str, name: str) -> bool:
     """Is a thing of some name for what a verb says: has it, or a kind that it is of, a name with the verb in it?"""
     listed = next((of for verb, of in _everyday().purposes.items() if base in (verb, verb.removesuffix("e"))), ())
-    if any(_relation(one, part) in _MUCH_THE_SAME for one in listed for part in {name, _name(name).head}):
-        return True
-    table = nouns()
+    table, own = nouns(), {name, _name(name).head}
     senses = table.senses(name, _MAIN) or table.senses(_name(name).head, _MAIN)
+    kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
+    if any(_share_a_name(one, part) or one == part for one in listed for part in own):
+        return True
+    if any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
+        return True
     above = {kind for sense in senses for kind in table.ancestors(sense, _UP - 2)}
     told = {part for kind in above for lemma in table.names(kind) for part in lemma.split(" ")} | {*name.split(" ")}
     doubled = base + base[-1]
@@ -177,7 +180,6 @@ def _is_for(base: str, name: str) -> bool:
 
 
 _SHORTEST = 3
-_MUCH_THE_SAME = frozenset({"everyday", "same", "class is kind"})
 
 
 def _form(said: _Name, named: _Name) -> str:
