@@ -234,7 +234,7 @@ def test_one_of_several_that_were_named_before(parser: Parser, text: str, prepos
     ("text", "word"),
     [
         ("the bigger of the two cubes", "bigger"), ("the largest of the cubes", "largest"),
-        ("the smallest of all the cubes", "smallest"), ("the middle of the three cubes", "middle"),
+        ("the smallest of all the cubes", "smallest"), ("the middle of the two cubes", "middle"),
         ("the third of the five cubes", "third"), ("the last of those cubes", "last"),
     ],
 )  # fmt: skip

@@ -6,6 +6,8 @@ thing that stays behind least decides. Where it stands among others and to landm
 exact about places than about names, and of a thing that is not there nobody knows the place.
 
     log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary )
+
+What exceeds 0 of it counts less.
 """
 
 from __future__ import annotations
@@ -21,12 +23,15 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence
-from dcg_torch.names.evidence import is_generic, unheard_of
+from dcg_torch.names.evidence import is_generic, may_be_meant_for, unheard_of
 from dcg_torch.names.vocabulary import PLACE_WORDS, WORKED_OUT
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
+_DOUBT = 0.4
+"""Of what is likelier absent than there so much counts: people call what is there by odd names about as often as they
+speak of what is not there."""
 _STRANGE = (6.0, 2.5)
 """From where on a noun's gap counts, and how much each nat: below lies what people call a thing that they know well."""
 _SLIP = 8.0
@@ -39,6 +44,8 @@ _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+_LETTER = 7.7
+"""The same where the noun is a word, and one letter makes it a name of what is there: "bell" where there is a ball."""
 
 _TYPES = 4
 """Hypothetical objects of the hand-made examples, from which their weights come: of three types, and of none known."""
@@ -71,7 +78,8 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
     if phrase.words:
         odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
-    return _RARE + float((strange + odd)[seen].min())
+    found = _RARE + float((strange + odd)[seen].min())
+    return found if found < 0.0 else _DOUBT * found
 
 
 def less_for_many_types(encoder: WorldEncoder) -> float:
@@ -121,6 +129,8 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         return gap
     if unheard_of(phrase.noun):
         gap = np.minimum(gap, _NEW)
+    slips = [o.type is not None and may_be_meant_for(phrase.noun, o.type) for o in objects]
+    gap = np.where(slips, np.minimum(gap, _LETTER), gap)
     named = np.array([o.type is not None and not o.type.startswith(OPAQUE) for o in objects])
     return np.where(named, gap, 0.0)
 

@@ -15,7 +15,7 @@ from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import RANKING
+from dcg_torch.names.vocabulary import LATERAL, RANKING
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -36,6 +36,8 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
+_BEYOND = 1e6
+"""More than any coordinate: what is not described as well comes after all that is."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -70,10 +72,11 @@ def modifier_factor(
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = [tuple(beams[0][k] for k in of) for of in chosen]
+        landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
     if of_each or len(beams) > 1:
-        scores = scores - _APART * _spread(combos, encoder)
+        scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
 
@@ -102,12 +105,16 @@ _REACH, _VAGUE = 0.6, 0.12
 """Units of a gap up to which things stand around another, and how vague that is."""
 
 
-def _spread(combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units."""
-    number, place = encoder.number, encoder.layout.position[:, :2]
-    at = np.array([[place[number[h.child.grounding.object.id]] for h in combo] for combo in combos])
+def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
+    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
+
+    Args:
+        landmarks: (combos, k) numbers of things.
+        place: (things, 2).
+    """
+    at, ordered = place[landmarks], np.sort(landmarks, axis=1)
     apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
-    once = np.array([len({h.child.grounding.object.id for h in combo}) < len(combo) for combo in combos])
+    once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
     apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
     near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
     return near
@@ -174,12 +181,28 @@ def comparison_set(
     several, objects = picked_from(phrase), len(encoder.world.objects)
     if several is not None and several <= objects:
         found = np.zeros(len(fit), dtype=np.bool_)
-        found[highest(fit[:objects], several)] = True
+        found[highest(_along_a_side(fit, modifiers, encoder)[:objects], several)] = True
         return Comparison(found, log_size, phrase)
     described = _described(fit, odds)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats:
+    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
+
+    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others.
+    """
+    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if len(m.tree.children) == 1]
+    sides = [(m, side) for m, side in sided if side in LATERAL and NOT not in m.tree.phrase.words]
+    if len(sides) != 1:
+        return fit
+    modifier, side = sides[0]
+    rest = fit - modifier.log_psi
+    y = encoder.layout.position[:, 1]
+    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
+    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:

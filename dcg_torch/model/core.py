@@ -23,7 +23,7 @@ from dcg_torch.grounding.grids import with_cells
 from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
-from dcg_torch.grounding.room_corners import with_corners
+from dcg_torch.grounding.room_parts import with_corners
 from dcg_torch.grounding.rooms import with_rooms
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand

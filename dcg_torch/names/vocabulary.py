@@ -86,6 +86,8 @@ INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the
 """Prepositions by which a thing is one of a group."""
 RANKING = frozenset({"closest to", "farthest from", "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
+WITHIN = "within"
+"""What "on" and "to" a side say of things that are ranked there: they are in that part of the scene."""
 ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
     **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
@@ -156,3 +158,8 @@ LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""
+
+
+def is_superlative(word: str) -> bool:
+    """Does a word pick the end of an order: "nearest", "leftmost", "middle"?"""
+    return word.endswith(("est", "most")) or word == "middle"

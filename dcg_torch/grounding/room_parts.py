@@ -1,4 +1,4 @@
-"""The corners of a room: "the trash can that isn't in the corner", "the corner desk".
+"""Parts of a room: "the trash can that isn't in the corner", "the corner desk", "the lower shelf".
 
 Which corner is not said, and a thing in any of them is meant. In a room that is no rank: nothing is the nearest to a
 corner. So a noun phrase gets a word ("spot: corner"), which is compared with where each thing stands (`with_corners`).
@@ -13,7 +13,7 @@ import numpy as np
 
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
-from dcg_torch.names.vocabulary import SPOT
+from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -24,6 +24,28 @@ _CLASSES, _THINGS, _WIDE = 4, 10, 2.0
 """Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
+_APART = 0.3
+"""Metres by which the heights of some things of one name differ at least."""
+_HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
+_HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
+
+
+def by_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest."""
+    if not any(_HEIGHTS.keys() & {*node.phrase.words} for node in tree.walk()):
+        return tree
+    phrase, children = tree.phrase, tuple(by_heights(child, world) for child in tree.children)
+    if _stand_apart_in_height(phrase, world):
+        phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
+    return ParseTree(phrase, children)
+
+
+def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
+    noun = phrase.noun
+    if noun is None or noun in PLACE_WORDS or len(world.classes) < _CLASSES or {*phrase.words} & LATERAL:
+        return False
+    heights = [o.position[2] for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    return len(heights) > 1 and max(heights) - min(heights) >= _APART
 
 
 def by_corners(tree: ParseTree, world: WorldModel) -> ParseTree:
