@@ -17,9 +17,9 @@ from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shades_among, so_many
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import CELL, RANKING, SIDED, TOGETHER, WITHIN, counted
+from dcg_torch.names.vocabulary import RANKING, SIDED, TOGETHER, WITHIN, WORKED_OUT, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
 
@@ -81,6 +81,8 @@ def modifier_factor(
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
         asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
         log_psi = table[tables.factor.correspondences.index(asserted)]
+        if tree.phrase.plural and not denied and tree.phrase.words[0] in _AROUND:
+            log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -92,6 +94,30 @@ def modifier_factor(
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
+
+    Where extents are known, by the gap between the two; the rest as it was.
+    """
+    where = encoder.layout
+    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+        return log_psi
+    n = len(where.bodies.half)
+    at, half = where.position[:n, :2], where.bodies.half
+    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
+    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
+    found = log_psi.copy()
+    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_REACH, _VAGUE = 0.6, 0.12
+"""Units of a gap up to which things stand around another, and how vague that is."""
 
 
 def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
@@ -250,7 +276,7 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
 
 def contradicted(words: Sequence[str], thing: Object) -> float:
     """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.startswith(CELL)]
+    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
     told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
     marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
     others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)

@@ -232,6 +232,10 @@ def _is_all(place: ParseTree) -> bool:
     return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 
 
+_NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
+"""What is in none of the corners is near none: it is not merely no nearest one."""
+
+
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
@@ -258,8 +262,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             phrase = replace(phrase, noun="corner", words=corner)
         elif len(sides) < len(phrase.words) and inside:
             name, phrase = NEAREST, replace(phrase, words=sides)
-    if phrase.noun in ("corner", "middle", "center") and inside and not landmark.children:
-        name = NEAREST
+    if phrase.noun in ("corner", "middle", "center") and not landmark.children:
+        name = NEAREST if inside else _NOT_AT.get(name, name)
     name = SAME_RELATION.get(name, name)
     like = (LIKE_RELATION[name],) if name in LIKE_RELATION else ()
     words = (name, *like, *tree.phrase.words[1:])

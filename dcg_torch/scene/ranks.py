@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dcg_torch.names.vocabulary import CELL, MIDDLE_LINE
+from dcg_torch.names.vocabulary import MIDDLE_LINE, WORKED_OUT
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
@@ -67,7 +67,7 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
 def _state_names(
     attributes: frozenset[str], code: int, around: tuple[int, ...] | None, colors: tuple[str, ...]
 ) -> tuple[str, ...]:
-    names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(CELL)]
+    names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(WORKED_OUT)]
     if code:
         code -= 24
         names += [
