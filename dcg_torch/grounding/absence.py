@@ -6,6 +6,8 @@ thing that stays behind least decides. Where it stands among others and to landm
 exact about places than about names, and of a thing that is not there nobody knows the place.
 
     log-odds(not there) = rare + min over things ( strange(noun's gap) + odd(colour's gap) + contrary )
+
+What exceeds 0 of it counts less.
 """
 
 from __future__ import annotations
@@ -21,7 +23,7 @@ from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.evidence import is_generic, unheard_of
+from dcg_torch.names.evidence import is_generic, may_be_meant_for, unheard_of
 from dcg_torch.names.palette import lab, region
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
@@ -29,6 +31,9 @@ from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
+_DOUBT = 0.4
+"""Of what is likelier absent than there so much counts: people call what is there by odd names about as often as they
+speak of what is not there."""
 _STRANGE = (6.0, 2.5)
 """From where on a noun's gap counts, and how much each nat: below lies what people call a thing that they know well."""
 _SLIP = 8.0
@@ -42,6 +47,8 @@ _CONTRARY = (5.0, 1.5)
 who has misjudged one thing may have misjudged two."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+_LETTER = 7.7
+"""The same where the noun is a word, and one letter makes it a name of what is there: "bell" where there is a ball."""
 
 _TYPES = 4
 """Hypothetical objects of the hand-made examples, from which their weights come: of three types, and of none known."""
@@ -77,7 +84,8 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     if phrase.words:
         contrary = np.array([contradicted(phrase.words, o) for o in objects])
         odd = odd + _CONTRARY[0] * np.minimum(1.0, contrary) + _CONTRARY[1] * np.maximum(0.0, contrary - 1.0)
-    return _RARE + float((strange + odd)[seen].min())
+    found = _RARE + float((strange + odd)[seen].min())
+    return found if found < 0.0 else _DOUBT * found
 
 
 def less_for_many_types(encoder: WorldEncoder) -> float:
@@ -118,6 +126,8 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         return gap
     if unheard_of(phrase.noun):
         gap = np.minimum(gap, _NEW)
+    slips = [o.type is not None and may_be_meant_for(phrase.noun, o.type) for o in objects]
+    gap = np.where(slips, np.minimum(gap, _LETTER), gap)
     named = np.array([o.type is not None and not o.type.startswith(OPAQUE) for o in objects])
     return np.where(named, gap, 0.0)
 

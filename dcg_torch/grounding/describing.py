@@ -16,8 +16,9 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.grounding.together import closest_together
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import CELL, RANKING
+from dcg_torch.names.vocabulary import CELL, LATERAL, RANKING, SIDED, TOGETHER, WITHIN, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
 
@@ -47,15 +48,10 @@ _UNMARKED = 2.0
 _AGAIN = 2.0
 """Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
 counts, and one that nobody fits does not make all alike."""
-_ALIKE = 3.0
-"""The same of those that stand together: both are of the name and the colour."""
-_EACH_OTHER = "each other"
-_PER_TIME, _LOOSE = 4.0, 6.0
-"""Nats that a thing loses for each time that its nearest is as far again as the two nearest of all, and the most."""
-_OTHER_GROUP = 0.7
-"""Nats that all but the closest lose: of two pairs that are about as close one is meant, not one of each."""
-_TOUCH = 0.05
-"""Units below which all distances are alike."""
+_BEYOND = 1e6
+"""More than any coordinate: what is not described as well comes after all that is."""
+_ALIKE = 0.7
+"""Nats by which things differ that are described alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -82,9 +78,7 @@ def modifier_factor(
     combos = list(itertools.product(*beams))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
     denied = NOT in tree.phrase.words
-    if is_mutual(tree):  # what is described says it, see `comparison_set`
-        log_psi = np.zeros((len(combos), len(encoder.all)))
-    elif tree.phrase.words[0] in SAME_AS:
+    if tree.phrase.words[0] in SAME_AS:
         log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
     else:
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
@@ -94,20 +88,25 @@ def modifier_factor(
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = [tuple(beams[0][k] for k in of) for of in chosen]
+        landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
     if of_each or len(beams) > 1:
-        scores = scores - _APART * _spread(combos, encoder)
+        scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
 
 
-def _spread(combos: Sequence[tuple[Hypothesis, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units."""
-    number, place = encoder.number, encoder.layout.position[:, :2]
-    at = np.array([[place[number[h.child.grounding.object.id]] for h in combo] for combo in combos])
+def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
+    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
+
+    Args:
+        landmarks: (combos, k) numbers of things.
+        place: (things, 2).
+    """
+    at, ordered = place[landmarks], np.sort(landmarks, axis=1)
     apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
-    once = np.array([len({h.child.grounding.object.id for h in combo}) < len(combo) for combo in combos])
+    once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
     apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
     near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
     return near
@@ -125,6 +124,11 @@ def ranks_from(tree: ParseTree) -> bool:
     return name in RANKING or name.partition(" ")[2] in RANKING
 
 
+def picks_a_side(tree: ParseTree) -> bool:
+    """Is it a modifier that picks by a side: "(of the two cubes) the one on the left"?"""
+    return tree.phrase.words[0] != WITHIN and len(tree.children) == 1 and tree.children[0].phrase.noun in SIDED
+
+
 def is_to_a_place(tree: ParseTree) -> bool:
     """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
     return "to a thing" not in tree.phrase.context
@@ -137,7 +141,8 @@ class Comparison:
     Attributes:
         among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
             as it says that there are: "the middle one of the five on the left".
-        log_size: (things,) log-factor of the size that it says, and of what contradicts a thing more than once.
+        log_size: (things,) log-factor of the size that it says, of standing close together, and of what contradicts a
+            thing more than once.
         phrase: the phrase without the words that `log_size` has taken up.
     """
 
@@ -173,16 +178,12 @@ def comparison_set(
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
             log_size = log_size - _SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
-    if any(is_mutual(m.tree) for m in modifiers):
-        alike = _described(fit, odds)
-        alike &= own >= own[alike].max(initial=-np.inf) - _ALIKE
-        close = _in_close_group(phrase.count or 2, alike, encoder)
-        log_size, fit, odds = log_size + close, fit + close, odds + close
-    several, objects = picked_from(phrase), len(encoder.world.objects)
-    if several is not None and several <= objects:
-        found = np.zeros(len(fit), dtype=np.bool_)
-        found[highest(fit[:objects], several)] = True
-        return Comparison(found, log_size, phrase)
+    several = counted(phrase.words, TOGETHER)
+    close = several is not None
+    several = several or picked_from(phrase)
+    among = _so_many(several, own if close else fit, fit, modifiers, encoder, close) if several else None
+    if among is not None:
+        return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     described = _described(fit, odds, _GROUP_IN_THE_SET if in_group(phrase) else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
@@ -197,34 +198,55 @@ def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
 
 
-def is_mutual(tree: ParseTree) -> bool:
-    """Is it a modifier of things that stand together: "next to each other"?"""
-    return any(_EACH_OTHER in child.phrase.words for child in tree.children) and NOT not in tree.phrase.words
-
-
-def _in_close_group(several: int, described: Bools, encoder: WorldEncoder) -> Floats:
-    """(things,) log-factor of how much farther apart a thing and others are than so many that stand closest together.
-
-    Args:
-        several: of how many things a group is.
-        described: (things,) those that may be in one.
-    """
-    solid = np.flatnonzero(described[: len(encoder.world.objects)])
-    found, place = np.zeros(len(described)), encoder.layout.position[solid]
-    if not 2 <= several < len(solid) or not np.isfinite(place).all():
-        return found
-    apart = np.linalg.norm(place[:, None] - place[None], axis=2)
-    near = np.sort(apart, axis=1)[:, several - 1]  # the first is the thing itself
-    found[solid] = -np.minimum(_LOOSE, _OTHER_GROUP + _PER_TIME * (near / max(near.min(), _TOUCH) - 1.0))
-    found[solid[np.argsort(apart[near.argmin()], kind="stable")[:several]]] = 0.0
-    return found
-
-
 def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
     """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
     if len(told) < 2:
         return np.zeros(len(encoder.all))
     return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
+
+
+def _so_many(
+    several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
+) -> tuple[Bools, Floats] | None:
+    """The so many things that a phrase speaks of, and the log-factor of being one of those that stand together.
+
+    Where more are described alike, or they are said to be `close` together, they are those that stand closest together.
+    None where there are not so many.
+    """
+    objects = len(encoder.world.objects)
+    position = encoder.layout.position
+    there = np.isfinite(position[:objects]).all(axis=1) & np.isfinite(own[:objects])
+    if several > there.sum():
+        return None
+    found = np.zeros(len(fit), dtype=np.bool_)
+    sided = None if close else _along_a_side(fit, modifiers, encoder)
+    values = np.where(there, (own if sided is None else sided)[:objects], -np.inf)
+    first = highest(values, several + 1)
+    last = float(values[first[several - 1]])
+    tied = len(first) > several and last - values[first[several]] < _ALIKE
+    if sided is not None or not (close or tied):
+        found[first[:several]] = True
+        return found, np.zeros(len(fit))
+    alike = np.zeros(len(fit), dtype=np.bool_)
+    alike[:objects] = values >= last - _ALIKE
+    return closest_together(position, alike, fit, several)
+
+
+def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
+    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
+
+    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others. None where
+    nothing is ranked within a side.
+    """
+    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if m.tree.phrase.words[0] == WITHIN]
+    sides = [(m, side) for m, side in sided if side in LATERAL]
+    if len(sides) != 1:
+        return None
+    modifier, side = sides[0]
+    rest = fit - modifier.log_psi
+    y = encoder.layout.position[:, 1]
+    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
+    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -290,7 +312,5 @@ def highest(values: Floats, count: int) -> NDArray[np.int64]:
 
 
 def ranks(tree: ParseTree) -> bool:
-    """Is it a noun phrase with words that may rank, or of things that stand together?"""
-    if tree.phrase.kind is not PhraseKind.NOUN:
-        return False
-    return ranking(tree.phrase) is not None or any(is_mutual(child) for child in tree.children)
+    """Is it a noun phrase with words that may rank?"""
+    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None

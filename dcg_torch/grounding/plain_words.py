@@ -7,6 +7,7 @@ import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
     BY_COMPASS,
@@ -21,6 +22,7 @@ from dcg_torch.names.vocabulary import (
     LINE_FROM,
     LINE_OF,
     MIDDLE_LINE,
+    MUTUAL,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -31,8 +33,11 @@ from dcg_torch.names.vocabulary import (
     SIDE_OF,
     SIDED,
     SYNONYMS,
+    TOGETHER,
     VERTICAL,
+    VIEWERS,
     WORKSPACE,
+    counted,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
@@ -57,7 +62,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(_middle_of_set(_sided(_from_the_ground(tree))))
+    tree = _farthest_to_a_side(_middle_of_set(_of_a_pair(_sided(from_the_ground(tree)))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -76,7 +81,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
-    words = _read_along(words, children)
+    words = levels_of_stack(_read_along(words, children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -85,20 +90,35 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
-    return ParseTree(replace(phrase, words=words), children)
+    return _together(ParseTree(replace(phrase, words=words), children))
 
 
-def _from_the_ground(tree: ParseTree) -> ParseTree:
-    """ "The second block from the ground" is the second from the bottom."""
+def _of_a_pair(tree: ParseTree) -> ParseTree:
+    """ "The darker one of the pair of dots" is one of two that stand together."""
     phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN or ORDINALS.keys().isdisjoint(phrase.words):
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in INSIDE]
+    of = next((c.children[0] for c in places if _PAIR in c.children[0].phrase.words), None)
+    if phrase.kind is not PhraseKind.NOUN or of is None or phrase.plural:
         return tree
-    for k, place in enumerate(tree.children):
-        ground = place.children[0] if place.phrase.words[0] == "from" and len(place.children) == 1 else None
-        if ground is not None and _is_all(place) and not ground.phrase.words:
-            below = (*tree.children[:k], *ground.children, *tree.children[k + 1 :])
-            return ParseTree(replace(phrase, words=(*phrase.words, "from the bottom")), below)
-    return tree
+    words = tuple(dict.fromkeys((*phrase.words, *of.phrase.words, "of 2")))
+    one = replace(phrase, noun=phrase.noun or of.phrase.noun, color=phrase.color or of.phrase.color, words=words)
+    kept = tuple(c for c in tree.children if c.children[:1] != (of,) and c not in of.children)
+    return ParseTree(one, (*kept, *of.children))
+
+
+def _together(tree: ParseTree) -> ParseTree:
+    """ "The two cubes next to each other", "the left one of the pair": those that are nearest to one another."""
+    phrase = tree.phrase
+    several = counted(phrase.words) or phrase.count or 0
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in MUTUAL]
+    close = [c for c in places if _EACH_OTHER in c.children[0].phrase.words]
+    if several < 2 or not (close or _PAIR in phrase.words):
+        return tree
+    words = (*(word for word in phrase.words if word != _PAIR), f"{TOGETHER}{several}")
+    return ParseTree(replace(phrase, words=words), tuple(c for c in tree.children if c not in close))
+
+
+_EACH_OTHER, _PAIR = "each other", "pair"
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -152,8 +172,6 @@ def _on_it(place: ParseTree) -> bool:
     return place.phrase.words[0] in ("on", "on top of") and below is not None and below.text in ("it", "them")
 
 
-_VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
-"""Who sees the scene, where nothing that is there is called so."""
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
@@ -199,7 +217,7 @@ def _middle_of_set(tree: ParseTree) -> ParseTree:
         if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
             continue
         others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
-        number = next((int(w[3:]) for w in landmark.words if w[:3] == "of " and w[3:].isdecimal()), landmark.count)
+        number = counted(landmark.words) or landmark.count
         if others or number == 2 or phrase.plural:
             continue
         few = () if number is None else (f"of {number}",)
@@ -271,7 +289,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
-    if phrase.noun in _VIEWERS and phrase.noun not in there:
+    if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
         if name in SIDE_OF:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import operator
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -15,11 +17,13 @@ from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import (
+    Setting,
     coordinated,
+    in_setting,
     path_to_object,
+    setting_of,
     speaks_of_groups,
     speaks_of_lines,
-    to_factor_tree,
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
@@ -58,7 +62,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     weighed.sort(key=lambda one: -one[1])
     kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
-    told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
+    looks = _Looks.of(world)
+    told = [(by_attributes(_looking(tree, command.text, looks), world), weight, rules) for tree, weight, rules in trees]
     placed = by_cells([tree for tree, _, _ in told], world)
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
 
@@ -84,38 +89,58 @@ class SharedSearch:
         self._beam = beam
         self._search = Search(encoder, tables, beam)
         self._grouped: dict[bool, Search] = {}
-        self._solved: dict[tuple[ParseTree, bool], Solution] = {}
+        self._solved: dict[tuple[ParseTree, bool, bool], Solution] = {}
 
     @property
     def world(self) -> WorldModel:
         """Upsilon, without groups."""
         return self._search.encoder.world
 
-    def ground(self, tree: ParseTree) -> Solution:
-        """Of one reading."""
-        if not self._search.encoder.related:
-            return self.solve(path_to_object(tree))
-        first, *others = (
-            self.solve(to_factor_tree(part, self.world), groups=speaks_of_groups(part)) for part in coordinated(tree)
-        )
-        return replace(first, further=tuple(others)) if others else first
+    @cached_property
+    def _setting(self) -> Setting:
+        return setting_of(self.world)
 
-    def solve(self, tree: ParseTree, *, groups: bool = False) -> Solution:
+    def ground(self, tree: ParseTree, *, brief: bool = False) -> Solution:
+        """Of one reading.
+
+        Args:
+            brief: leave out the runner-up of what it is about, see `with_runner_up`.
+        """
+        if not self._search.encoder.related:
+            return self.solve(path_to_object(tree), brief=brief)
+        first, *others = coordinated(tree)
+        further = tuple([self._described(part, brief=False) for part in others])
+        found = self._described(first, brief=brief)
+        return replace(found, further=further) if further else found
+
+    def _described(self, tree: ParseTree, *, brief: bool) -> Solution:
+        return self.solve(in_setting(tree, self._setting), groups=speaks_of_groups(tree), brief=brief)
+
+    def solve(self, tree: ParseTree, *, groups: bool = False, brief: bool = False) -> Solution:
         """Of a tree of factors.
 
         Args:
             groups: are the groups that objects form there to be meant?
+            brief: leave out the runner-up.
         """
-        key = (tree, groups)
+        key = (tree, groups, brief)
         if key not in self._solved:
-            self._solved[key] = (self._of_groups(speaks_of_lines(tree)) if groups else self._search).solve(tree)
+            search = self._of_groups(speaks_of_lines(tree)) if groups else self._search
+            self._solved[key] = search.solve(tree, brief=brief)
         return self._solved[key]
+
+    def with_runner_up(self, solution: Solution) -> Solution:
+        """A solution of this search that was found without one; one of another search as it is."""
+        found = [s for s in (self._search, *self._grouped.values()) if s.encoder.world is solution.world]
+        if not found or solution.tree is None or solution.best is None:
+            return solution
+        return replace(solution, runner_up=found[0].runner_up(solution.tree, solution.best))
 
     def _of_groups(self, lines: bool) -> Search:
         if lines not in self._grouped:
             encoder = self._search.encoder
             world = with_groups(encoder.world, lines=lines)
-            self._grouped[lines] = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
+            self._grouped[lines] = Search(encoder.of(world), self._tables, self._beam)
         return self._grouped[lines]
 
 
@@ -126,12 +151,15 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
         searches: in the world as it is seen in each frame, with the log-probability of the frame; the robot's first.
         readings: the likeliest first.
     """
+    brief = len(searches) * len(readings) > 1  # only the solution that is taken needs a runner-up
     found = [
-        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree) for r in readings]
+        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree, brief=brief) for r in readings]
         for search, _ in searches
     ]
     weights = [[frame + r.log_weight for r in readings] for _, frame in searches]
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
+    for search, _ in searches if brief else ():
+        solution = search.with_runner_up(solution)
     if len(searches) == 1:
         return solution
     told = [
@@ -182,25 +210,47 @@ def sense(solution: Solution) -> float:
     return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
 
 
-def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
+@dataclass(frozen=True)
+class _Looks:
+    """What may be told by looking in a world.
+
+    Attributes:
+        shown, named: do things show their colours, or are these but named?
+        valued: have things attributes with values?
+        classes: the types that may be there, where colours are shown.
+    """
+
+    shown: bool
+    named: bool
+    valued: bool
+    classes: frozenset[str]
+
+    @classmethod
+    def of(cls, world: WorldModel) -> _Looks:
+        """Of a world."""
+        shown = any(o.rgb is not None for o in world.objects)
+        named = not shown and any(o.color is not None for o in world.objects)
+        valued = any(":" in a for o in world.objects if o.attributes for a in o.attributes)
+        return cls(shown, named, valued, world.classes if shown else frozenset())
+
+
+@functools.lru_cache(maxsize=1024)
+def _looking(tree: ParseTree, text: str, looks: _Looks) -> ParseTree:
     """The tree whose noun phrases are also told of the command's words what is to be judged by looking.
 
     Where things show their colours the first noun phrase is told of all words, but of its own alone if the command
     speaks of other things too. Where their colours are but named each is told of those of its words that compare
     ("darkest"). The first is told of what may be the value of an attribute where things have such.
     """
-    shown = any(o.rgb is not None for o in world.objects)
-    named = not shown and any(o.color is not None for o in world.objects)
-    valued = any(":" in a for o in world.objects for a in o.attributes)
-    if not shown and not named and not valued:
+    if not looks.shown and not looks.named and not looks.valued:
         return tree
     words = _words(text)
-    several = shown and _speaks_of_others(tree, world.classes)
-    values = stated_values(words) if valued else ()
-    if named or several:
-        tree = _each_told(tree, compared=named)
+    several = looks.shown and _speaks_of_others(tree, looks.classes)
+    values = stated_values(words) if looks.valued else ()
+    if looks.named or several:
+        tree = _each_told(tree, compared=looks.named)
         words = ()
-    return _told(tree, words if shown else (), values)
+    return _told(tree, words if looks.shown else (), values)
 
 
 def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:

@@ -18,8 +18,7 @@ _CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 class Clause:
     """A verb (None for a bare noun phrase) with its direct noun phrases and prepositional phrases.
 
-    `refused` says why it is no order about a thing; `sentence` is the number of its sentence; `corrects`: it takes back
-    what was said before it.
+    `refused` says why it is no order about a thing; `sentence` is the number of its sentence.
     """
 
     verb: Item | None = None
@@ -30,7 +29,6 @@ class Clause:
     acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
     sentence: int = 0
-    corrects: bool = False
 
     @property
     def action(self) -> str:
@@ -51,7 +49,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
         if item.kind is Kind.STOP:
             relative = False
             said = clauses[-1] and any(start <= clauses[-1][0].start < stop for start, stop, _ in talk)
-            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said and item.text not in SETS["corrections"]:
+            if _is_fragment(items[k + 1 :]) and clauses[-1] and not said:
                 clauses[-1].append(replace(item, kind=Kind.COMMA))
             else:
                 clauses.append([])

@@ -13,8 +13,6 @@ from collections.abc import Sequence
 from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS, lines
 
 _BASIC, _SHADES = SETS["basic_colors"], SETS["shades"]
-PLURALS = {f"{color}s": color for color in _BASIC}
-"""Colours of several things: "the reds"."""
 
 
 def normal_color(name: str) -> str:

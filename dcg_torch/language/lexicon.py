@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 from typing import Any, Final
 
@@ -72,34 +72,37 @@ REWRITES: Final = tuple(
     for old, new, *needs in _PATTERNS["rewrite"]
 )
 WORD: Final = re.compile(_PATTERNS["word"])
-PHRASES: Final = tuple(
-    (re.compile(rf"(?:{_filled(pattern)})(?= |$)"), tag, value.split(";"), weight)
-    for pattern, tag, value, weight in _PATTERNS["phrases"]
-)
-"""Words that are one token: a pattern, the tag, the words in normal form, the log-weight."""
 REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
 TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
 """Those of the refusals that hold for a clause after another as well."""
 MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
 GREETING: Final = re.compile(_PATTERNS["greeting"])
-SAME: Final[Mapping[str, str]] = _PATTERNS["same"]
-_PREPOSITION: Final = re.compile(
-    "|".join(f"(?P<p{i}>(?:{_filled(row[0])})(?= |$))" for i, row in enumerate(_PATTERNS["prepositions"]))
-)
 
 
-def match_preposition(joined: str, offset: int) -> tuple[str, str, float] | None:
-    """The preposition that begins at a letter of a command's words joined by spaces, or None.
+def _first_of(rows: list[list[Any]]) -> re.Pattern[str]:
+    """One pattern for all rows: the first that fits, by its number."""
+    parts = (_filled(row[0]).replace("<way>", f"<w{i}>") for i, row in enumerate(rows))
+    return re.compile("|".join(f"(?P<r{i}>(?:{part})(?= |$))" for i, part in enumerate(parts)))
 
-    Its words, its normal form (empty: only says how exactly), what its pattern adds to a preposition's log-weight.
+
+_TOKENS: Final = [(_first_of(rows), rows) for rows in (_PATTERNS["phrases"], _PATTERNS["prepositions"])]
+_AS_IS: Final = {"P": 0.0}
+
+
+def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...], dict[str, float]]]:
+    """The patterns that begin at a letter of a command's words joined by spaces: of phrases and prepositions the first.
+
+    The words of each, what they mean in normal form and the weights that they have as which tag.
     """
-    match = _PREPOSITION.match(joined, offset)
-    if match is None:
-        return None
-    raw = match.group()
-    _, normal, *weight = _PATTERNS["prepositions"][int(str(match.lastgroup)[1:])]
-    normal = SAME.get(raw, raw) if normal == "=" else normal.replace("<compass>", match["compass"] or "")
-    return raw, normal, sum(weight)
+    for pattern, rows in _TOKENS:
+        match = pattern.match(joined, offset)
+        if match is not None:
+            number = str(match.lastgroup)[1:]
+            _, value, *tags = rows[int(number)]
+            way = match.groupdict().get(f"w{number}") or ""
+            way = str(NUMBERS.get(way, NORMAL.get(way, way)))
+            raw = match.group()
+            yield raw, tuple(value.replace("=", raw).replace("<way>", way).split(";")), (*tags, _AS_IS)[0]
 
 
 @functools.cache

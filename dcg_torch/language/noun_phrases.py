@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from dcg_torch.english.forms import is_plural, parts, singular
-from dcg_torch.language.colors import PLURALS
+from dcg_torch.english.forms import parts, singular
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
 from dcg_torch.language.predicates import normal_words
@@ -58,23 +57,24 @@ class NounPhrase(Reader):
         if self.at > self.start and self.tag(self.at - 1) not in {"Q", "DET", "P"}:
             return 0
         self.negative = self.negative or token.text in SETS["none"]
-        if token.text in SETS["owned"]:
-            self.words.append(token.text)
+        if token.value[0] in SETS["owned"]:
+            self.words.append(token.value[0])
         self.determined = True
         return 1
 
     def _quantifier(self, token: Token) -> int:
-        self.count = 2 if token.text == "both" else self.count
+        self.count = {"both": 2, "one of": 1}.get(token.value[0], self.count)
         if not self.picked:  # "the biggest of all the cubes"
-            self.words.append(token.text)
+            self.words += token.value
             self.plural = self.plural or token.text in SETS["of_many"]
+        self.picked = self.picked or token.value == ("one of",)
         return 1
 
     def _number(self, token: Token) -> int:
         short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
         number = NUMBERS.get(token.text) or (int(token.text) if short else None)
-        if self.group is not None:
-            self.of = number
+        if self.group is not None or (self.picked and self.count == 1 and (number or 0) > 1):
+            self.of = number  # "the left one of the two cubes"
             return 1
         if not self.determined and singular(self.text(self.at + 1)) in SETS["measures"]:
             behind = self.tag(self.at + 2)
@@ -82,9 +82,7 @@ class NounPhrase(Reader):
                 self.is_measure = self.closed = True
                 return 2
         self.count = self.count if self.picked else number
-        if token.text == "one" and self.text(self.at + 1) == "of":
-            self.words.append("one of")
-        elif token.text == "one" and self.tag(self.at + 1) not in _STARTS:
+        if token.text == "one" and self.tag(self.at + 1) not in _STARTS:
             self.pronoun = self.closed = True
         return 1
 
@@ -104,10 +102,6 @@ class NounPhrase(Reader):
         return 1 + (after in SETS["color_fillers"])
 
     def _noun(self, token: Token) -> int:
-        if token.text in PLURALS and self.determined and self.color is None and not self.nouns:
-            self.color, self.plural = PLURALS[token.text], True  # "the reds"
-            self.pronoun = self.closed = True
-            return 1
         filler = token.text in SETS["color_fillers"] and (self.words or self.color)  # "the dark coloured ball"
         if not (filler and self.tag(self.at + 1) in _STARTS):
             self.nouns.append(token)
@@ -118,10 +112,9 @@ class NounPhrase(Reader):
         one = token.text == "one"
         if one and self.determined and self.tag(self.at + 1) in {"COL", "N", "NM"}:
             self.count = 1
-        elif one and self.text(self.at + 1) == "of" and not (self.determined or self.words):
-            self.words.append("one of")
         else:
-            self.pronoun = self.closed = True
+            self.pronoun = True
+            self.closed = not self.words or self.text(self.at + 1) != "of"  # "the middle one of the cubes"
             self.plural = self.plural or not one
         return 1
 
@@ -151,11 +144,9 @@ class NounPhrase(Reader):
         return at - self.at
 
     def _possessive(self, token: Token) -> int:
-        """ "The robot's cube" is the cube, "the robot's left" your left."""
+        """ "The robot's cube" is the cube."""
         if not self.nouns or self.tag(self.at + 1) not in _STARTS:
             return 0
-        if self.tag(self.at + 1) == "SIDE" and self.nouns[-1].text in SETS["robot"]:
-            self.words.append("your")
         self.nouns, self.color = [], None
         return 1
 
@@ -175,7 +166,11 @@ class NounPhrase(Reader):
         self.words += [t.text for t in self.nouns[:-1]]
         self.nouns = []
         if unit in SETS["pairs"]:
-            self.count = 2
+            self.words += [unit] if unit in SETS["close_pairs"] else []
+            if self.picked and self.count == 1:
+                self.of = 2
+            else:
+                self.count = 2
         elif unit in SETS["groups"]:
             self.words.append(unit)
             self.group = unit
@@ -209,7 +204,7 @@ class NounPhrase(Reader):
             self.words.append(self.nouns.pop().text)
         if picker.text in {"one", "either"} or picker.tag in {"ORD", "MOD", "SIDE"}:
             self.count = 1
-        self.picked = True
+        self.picked, self.pronoun = True, False
         return 1
 
     def _them(self, token: Token) -> int:
@@ -243,10 +238,6 @@ class NounPhrase(Reader):
         if self.of is not None:
             self.words.append(f"of {self.of}")
         noun = self._noun_name() if self.nouns else None
-        last = self.nouns[-1].text if self.nouns else ""
-        if "both" in self.words and self.nouns and not is_plural(last) and self.text(self.at) == "and":
-            self.words.remove("both")  # "both the cube and the cone"
-            self.count, self.plural = None, False
         part = self.tokens[self.start : self.at]
         item = Item(Kind.NOUN, part[0].start, part[-1].stop, " ".join(token.text for token in part))
         item.words, item.noun, item.color, item.count = normal_words(self.words), noun, self.color, self.count

@@ -17,10 +17,10 @@ from dcg_torch.language.clauses import Clause, split
 from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import CHOICES, SETS, VERBS
+from dcg_torch.language.lexicon import CHOICES, VERBS
 from dcg_torch.language.phrases import items
-from dcg_torch.language.references import correct
 from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
+from dcg_torch.language.repairs import repair
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
 from dcg_torch.language.tokens import mend, names, normal_noun, tokens
@@ -161,15 +161,13 @@ class _Command:
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
         path = tagged[decisions.choose("words", weights)]
         self.items = items([token for token in path.tokens if token.start >= begin])
-        groups = split(self.items, self.parts)
+        groups = split(repair(self.items), self.parts)
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
         stops = [item.start for item in self.items if item.kind is Kind.STOP]
         for clause, group in zip(self.clauses, groups, strict=True):
             clause.sentence = bisect.bisect(stops, group[0].start)
-            clause.corrects = clause.sentence > 0 and words[stops[clause.sentence - 1]] in SETS["corrections"]
             refuse(clause, group, self.parts, words)
-        correct(self.clauses)
         return root(self.clauses, decisions)
 
     def unread(self) -> tuple[str, ...]:

@@ -92,19 +92,17 @@ class _Phrases(Reader):
         return i + 1
 
     def pronoun(self, i: int) -> int:
-        item = self.add(Kind.NOUN, i, i + 1)
-        item.noun = PRONOUNS.get(self.text(i))
+        text = self.text(i)
+        item = self.add(Kind.NOUN, i, i + 1, self.tokens[i].value if " " in text else ())  # "each other"
+        item.noun = PRONOUNS.get(text)
         item.pronoun = item.noun is None
-        if self.text(i) not in PRONOUNS:  # "(drop) what you are holding"
+        if text in SETS["questions_as_things"]:  # "(drop) what you are holding"
             item.determined = True
             self.add(Kind.RELATIVE, i, i + 1)
         return i + 1
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
-        if self.text(i) in SETS["reciprocal_starts"] and self.text(i + 1) in SETS["reciprocal_ends"]:
-            self.add(Kind.NOUN, i, i + 2, ("each other",)).pronoun = True
-            return i + 2
         phrase = NounPhrase(self.tokens, i, self.first)
         if phrase.is_measure:
             return phrase.at

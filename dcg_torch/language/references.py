@@ -3,25 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
 
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
-    """What a later sentence says of the object: "Go to the cone. It is behind the cube.", "... The red one."."""
-    told = SETS["be"] | {""}
+    """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
+    "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
         there = exists(clause)
-        if clause is own or not clause.objects or clause.refused == TAKEN_BACK or not (clause.verb is None or there):
+        if clause is own or not clause.objects or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
-        if more.is_a("where") and len(clause.objects) == 1:
-            noun.children += more.children  # "Top left? The big black one."
-        elif there and about_it(more) and more.noun is not None and more.start > noun.start and own.action in told:
+        landmark = named_again(clause, clauses)
+        if landmark is not None:
+            landmark.take_up(more)
+        elif there and about_it(more) and more.noun is not None and more.start > noun.start:
             noun.children.append(more.behind("with"))
         elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
             same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
@@ -29,18 +29,13 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
                 noun.take_up(more)
 
 
-def describe_landmarks(clauses: Sequence[Clause]) -> None:
-    """ "The laptop on the desk. The desk near the door.": what names a landmark again says more of it."""
-    for k, clause in enumerate(clauses):
-        more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else None
-        if more is None or not more.definite or more.noun is None:
-            continue
-        tops = [top for other in clauses[:k] for top in (*other.objects, *other.places)]
-        below = [node for top in tops for child in top.children for node in child.walk()]
-        again = [node for node in below if node.noun == more.noun and None in (node.color, more.color)]
-        if again and all(top.noun != more.noun for top in tops):
-            again[-1].take_up(more)
-            clause.objects = []
+def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
+    """The landmark before that a clause names again, and nothing else: "The laptop on the desk. The desk near ..."."""
+    more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else END
+    tops = [top for other in clauses[: clauses.index(clause)] for top in (*other.objects, *other.places)]
+    below = [node for top in tops for child in top.children for node in child.walk()]
+    same = [node for node in below if node.noun == more.noun is not None and None in (node.color, more.color)]
+    return same[-1] if same and more.definite and all(top.noun != more.noun for top in tops) else None
 
 
 def exists(clause: Clause) -> bool:
@@ -51,18 +46,6 @@ def exists(clause: Clause) -> bool:
 def about_it(noun: Item) -> bool:
     """ "(There is) a blue pillow next to it"."""
     return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
-
-
-def one_of_the(one: Item) -> None:
-    """ "The middle one of the three cubes": a cube."""
-    for place in one.children:
-        group = place.children[0] if place.words == ("of",) and len(place.children) == 1 else one
-        if one.noun is None and group.plural and group.noun and not group.is_a("not_solid"):
-            one.noun, one.pronoun = group.noun, False
-            one.children.remove(place)
-            one.take_up(group)
-            one.words += (f"of {group.count}",) if (group.count or 0) > 2 and "middle" in one.words else ()
-            return
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
@@ -78,64 +61,13 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     group = max(several, key=lambda noun: noun.start).copy()
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
-    _in_the_middle(one, group)
+    for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
+        one.children.remove(place)  # "(there are five cones,) the one in the middle" is the middle one of the five
+        one.words += ("middle",)
+    if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
+        pair = (word for word in group.words if word in SETS["close_pairs"])
+        one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
-
-
-def correct(clauses: Sequence[Clause]) -> None:
-    """ "Take the cube, no, the ball", "... no wait, the red one": what takes back the clause before it replaces it."""
-    for k, clause in enumerate(clauses):
-        said = [other for other in clauses[:k] if other.refused is None and (other.objects or other.places)]
-        new = main_object(clause)
-        if not clause.corrects or not said or not (new or clause.places):
-            continue
-        old = said[-1]
-        old.refused = TAKEN_BACK
-        if new and new.is_a("where"):  # "... no, on the right"
-            clause.objects, clause.places, new = [], new.children, None
-        goal = old.places[0] if old.places and main_object(old) is None else None
-        was = goal.children[0] if goal else main_object(old)
-        if new and was and new.noun is None:
-            new.noun, new.pronoun = was.noun, False
-        if clause.verb is None:
-            clause.verb = old.verb
-            if new is None:
-                _replace_place(clause, old, was)
-            elif goal is not None:
-                clause.objects.remove(new)
-                clause.places = [replace(goal, children=[new]), *clause.places]
-            else:
-                clause.places = clause.places or old.places
-
-
-def _replace_place(clause: Clause, old: Clause, was: Item | None) -> None:
-    """ "Left of the bowl, no, right of it": a place takes the last one's place, and "it" is what that was about."""
-    new = clause.places[0]
-    side = new.children[0] if new.children[0].is_a("sided") else None
-    describes = was and (was.children or not old.places) and (side or new.words[0] not in PLACING["toward"])
-    within = was.children if was and describes else None
-    taken = within or old.places
-    landmark = taken[-1].children[0] if taken else was
-    if side and taken and taken[-1].words[0] in PLACING["beside"]:  # "left of the bowl, no, to the right"
-        new.words, side.noun, side.text = (f"{side.noun} of",), None, "it"
-    for place in clause.places:
-        if landmark is not None and place.children[0].is_a("back"):
-            place.children[0] = landmark.copy()
-    clause.objects = old.objects
-    if within is not None:
-        within[-1:], clause.places = clause.places, old.places
-
-
-TAKEN_BACK = "it takes a command back"
-
-
-def _in_the_middle(one: Item, several: Item) -> None:
-    """ "(There are five cones.) The one in the middle" is the middle one of the five."""
-    for place in one.children:
-        if place.words == ("in",) and len(place.children) == 1 and place.children[0].is_a("middle"):
-            one.children.remove(place)
-            one.words += ("middle", *((f"of {several.count}",) if (several.count or 0) > 2 else ()))
-            return
 
 
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:

@@ -160,6 +160,7 @@ class NounPhrases:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
             return
+        noun.pick(predicate)
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
         if noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:

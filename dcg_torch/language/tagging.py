@@ -116,7 +116,7 @@ class _Lattice:
         found = match_color(self.words, i)
         if found is not None and found[1] > i + 1:
             out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
-        for part in (self._prepositions, self._phrases, self._compounds):
+        for part in (self._patterns, self._compounds):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
@@ -131,32 +131,14 @@ class _Lattice:
         text = " ".join(self.words[i:stop])
         return Token(i, stop, tag, text, (text,) if value is None else value), float(lx.GRAMMAR[rule][tag]) + more
 
-    def _prepositions(self, i: int) -> list[tuple[Token, float]]:
+    def _patterns(self, i: int) -> list[tuple[Token, float]]:
+        """Prepositions, how a thing stands, numbers that are names, ordinals of several words."""
         out: list[tuple[Token, float]] = []
-        match = lx.match_preposition(self.joined, self.offsets[i])
-        word = self.words[i]
-        if match is not None:
-            raw, normal, more = match
-            stop = i + raw.count(" ") + 1
-            if not normal:  # "all the way" of "all the way to"
-                out.append((Token(i, stop, "ADV", raw, ("",)), 0.5))
-            else:
-                rule = "long_preposition" if " " in raw else "preposition"
-                out.append(self._new(i, stop, "P", rule, (normal,), more))
-            if " " in raw and word in lx.PLACING["single"]:
-                out.append(self._new(i, i + 1, "P", "short_preposition", (word,)))
-        return out
-
-    def _phrases(self, i: int) -> list[tuple[Token, float]]:
-        """How a thing stands, numbers that are names, ordinals of several words."""
-        out = []
-        for pattern, tag, value, weight in lx.PHRASES:
-            match = pattern.match(self.joined, self.offsets[i])
-            if match is not None:
-                way = match.groupdict().get("way", "")
-                way = str(lx.NUMBERS.get(way, lx.NORMAL.get(way, way)))
-                words = tuple(part.replace("<way>", way) for part in value)
-                out.append((Token(i, i + match.group().count(" ") + 1, tag, match.group(), words), weight))
+        for raw, value, tags in lx.match_tokens(self.joined, self.offsets[i]):
+            long = float(lx.GRAMMAR["long_preposition"]) if "P" in tags and " " in raw else 0.0
+            out += [(Token(i, i + raw.count(" ") + 1, tag, raw, value), weight + long) for tag, weight in tags.items()]
+            if long and self.words[i] in lx.PLACING["single"]:
+                out.append(self._new(i, i + 1, "P", "short_preposition", (self.words[i],)))
         return out
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:

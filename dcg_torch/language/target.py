@@ -33,8 +33,7 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
         if target is not None:
-            told = _is_told(target, clause, clauses) and bool(target.noun or any(m.noun.plural for m in found))
-            found.append(Mention(target, clause, _object_score(clause, target, told) + penalty))
+            found.append(Mention(target, clause, _object_score(target, clause, clauses, found) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -44,26 +43,22 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
     return found
 
 
-def _is_told(target: Item, clause: Clause, clauses: Sequence[Clause]) -> bool:
-    """Whether a clause says which it is: "(until you see the window,) it is the plant next to it"; or names it last."""
-    if not target.definite or target.plural or clause.action not in SETS["be"] | {""}:
-        return False
-    if clause.verb is None:
-        return clause is clauses[-1] and clause.sentence > clauses[0].sentence
-    before = (noun for other in clauses for noun in other.objects)
-    return any(noun.text in SETS["stands_for"] and noun.stop == clause.verb.start for noun in before)
-
-
-def _object_score(clause: Clause, target: Item, told: bool) -> float:
-    verb = clause.action
+def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found: Sequence[Mention]) -> float:
+    verb, told = clause.action, references.exists(clause)
     if clause.acting:
         return TARGETS["acting"]
-    if told:
-        return TARGETS["identified" if verb else "named_last"]
-    if clause.statement or not verb or references.exists(clause):
-        another = references.exists(clause) and ("other" in target.words or references.about_it(target))
-        return TARGETS["another" if another else "statement"]
-    return next((TARGETS[name] for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), TARGETS["other"])
+    if verb and not (told or clause.statement):
+        return TARGETS[next((name for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), "other")]
+    again = references.named_again(clause, clauses) is not None
+    if target.definite and not target.plural and (target.noun or any(m.noun.plural for m in found)) and not again:
+        # "Until you see the window, then it is the plant next to it", or "Is the oven off? The stove by the sink."
+        before = (noun for other in clauses for noun in other.objects if noun.text in SETS["stands_for"])
+        if clause.verb is not None and any(noun.stop == clause.verb.start for noun in before):
+            return TARGETS["identified"]
+        if clause.verb is None and clause is clauses[-1] and clause.sentence > clauses[0].sentence:
+            return TARGETS["named_last"]
+    another = again or (told and ("other" in target.words or references.about_it(target)))
+    return TARGETS["another" if another else "statement"]
 
 
 def _place_score(name: str, verb: str, beside_object: bool) -> float:
@@ -78,7 +73,6 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
-    references.describe_landmarks(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -93,7 +87,6 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     # "Facing the bed, take the lamp on your left".
     children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
     references.describe_later(chosen.noun, chosen.clause, clauses)
-    references.one_of_the(chosen.noun)
     references.one_of_several(chosen.noun, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     references.arrive(chosen.noun, chosen.clause, clauses, decisions)

@@ -159,6 +159,16 @@ def _misspells(word: str, name: str) -> bool:
 _SPELT, _LONG = 5, 8
 
 
+@functools.lru_cache(maxsize=65536)
+def may_be_meant_for(noun: str, class_name: str) -> bool:
+    """Is a noun the name of a class, or its head, but for a letter that is not the first: "bell" for a ball?"""
+    said, named = _name(noun).text, _name(class_name)
+    return any(
+        min(len(said), len(name)) > 3 and said[0] == name[0] and OSA.distance(said, name, score_cutoff=1) == 1
+        for name in (named.text, named.head)
+    )
+
+
 def _share_a_name(noun: str, name: str) -> bool:
     """Whether both are in one group of the list: "picture" may be said of everything, and of a painting by its name."""
     groups = _everyday().groups

@@ -37,6 +37,11 @@ class Alike:
     @classmethod
     def by(cls, code: Ints) -> Alike:
         """The class of a thing is that of its code; -1: it has none."""
+        if len(code) <= _FEW:
+            few = code.tolist()
+            number = {value: k for k, value in enumerate(sorted({*few} - {-1}))} | {-1: -1}
+            which = np.array([number[value] for value in few], dtype=np.int64)
+            return cls(which, [np.flatnonzero(which == k) for k in range(len(number) - 1)])
         known, which = np.unique(code, return_inverse=True)
         none = int(len(known) > 0 and known[0] < 0)
         order = np.argsort(which, kind="stable")

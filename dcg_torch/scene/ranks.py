@@ -112,13 +112,14 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
-    unsized = where.place | where.group
-    sizes = [(math.nan,) * 3 if o.size is None or unsized[j] else o.size for j, o in enumerate(where.things)]
-    volume, height = np.array([bulk(s) for s in sizes]), np.array([s[2] for s in sizes])
+    nothing = np.full(len(x), math.nan)
+    volume, height = nothing.copy(), nothing.copy()
+    for j in np.flatnonzero(where.solid).tolist():
+        if (size := where.things[j].size) is not None:
+            volume[j], height[j] = bulk(size), size[2]
     for group, inside in where.members.items():  # "the highest stack", "the largest group"
         volume[group], height[group] = len(inside), np.ptp(z[inside]) if len(inside) else math.nan
         z = np.where(np.arange(len(z)) == group, z[inside].max(initial=-math.inf), z)
-    nothing = np.full(len(x), math.nan)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
