@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from dcg_torch.grounding.marks import heard
-from dcg_torch.language import default_parser
+from dcg_torch.grounding.plain_words import in_plain_words
+from dcg_torch.language import default_parser, parse_command, target_phrase
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import color_scores
@@ -87,7 +88,8 @@ def test_each_word_for_a_gray_has_its_own(word: str, gray: int) -> None:
         ("the shortest stack", {"2 0", "2 1"}),
         ("the lowest block in the highest stack", {"1 0"}),
         ("the block on top of the highest stack", {"1 3"}),
-        ("the third block from the ground of the tallest pile", {"1 2"}),
+        ("the bottom block of the tallest stack", {"1 0"}),
+        ("the top block of the highest pile", {"1 3"}),
     ],
 )
 def test_stacks_have_a_height(text: str, ids: set[str]) -> None:
@@ -97,6 +99,16 @@ def test_stacks_have_a_height(text: str, ids: set[str]) -> None:
         for z in range(count)
     ]
     assert _meant(text, percepts) == ids
+
+
+@pytest.mark.parametrize("ground", ["ground", "floor", "table"])
+def test_from_the_ground_is_from_the_bottom(ground: str) -> None:
+    tree = parse_command(f"the second block from the {ground}").tree
+    assert tree is not None
+    assert target_phrase(in_plain_words(tree, frozenset({"block"}))).phrase.words == ("second", "from the bottom")
+    plain = parse_command(f"the block from the {ground}").tree
+    assert plain is not None
+    assert "from the bottom" not in target_phrase(in_plain_words(plain, frozenset({"block"}))).phrase.words
 
 
 PAIRS = (  # x, y, colour

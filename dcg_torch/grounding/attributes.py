@@ -18,6 +18,7 @@ from dcg_torch.names.attributes import (
     is_clothing,
     named_key,
     says_value,
+    says_whether,
     states_value,
 )
 from dcg_torch.names.evidence import is_generic
@@ -170,9 +171,9 @@ class _Speaking:
         key = named_key(phrase.noun, self.keys)
         if key is None:
             return []
-        whole = [w for w in said if states_value(w.removeprefix(NOT_), _OF_WHOLE - {key})]
+        whole = [w for w in said if _is_of_whole(w.removeprefix(NOT_), key)]
         like = [w for w in said if w not in whole and not w.startswith(NOT_)]
-        denied = denied != ("no" in like)
+        denied = denied or "no" in like
         values = [word for word in like if word != "no" and word not in _OWNED]
         own = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
         return [*(f"{NOT_}{word}" if denied else word for word in own), *whole]
@@ -225,6 +226,11 @@ class _Speaking:
             dressed = len(self.worn) == 1 and own.isdisjoint(color.split())  # "the guy in black"
             words.append(f"{HAS}{color} {self.worn[0]}" if dressed else color)
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
+
+
+def _is_of_whole(word: str, key: str) -> bool:
+    """Does a word beside what somebody has say how he himself is: "a tie and bald", "a suit looking left"?"""
+    return states_value(word, _OF_WHOLE - {key}) or (says_whether(word) and not states_value(word, frozenset({key})))
 
 
 def _is_person(name: str) -> bool:

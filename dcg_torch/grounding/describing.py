@@ -284,5 +284,5 @@ def contradicted(words: Sequence[str], thing: Object) -> float:
 
 
 def ranks(tree: ParseTree) -> bool:
-    """Is it a noun phrase with words that may rank, or of things that stand together?"""
+    """Is it a noun phrase with words that may rank?"""
     return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None

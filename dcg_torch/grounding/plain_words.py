@@ -8,6 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, together
+from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
     BY_COMPASS,
@@ -33,6 +34,7 @@ from dcg_torch.names.vocabulary import (
     SIDED,
     SYNONYMS,
     VERTICAL,
+    VIEWERS,
     WORKSPACE,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
@@ -58,7 +60,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(middle_of_set(of_a_pair(_sided(_from_the_ground(tree)))))
+    tree = _farthest_to_a_side(middle_of_set(of_a_pair(_sided(from_the_ground(tree)))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -77,7 +79,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
-    words = _read_along(words, children)
+    words = levels_of_stack(_read_along(words, children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -87,19 +89,6 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
     return together(ParseTree(replace(phrase, words=words), children))
-
-
-def _from_the_ground(tree: ParseTree) -> ParseTree:
-    """ "The second block from the ground" is the second from the bottom."""
-    phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN or ORDINALS.keys().isdisjoint(phrase.words):
-        return tree
-    for k, place in enumerate(tree.children):
-        ground = place.children[0] if place.phrase.words[0] == "from" and len(place.children) == 1 else None
-        if ground is not None and _is_all(place) and not ground.phrase.words:
-            below = (*tree.children[:k], *ground.children, *tree.children[k + 1 :])
-            return ParseTree(replace(phrase, words=(*phrase.words, "from the bottom")), below)
-    return tree
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -153,8 +142,6 @@ def _on_it(place: ParseTree) -> bool:
     return place.phrase.words[0] in ("on", "on top of") and below is not None and below.text in ("it", "them")
 
 
-_VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
-"""Who sees the scene, where nothing that is there is called so."""
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
@@ -245,7 +232,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
-    if phrase.noun in _VIEWERS and phrase.noun not in there:
+    if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
         if name in SIDE_OF:

@@ -257,6 +257,13 @@ def says_value(phrase: str) -> bool:
     return normalise(phrase) in _meanings()[0]
 
 
+def says_whether(word: str) -> bool:
+    """Does a word say whether somebody has a thing: "bald", "bearded", "smiling"?"""
+    meanings, _ = _meanings()
+    meant = meanings.get(normalise(word), frozenset())
+    return not meant.isdisjoint(meanings[normalise(_NONE)] | meanings[normalise(_SOME)])
+
+
 @functools.lru_cache(maxsize=4096)
 def states_value(word: str, keys: frozenset[str]) -> bool:
     """May a word state the value of one of some keys: "bald" of `hair`, "woman" of `gender`?"""

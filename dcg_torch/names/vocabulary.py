@@ -116,6 +116,8 @@ WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "pi
 WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 """What people call all of a scene, where nothing that is there is called so."""
 GROUND_WORD = "board"
+VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
+"""Who sees the scene, where nothing that is there is called so."""
 SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
 SIDE_OF |= {"in the middle of": "middle"}
 """Of the whole scene a preposition names a side: "on the right side of the table"."""
