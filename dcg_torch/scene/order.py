@@ -18,6 +18,8 @@ TIE = 1e-6
 """Values that differ by less are equal."""
 _FEW = 64
 """Things up to which each is held against each."""
+_SORTED_WHOLE = 320
+"""Values up to which it takes less time to sort all than to find the highest."""
 _SORTED = 8
 """Places that are counted to one by one; beyond, they are searched."""
 
@@ -149,3 +151,17 @@ def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
             out[:, asking] = [np.searchsorted(v, b) for v, b in zip(ordered, bound[:, asking], strict=True)]
     out[np.isnan(bound)] = 0
     return out
+
+
+def highest(values: Floats, count: int) -> NDArray[np.int64]:
+    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
+    if count == 1:
+        return np.array([values.argmax()])
+    order: Ints
+    if len(values) <= max(_SORTED_WHOLE, 2 * count):
+        order = (-values).argsort(kind="stable")
+        return order[:count]
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    among = np.flatnonzero(values >= least)
+    order = (-values[among]).argsort(kind="stable")
+    return among[order[:count]]
