@@ -39,19 +39,20 @@ class Patterns:
             for what no child is about, else a number of its own.
         """
         if all(len(children) == 1 for children in choices):  # as nearly all have
-            rows, columns = list(range(len(choices))), [self.number[c.grounding.object.id] for (c,) in choices]
+            about, rows = [self.number[c.grounding.object.id] for (c,) in choices], list(range(len(choices)))
             keys = [self._of_one(children) for children in choices]
             special = [same for _, same in keys]
         else:
             found = [self._of_several(children) for children in choices]
-            rows = [row for row, (_, of) in enumerate(found) for _ in of]
-            columns, special = [j for _, of in found for j in of], [number for _, of in found for number in of.values()]
+            about, rows = [j for _, of in found for j in of], [row for row, (_, of) in enumerate(found) for _ in of]
+            special = [number for _, of in found for number in of.values()]
             keys = [(rest, *of.values()) for rest, of in found]
         which = np.empty((len(choices), groundings), dtype=np.int64)
         which[:] = np.array([key[0] for key in keys])[:, None]
-        which[rows, columns] = special
+        columns = np.array(about, dtype=np.int64)
+        which[np.array(rows, dtype=np.int64), columns] = special
         code = np.zeros(groundings, dtype=np.int64)
-        code[columns] = [j + 1 for j in columns]
+        code[columns] = columns + 1
         return keys, which, code
 
     def _of_one(self, children: tuple[Child, ...]) -> Key:

@@ -62,7 +62,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     """
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
-    strange = [_speaks_of_what_is_not_there(r.tree, world) for r, _ in weighed]
+    types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
+    strange = [_speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
     least = weighed[0][1] - _NEGLIGIBLE if weighed else 0.0
     kept = [
         (r, weight)
@@ -84,9 +85,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
 
 
-def _speaks_of_what_is_not_there(tree: ParseTree, world: WorldModel) -> bool:
+def _speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
     noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
-    types = [t for t in world.classes if not t.startswith(OPAQUE)]
     if noun is None or not types:
         return False
     return not names_one_of(noun, types) or is_only_a_room(noun, types)
