@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import SETS
+from dcg_torch.language.lexicon import RELATION_VERBS, SETS
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})
@@ -60,6 +60,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = False
         elif item.kind is Kind.VERB and _is_main(items, k, relative, clauses[-1]):
             relative = False
+            item.words = ("be",) if _tells(items, k) else item.words
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
@@ -95,8 +96,9 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
         first = clause[: clause.index(verbs[0])]
         return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
     named = k + 1 < len(items) and items[k + 1].noun is not None
-    named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
-    return not named and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
+    # "It is the lower of the two cubes", "the red mug was a present".
+    told = k and (items[k - 1].text in SETS["stands_for"] or (items[k - 1].noun and items[k].text in SETS["past"]))
+    return (told or not named) and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
@@ -123,6 +125,14 @@ def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
     return item.participle if before.kind is Kind.NEGATION else item.finite and item.words[0] in SETS["possessing"]
 
 
+def _tells(items: Sequence[Item], k: int) -> bool:
+    """ "My grandmother gave us that painting": a verb tells what somebody did, unlike "the cup placed on the table"."""
+    before, item, after = (END, *items, END)[k : k + 3]
+    past = item.participle and not item.text.endswith("ing") and item.words[0] not in RELATION_VERBS
+    done = item.stop == after.start and (after.determined or after.is_a("someone"))
+    return past and done and before.kind is after.kind is Kind.NOUN
+
+
 def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
     """Whether a clause begins with the verb at `k`."""
     item = items[k]
@@ -146,4 +156,5 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         since = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
         if any(other.kind is Kind.VERB for other in since):
             return False
-    return not (after_noun and (item.participle or item.finite or lemma == "have"))
+    said_of = (item.participle and not _tells(items, k)) or item.finite or lemma == "have"
+    return not (after_noun and said_of)

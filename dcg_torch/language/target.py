@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from dcg_torch.language import references
 from dcg_torch.language.clauses import Clause, main_object
@@ -14,8 +14,7 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
-@dataclass(slots=True, eq=False)
-class Mention:
+class Mention(NamedTuple):
     """A noun phrase that may be the one meant, the clause it is in, and how surely the verb is about it."""
 
     noun: Item
@@ -89,7 +88,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     references.describe_later(chosen.noun, chosen.clause, clauses)
     references.one_of_several(chosen.noun, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
-    references.arrive(chosen.noun, chosen.clause, clauses, decisions)
+    children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
     phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
@@ -103,7 +102,8 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            if name == "earlier_goal" and not any(other.clause is choice.clause for other in found[:k]):
+            leads = not references.about_it(found[first].noun)  # but "go to the table and take the cup on it"
+            if name == "earlier_goal" and leads and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
@@ -133,7 +133,12 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         if handled and chosen.place is None:
             return handled[-1]
         if earlier:
-            return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+            meant = max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+            if meant.place or chosen.place or meant.score > TARGETS["shun"]:
+                return meant
+            objects = chosen.clause.objects  # "there was a cup. take it": it is to be taken
+            objects[objects.index(noun)] = meant.noun
+            return Mention(meant.noun, chosen.clause, chosen.score)
         later = [other for other in found[found.index(chosen) :] if not other.noun.pronoun]
         return next((other for other in later if other.clause.verb is None), chosen)  # "Bring it to me. The mug."
     return chosen
