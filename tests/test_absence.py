@@ -56,6 +56,25 @@ def test_what_is_not_there_is_not_meant(model: GroundingModel, text: str, things
     assert _absent(solution) > 0.5
 
 
+@pytest.mark.parametrize(
+    ("noun", "meant"),
+    [("bell", "1"), ("bill", "1"), ("wall", None), ("bowl", None), ("lump", None)],
+)
+def test_a_word_that_is_a_name_but_for_a_letter_may_be_meant_for_it(
+    model: GroundingModel, noun: str, meant: str | None
+) -> None:
+    """Two letters, or the first one, are no slip; nor is what has another colour meant."""
+    solution = _ground(model, f"take the red {noun}", _things("blue cube", "red ball", "green lamp"))
+    assert [o.id for o in solution.objects if not o.hypothetical] == ([] if meant is None else [meant])
+
+
+def test_what_is_called_by_quite_another_name_is_absent_with_doubt(model: GroundingModel) -> None:
+    """People call what is there by odd names, too; a name and a colour that are both odd leave less doubt."""
+    things = _things("red ball", "green ball", "blue cube")
+    one, both = (_absent(_ground(model, f"take the {said}", things)) for said in ("piano", "purple piano"))
+    assert 0.5 < one < 0.9 < both
+
+
 def test_knowing_more_types_makes_absence_no_likelier_where_colours_are_shown(model: GroundingModel) -> None:
     shades = [(40, 60, 200), (150, 170, 230), (200, 40, 40)]
     patches = [Percept(f"{k}", "patch", None, (1.0, 1.0 - k, 0.0), rgb=rgb) for k, rgb in enumerate(shades)]

@@ -28,16 +28,6 @@ def test_what_is_said_of_scattered_things_is_so(seed: int) -> None:
         order = side if "left" in text else side[::-1] if "right" in text else near
         if order is near and any(word in text for word in ("farthest", "furthest", "back", "rearmost")):
             order = near[::-1]
-        part = next((s for s, sign in (("left", 1), ("right", -1)) if text.endswith(f" on your {s}")), None)
-        if part is None and ("nearest" in text or "closest" in text or "farthest" in text) and " on the " in text:
-            part = text.split()[-1]
-        if part is not None:  # the side is a part of the scene
-            there = [
-                i for i in near if next(o.position[1] for o in alike if o.id == i) * (-1 if part == "right" else 1) > 0
-            ]
-            plural = f"{kind}s" in text
-            assert meant == (frozenset(there) if plural else {there[-1 if "farthest" in text else 0]}), text
-            continue
         number = next((k for k, w in enumerate(("two", "three"), 2) if w in text.split()), None)
         place = next((k for k, w in enumerate(("first", "second", "third", "fourth", "fifth")) if w in text), 0)
         assert meant == (frozenset(order[:number]) if number else {order[place]}), text

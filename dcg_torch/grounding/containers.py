@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection
 from dataclasses import replace
 
@@ -23,9 +24,15 @@ def in_what_holds_it(tree: ParseTree, world: WorldModel) -> ParseTree:
     Args:
         world: the classes of its objects say what is there.
     """
-    types = {o.type for o in world.objects if o.type is not None and not o.hypothetical}
+    types = frozenset([o.type for o in world.objects if o.type is not None and not o.hypothetical])
     if not types or any(type_.startswith(OPAQUE) for type_ in types):
         return tree
+    return _in_what_holds_it(tree, types)
+
+
+@functools.lru_cache(maxsize=1024)
+def _in_what_holds_it(tree: ParseTree, types: frozenset[str]) -> ParseTree:
+    """The same, from what it depends on of a world: one command is grounded in many worlds with the same classes."""
     return _holder(_colored(tree, types), types)
 
 

@@ -77,6 +77,11 @@ class WorldEncoder:
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
         self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
+        self._standing: dict[int, scene.Standing] = {}
+
+    def of(self, world: WorldModel) -> WorldEncoder:
+        """That of another world under these features."""
+        return WorldEncoder(self.features, world, self._kinds)
 
     @cached_property
     def all(self) -> tuple[Object, ...]:
@@ -126,12 +131,17 @@ class WorldEncoder:
         return Coded(padded(rows), code), first
 
     def _group_or_place(self, thing: Object, states: tuple[str, ...]) -> list[int]:
-        colors: list[str] = []
+        colors: tuple[str, ...] = ()
         if thing.members:
-            colors = [c for m in thing.members if (c := self.all[self.number[m]].color) is not None]
+            members = (self.all[self.number[m]].color for m in thing.members)
+            colors = tuple(dict.fromkeys(c for c in members if c is not None))
         if self.related:
             states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
-        return self.features.thing_columns(thing, states, colors)
+        key = thing.type, thing.known, thing.color, states, colors
+        columns = self._kinds.get(key)
+        if columns is None:
+            columns = self._kinds[key] = self.features.thing_columns(thing, states, colors)
+        return columns
 
     def things(self, phrase: Phrase) -> Bag:
         """(things, k) bag of a noun phrase's factors, but for the ranks that it speaks of."""
@@ -178,12 +188,12 @@ class WorldEncoder:
     ) -> list[NDArray[np.int16]]:
         """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
         if members is not None:
-            return list(scene.relations(self.layout, landmarks, among, members))
+            return list(scene.relations(self.layout, landmarks, among, members, self._standing))
         new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
         step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
         for start in range(0, len(new), max(1, step)):
             part = new[start : start + step]
-            found = scene.relations(self.layout, part, among)
+            found = scene.relations(self.layout, part, among, known=self._standing)
             self._found.update({(of, among): one for of, one in zip(part, found, strict=True)})
         return [self._found[of, among] for of in landmarks]
 

@@ -5,15 +5,29 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
-from dcg_torch.names.vocabulary import ANYTHING, INSIDE, ORDINALS, PLACE_WORDS, RANKING, READ_FROM
+from dcg_torch.names.vocabulary import (
+    ANYTHING,
+    INSIDE,
+    ORDINALS,
+    PLACE_WORDS,
+    RANKING,
+    READ_FROM,
+    SIDED,
+    WITHIN,
+    is_superlative,
+)
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
 _OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
+
+_AT = frozenset({"on", "at", "to", "in", "towards"})
+"""Prepositions that say at which side of the scene a thing is."""
 
 _LEVEL = 0.02
 """Metres of height within which all stands on one level."""
@@ -61,22 +75,38 @@ def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTre
     Args:
         world: that the tree is grounded in; None: no object has a name that is also one of a place.
     """
-    if world is None:
-        return _factor_tree(tree, frozenset(), (False, False), "")
+    return in_setting(tree, _NOWHERE if world is None else setting_of(world))
+
+
+class Setting(NamedTuple):
+    """What a tree of factors depends on of a world.
+
+    Attributes:
+        there: the names of the types that may be there.
+        level: does all stand on one level, or as on a page that stands upright?
+        scene: the kind of scene.
+    """
+
+    there: frozenset[str]
+    level: tuple[bool, bool]
+    scene: str
+
+
+_NOWHERE = Setting(frozenset(), (False, False), "")
+
+
+def setting_of(world: WorldModel) -> Setting:
+    """Of a world."""
     heights = [o.position[2] for o in world.objects if o.position is not None]
     flat = bool(heights) and max(heights) - min(heights) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
-    return _factor_tree(tree, heads(world.classes), (flat, upright), scene_kind(world))
+    return Setting(heads(world.classes), (flat, upright), scene_kind(world))
 
 
 @functools.lru_cache(maxsize=1024)
-def _factor_tree(tree: ParseTree, there: frozenset[str], level: tuple[bool, bool], scene: str) -> ParseTree:
-    """The same, from what it depends on of a world: one command is grounded in many worlds of a kind.
-
-    Args:
-        level: does all stand on one level, or as on a page that stands upright?
-    """
-    flat, upright = level
+def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
+    """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
+    there, (flat, upright), scene = setting
     found = _described(in_plain_words(tree, there, flat=flat or upright, upright=upright))
     return _said_in(found, scene) if scene else found
 
@@ -122,6 +152,7 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     phrase = replace(tree.phrase, noun=None) if tree.phrase.noun in ANYTHING else tree.phrase
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
     phrase, described = _counted_from(phrase, described)
+    described = _within_parts(phrase, described)
     phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
     return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
 
@@ -144,6 +175,32 @@ def _counted_from(phrase: Phrase, described: list[ParseTree]) -> tuple[Phrase, l
     return replace(phrase, words=()), changed
 
 
+def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]:
+    """What is ranked on a side is ranked in a part of the scene, of which all have as good a claim to be on that side.
+
+    "The nearest cube on the left" is the nearest of those, not the leftmost; all of "the cubes on the left" are there.
+    """
+    whole = phrase.plural and phrase.count is None
+    ranked = any(map(is_superlative, phrase.words)) or any(map(_ranks_from_somebody, described))
+    return [_within(c) if (whole or ranked) and _is_a_side(c) else c for c in described]
+
+
+def _ranks_from_somebody(place: ParseTree) -> bool:
+    """Not from a corner or the middle: these are places beside the side ("in the middle on the left")."""
+    landmark = place.children[0].phrase
+    kind, _ = PLACE_WORDS.get(landmark.noun or "", (None, None))
+    return place.phrase.words[0] in RANKING and kind in (None, "robot", "speaker")
+
+
+def _is_a_side(place: ParseTree) -> bool:
+    landmark = place.children[0]
+    return place.phrase.words[0] in _AT and landmark.phrase.noun in SIDED and not landmark.children
+
+
+def _within(place: ParseTree) -> ParseTree:
+    return replace(place, phrase=replace(place.phrase, words=(WITHIN, *place.phrase.words[1:])))
+
+
 def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     words = tree.phrase.words
     if words[0].startswith(f"{NOT} "):
@@ -156,6 +213,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
         PhraseKind.MODIFIER,
         tree.phrase.text,
         words,
+        plural=head.plural,
         count=several,
         context=_landmark_context(tree),
         among=head.among,

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.tables import Pattern
 from dcg_torch.types import Child
 
-_OTHER, _SAME = (False,), (True,)
+_Kinds = tuple[tuple[str, int], ...]
 
 
 @dataclass
@@ -26,15 +26,21 @@ class Patterns:
     number: Mapping[str, int]
     known: dict[Pattern, tuple[Child, ...]] = field(default_factory=dict)
     _index: dict[Pattern, int] = field(default_factory=dict)
+    _single: dict[_Kinds, tuple[int, int]] = field(default_factory=dict)
 
     def of(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
         """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
         kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])  # hashed quickly
         about = [self.number[c.grounding.object.id] for c in children]
         if len(children) == 1:  # as nearly all have
-            return self._of(children, (kinds, _OTHER)), {about[0]: self._of(children, (kinds, _SAME))}
+            other, same = self._single.get(kinds) or self._of_one(children, kinds)
+            return other, {about[0]: same}
         special = {j: self._of(children, (kinds, tuple([j == a for a in about]))) for j in about}
         return self._of(children, (kinds, (False,) * len(about))), special
+
+    def _of_one(self, children: tuple[Child, ...], kinds: _Kinds) -> tuple[int, int]:
+        found = self._single[kinds] = self._of(children, (kinds, (False,))), self._of(children, (kinds, (True,)))
+        return found
 
     def _of(self, children: tuple[Child, ...], pattern: Pattern) -> int:
         number = self._index.get(pattern)
@@ -54,8 +60,8 @@ def spread(found: Sequence[tuple[int, dict[int, int]]], groundings: int) -> tupl
     which = np.empty((len(found), groundings), dtype=np.int64)
     which[:] = np.array([rest for rest, _ in found])[:, None]
     code = np.zeros(groundings, dtype=np.int64)
-    for row, (_, special) in zip(which, found, strict=True):
-        for j, number in special.items():
-            row[j] = number
-            code[j] = j + 1
+    rows = [row for row, (_, special) in enumerate(found) for _ in special]
+    columns = [j for _, special in found for j in special]
+    which[rows, columns] = [number for _, special in found for number in special.values()]
+    code[columns] = [j + 1 for j in columns]
     return which, code

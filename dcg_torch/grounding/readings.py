@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import functools
 import math
 import operator
 import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -15,14 +17,18 @@ from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.factor_tree import (
+    Setting,
     coordinated,
+    in_setting,
     path_to_object,
+    setting_of,
     speaks_of_groups,
     speaks_of_lines,
-    to_factor_tree,
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
+from dcg_torch.grounding.room_parts import by_corners, by_heights
+from dcg_torch.grounding.rooms import by_rooms, is_only_a_room, led_into_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -31,10 +37,14 @@ from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.workspace import with_groups
-from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
+_ABSENT = 3.0
+"""Further down are those kept that name what is there, where the best one does not."""
+_TO_A_ROOM = 2.0
+"""How much less likely a reading is that means a room by which others only say where the thing is."""
 _SENSELESS = math.log(1e-6)
 
 
@@ -56,11 +66,31 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     """
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
-    kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
+    strange = [_speaks_of_what_is_not_there(r.tree, world) for r, _ in weighed]
+    least = weighed[0][1] - _NEGLIGIBLE if weighed else 0.0
+    kept = [
+        (r, weight)
+        for (r, weight), absent in zip(weighed, strange, strict=True)
+        if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
+    ]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
-    told = [(by_attributes(looking(tree, command.text, world), world), weight, rules) for tree, weight, rules in trees]
+    led = led_into_rooms([by_heights(by_corners(by_rooms(tree, world), world), world) for tree, _, _ in trees], world)
+    trees = [
+        (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
+        for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)
+    ]
+    looks = _Looks.of(world)
+    told = [(by_attributes(_looking(tree, command.text, looks), world), weight, rules) for tree, weight, rules in trees]
     placed = by_cells([tree for tree, _, _ in told], world)
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
+
+
+def _speaks_of_what_is_not_there(tree: ParseTree, world: WorldModel) -> bool:
+    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    types = [t for t in world.classes if not t.startswith(OPAQUE)]
+    if noun is None or not types:
+        return False
+    return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -84,38 +114,58 @@ class SharedSearch:
         self._beam = beam
         self._search = Search(encoder, tables, beam)
         self._grouped: dict[bool, Search] = {}
-        self._solved: dict[tuple[ParseTree, bool], Solution] = {}
+        self._solved: dict[tuple[ParseTree, bool, bool], Solution] = {}
 
     @property
     def world(self) -> WorldModel:
         """Upsilon, without groups."""
         return self._search.encoder.world
 
-    def ground(self, tree: ParseTree) -> Solution:
-        """Of one reading."""
-        if not self._search.encoder.related:
-            return self.solve(path_to_object(tree))
-        first, *others = (
-            self.solve(to_factor_tree(part, self.world), groups=speaks_of_groups(part)) for part in coordinated(tree)
-        )
-        return replace(first, further=tuple(others)) if others else first
+    @cached_property
+    def _setting(self) -> Setting:
+        return setting_of(self.world)
 
-    def solve(self, tree: ParseTree, *, groups: bool = False) -> Solution:
+    def ground(self, tree: ParseTree, *, brief: bool = False) -> Solution:
+        """Of one reading.
+
+        Args:
+            brief: leave out the runner-up of what it is about, see `with_runner_up`.
+        """
+        if not self._search.encoder.related:
+            return self.solve(path_to_object(tree), brief=brief)
+        first, *others = coordinated(tree)
+        further = tuple([self._described(part, brief=False) for part in others])
+        found = self._described(first, brief=brief)
+        return replace(found, further=further) if further else found
+
+    def _described(self, tree: ParseTree, *, brief: bool) -> Solution:
+        return self.solve(in_setting(tree, self._setting), groups=speaks_of_groups(tree), brief=brief)
+
+    def solve(self, tree: ParseTree, *, groups: bool = False, brief: bool = False) -> Solution:
         """Of a tree of factors.
 
         Args:
             groups: are the groups that objects form there to be meant?
+            brief: leave out the runner-up.
         """
-        key = (tree, groups)
+        key = (tree, groups, brief)
         if key not in self._solved:
-            self._solved[key] = (self._of_groups(speaks_of_lines(tree)) if groups else self._search).solve(tree)
+            search = self._of_groups(speaks_of_lines(tree)) if groups else self._search
+            self._solved[key] = search.solve(tree, brief=brief)
         return self._solved[key]
+
+    def with_runner_up(self, solution: Solution) -> Solution:
+        """A solution of this search that was found without one; one of another search as it is."""
+        found = [s for s in (self._search, *self._grouped.values()) if s.encoder.world is solution.world]
+        if not found or solution.tree is None or solution.best is None:
+            return solution
+        return replace(solution, runner_up=found[0].runner_up(solution.tree, solution.best))
 
     def _of_groups(self, lines: bool) -> Search:
         if lines not in self._grouped:
             encoder = self._search.encoder
             world = with_groups(encoder.world, lines=lines)
-            self._grouped[lines] = Search(WorldEncoder(encoder.features, world), self._tables, self._beam)
+            self._grouped[lines] = Search(encoder.of(world), self._tables, self._beam)
         return self._grouped[lines]
 
 
@@ -126,18 +176,34 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
         searches: in the world as it is seen in each frame, with the log-probability of the frame; the robot's first.
         readings: the likeliest first.
     """
+    brief = len(searches) * len(readings) > 1  # only the solution that is taken needs a runner-up
     found = [
-        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree) for r in readings]
+        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree, brief=brief) for r in readings]
         for search, _ in searches
     ]
     weights = [[frame + r.log_weight for r in readings] for _, frame in searches]
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
+    for search, _ in searches if brief else ():
+        solution = search.with_runner_up(solution)
+    solution = _several_there(solution)
     if len(searches) == 1:
         return solution
     told = [
         np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
     ]
     return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
+
+
+def _several_there(solution: Solution) -> Solution:
+    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
+    best, other = solution.best, solution.runner_up
+    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
+        return solution
+    noun = solution.noun
+    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
+    if noun is None or not noun.plural or unseen >= 0.5:
+        return solution
+    return replace(solution, best=other, runner_up=best)
 
 
 def _fit(solution: Solution) -> float:
@@ -182,25 +248,47 @@ def sense(solution: Solution) -> float:
     return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
 
 
-def looking(tree: ParseTree, text: str, world: WorldModel) -> ParseTree:
+@dataclass(frozen=True)
+class _Looks:
+    """What may be told by looking in a world.
+
+    Attributes:
+        shown, named: do things show their colours, or are these but named?
+        valued: have things attributes with values?
+        classes: the types that may be there, where colours are shown.
+    """
+
+    shown: bool
+    named: bool
+    valued: bool
+    classes: frozenset[str]
+
+    @classmethod
+    def of(cls, world: WorldModel) -> _Looks:
+        """Of a world."""
+        shown = any(o.rgb is not None for o in world.objects)
+        named = not shown and any(o.color is not None for o in world.objects)
+        valued = any(":" in a for o in world.objects if o.attributes for a in o.attributes)
+        return cls(shown, named, valued, world.classes if shown else frozenset())
+
+
+@functools.lru_cache(maxsize=1024)
+def _looking(tree: ParseTree, text: str, looks: _Looks) -> ParseTree:
     """The tree whose noun phrases are also told of the command's words what is to be judged by looking.
 
     Where things show their colours the first noun phrase is told of all words, but of its own alone if the command
     speaks of other things too. Where their colours are but named each is told of those of its words that compare
     ("darkest"). The first is told of what may be the value of an attribute where things have such.
     """
-    shown = any(o.rgb is not None for o in world.objects)
-    named = not shown and any(o.color is not None for o in world.objects)
-    valued = any(":" in a for o in world.objects for a in o.attributes)
-    if not shown and not named and not valued:
+    if not looks.shown and not looks.named and not looks.valued:
         return tree
     words = _words(text)
-    several = shown and _speaks_of_others(tree, world.classes)
-    values = stated_values(words) if valued else ()
-    if named or several:
-        tree = _each_told(tree, compared=named)
+    several = looks.shown and _speaks_of_others(tree, looks.classes)
+    values = stated_values(words) if looks.valued else ()
+    if looks.named or several:
+        tree = _each_told(tree, compared=looks.named)
         words = ()
-    return _told(tree, words if shown else (), values)
+    return _told(tree, words if looks.shown else (), values)
 
 
 def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -33,8 +33,14 @@ class Hypothesis:
     @property
     def meant(self) -> Object:
         """The object that the noun phrase of the action means, or where there is none, that of the action."""
-        nouns = (h for h in self.walk() if h.tree.phrase.kind is PhraseKind.NOUN)
-        return next(nouns, self).child.grounding.object
+        return (self._noun or self).child.grounding.object
+
+    @property
+    def _noun(self) -> Hypothesis | None:
+        """That of the first noun phrase, parents first."""
+        if self.tree.phrase.kind is PhraseKind.NOUN:
+            return self
+        return next((noun for child in self.children if (noun := child._noun) is not None), None)
 
     def walk(self) -> list[Hypothesis]:
         """This hypothesis and those below, parents first."""
@@ -84,6 +90,12 @@ class ModifierFactor:
         """(things,) log Psi(thing)."""
         return np.logaddexp(math.log1p(-SLIP) + self._log_sum, math.log(SLIP))
 
+    @cached_property
+    def _likeliest(self) -> NDArray[np.int64]:
+        """(things,) the likeliest combo of each."""
+        best: NDArray[np.int64] = self.mixture.argmax(axis=0)
+        return best
+
     @property
     def posterior(self) -> NDArray[np.float64]:
         """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
@@ -95,7 +107,7 @@ class ModifierFactor:
 
     def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
         """That the thing j stands so, to its best landmarks or to those of a given combo."""
-        best = int(self.mixture[:, j].argmax()) if combo is None else combo
+        best = int(self._likeliest[j]) if combo is None else combo
         child = Child(Grounding(GroundingKind.PLACED, thing))
         return Hypothesis(self.tree, child, self.combos[best], float(self.log_psi[j]))
 
@@ -204,15 +216,17 @@ class Solution:
             own = self._probability_of_set({o.id for o in meant})
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
-    def _probability_of_set(self, inside: Collection[str]) -> float:
-        """That just these are meant: the least likely of them before the likeliest other.
+    def _probability_of_set(self, inside: set[str]) -> float:
+        """That just these are meant: that things there are, and the least likely of them before the likeliest other.
 
         What people describe, they describe together: whether one is meant hangs on whether the others are. So it is as
         likely that all are as that the least likely is.
         """
+        unseen = {o.id for o in self.world.objects if o.hypothetical}
+        absent = sum(p for i, p in self.probabilities.items() if i in unseen)
         least = min(self.probabilities[i] for i in inside)
-        other = max((p for i, p in self.probabilities.items() if i not in inside), default=0.0)
-        return least / (least + other)
+        other = max((p for i, p in self.probabilities.items() if i not in inside | unseen), default=0.0)
+        return (1.0 - absent) * least / (least + other)
 
 
 def target_of(tree: ParseTree) -> ParseTree | None:

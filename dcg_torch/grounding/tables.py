@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 import torch
 
+from dcg_torch import scene
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Ranking, Said, padded, ranking
 from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor, distinct
@@ -105,20 +106,23 @@ class Tables:
             table = self._log_psi(phrase, bag.reshape(-1, bag.shape[2]))
             return table.reshape(len(table), len(landmarks), n)
         side = self._side(phrase)
-        tables = [side[:, self.features.relation_of]]
-        if (few := self.features.few_of(counted)) is not None:
-            tables.append(side[:, few])
-        first = side[:, self.features.placed_column]
-        out = np.empty((len(side), len(landmarks), n))
+        own = side[:, self.features.relation_of]
+        few = self.features.few_of(counted)
+        first = list(dict.fromkeys([of[0] for of in landmarks]))
+        out = np.empty((len(side), len(first), n))
         step = max(1, _ENTRIES // (n * 16))
-        for start in range(0, len(landmarks), step):
-            found = np.array(encoder.relations(landmarks[start : start + step], counted.among, members), dtype=np.int64)
+        for start in range(0, len(first), step):
+            part = [(j,) for j in first[start : start + step]]
+            found = np.array(encoder.relations(part, counted.among, members), dtype=np.int64)
             flat = found.reshape(-1, found.shape[2]).T
-            total = np.zeros((len(side), flat.shape[1])) + first[:, None]
-            for table in tables:
+            total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
+            for table in (own,) if few is None else (own, side[:, few]):
                 _add(total, table, flat)
-            out[:, start : start + step] = _normal(total).reshape(len(side), -1, n)
-        return out
+            out[:, start : start + step] = total.reshape(len(side), -1, n)
+        if any(len(of) > 1 for of in landmarks):
+            out = out[:, [first.index(of[0]) for of in landmarks]]
+            out += own[:, scene.between(encoder.layout, landmarks)]
+        return _normal(out)
 
     def patterns(self, phrase: Phrase, kind: GroundingKind, patterns: Mapping[Pattern, Sequence[Child]]) -> Floats:
         """(P, patterns) of regions or actions.

@@ -8,7 +8,7 @@ from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin
-from dcg_torch.language.predicates import is_edge_of, last_thing, share_noun
+from dcg_torch.language.predicates import is_edge_of, is_state, last_thing, share_noun
 
 
 class NounPhrases:
@@ -180,9 +180,12 @@ class NounPhrases:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
             return
+        noun.pick(predicate)
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
-        if noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
+        if noun.noun is None and is_state(predicate):
+            self.say(noun, (str(predicate.noun),))
+        elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
             noun.noun, noun.pronoun = predicate.noun, False
 
     def says_where(self) -> bool:

@@ -17,14 +17,13 @@ from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 _APART = 0.4  # metres at least between two things
-_ASIDE = 0.4  # metres from straight ahead from which a thing lies on a side
 _VERBS = ("take", "get", "go to", "pick up")
 
 
 def scattered_scene(rng: np.random.Generator) -> Scene:
     """Three to seven things of one kind in front of the robot, and some of another."""
     kind, other = map(str, rng.permutation(KINDS)[:2])
-    points = _points(rng, int(rng.integers(3, 8)) + int(rng.integers(0, 4)))
+    points = scattered(rng, int(rng.integers(3, 8)) + int(rng.integers(0, 4)))
     number = max(3, len(points) - int(rng.integers(0, 4)))
     sized = bool(rng.random() < 0.5)  # some recognisers say how large a thing is
     things = [
@@ -38,8 +37,8 @@ def scattered_scene(rng: np.random.Generator) -> Scene:
         for text, meant in (*_on_sides(kind, alike), *_by_way(kind, alike), *_in_depth(kind, alike))
         if meant is not None
     ]
-    said += [(f"{verb} the {text}", ids) for text, ids in (*_several(kind, alike), *_of_one_side(kind, alike))]
-    return Scene(tuple(things), Pose(0.0, 0.0), Workspace(None, _unit(points)), tuple(said))
+    said += [(f"{verb} the {text}", ids) for text, ids in _several(kind, alike)]
+    return Scene(tuple(things), Pose(0.0, 0.0), Workspace(None, spacing(points)), tuple(said))
 
 
 def _on_sides(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:
@@ -79,23 +78,6 @@ def _by_way(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | No
             yield from ((f"{ORDINALS[k]} {word} {kind}", of[k]) for k in range(1, min(len(of), 4)))
 
 
-def _of_one_side(kind: str, alike: Sequence[Percept]) -> Iterator[Told]:
-    """The side as a part of the scene: all that lie there, and the nearest and the farthest of these."""
-    if any(abs(o.position[1]) < _ASIDE for o in alike):
-        return
-    for side, sign in (("left", 1.0), ("right", -1.0)):
-        there = [o for o in alike if sign * o.position[1] > 0.0]
-        if not 2 <= len(there) < len(alike):
-            continue
-        yield f"{kind}s on your {side}", frozenset(o.id for o in there)
-        near = ranked(there, lambda o: math.hypot(*o.position[:2]))
-        for end, text in ((0, "nearest"), (0, "closest"), (-1, "farthest")):
-            if (meant := near[end]) is not None:
-                yield from ((f"{text} {kind} on {whose} {side}", frozenset({meant})) for whose in ("the", "your"))
-        if near[0] is not None:
-            yield f"{kind} closest to you on your {side}", frozenset({near[0]})
-
-
 def _several(kind: str, alike: Sequence[Percept]) -> Iterator[Told]:
     """The first two or three of them from a side or from the robot."""
     orders = {
@@ -120,7 +102,8 @@ def _several(kind: str, alike: Sequence[Percept]) -> Iterator[Told]:
 _CLEAR_TURN = 0.05  # radians by which two directions must be told apart
 
 
-def _points(rng: np.random.Generator, number: int) -> list[tuple[float, float]]:
+def scattered(rng: np.random.Generator, number: int) -> list[tuple[float, float]]:
+    """So many places in front of the robot, by chance and apart."""
     found: list[tuple[float, float]] = []
     while len(found) < number:
         point = float(rng.uniform(0.8, 6.5)), float(rng.uniform(-4.5, 4.5))
@@ -129,7 +112,7 @@ def _points(rng: np.random.Generator, number: int) -> list[tuple[float, float]]:
     return found
 
 
-def _unit(points: Sequence[tuple[float, float]]) -> float:
+def spacing(points: Sequence[tuple[float, ...]]) -> float:
     """The median distance from a point to its nearest neighbour."""
     return float(np.median([min(math.dist(p, q) for q in points if q is not p) for p in points]))
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 # What people call the places; the side is the one that the word itself names, seen from the robot.
 PLACE_WORDS = {
     "corner": ("corner", None),
@@ -70,6 +72,12 @@ LINE_ENDS: dict[str, tuple[int | None, int]] = {
 """Word -> is it an end of rows (0), of columns (1) or of both, and is it the first (1) or the last (-1)?"""
 CELL = "cell: "
 """Begins the attribute that tells in which row and column of a grid a thing stands."""
+LIKELY_ROOM = "likely room: "
+"""Begins the attribute that tells in which room of a home a thing is likely to be."""
+SPOT = "spot: "
+"""Begins the attribute that tells whether a thing is in a corner of a room."""
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT)
+"""Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
 CELL_STEPS |= {"north of": (-1, 0), "south of": (1, 0), "west of": (0, -1), "east of": (0, 1)}
@@ -80,10 +88,16 @@ INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the
 """Prepositions by which a thing is one of a group."""
 RANKING = frozenset({"closest to", "farthest from", "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
+WITHIN = "within"
+"""What "on" and "to" a side say of things that are ranked there: they are in that part of the scene."""
 ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
     **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
 }
+TOGETHER = "together "
+"""Begins the word that says how many of a kind stand together, and are meant or picked from: "together 2"."""
+MUTUAL = frozenset({"next to", "touching", "near", "close to", "beside"})
+"""Prepositions by which several stand together: "two cubes next to each other"."""
 ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
@@ -102,6 +116,8 @@ WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "pi
 WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 """What people call all of a scene, where nothing that is there is called so."""
 GROUND_WORD = "board"
+VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
+"""Who sees the scene, where nothing that is there is called so."""
 SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
 SIDE_OF |= {"in the middle of": "middle"}
 """Of the whole scene a preposition names a side: "on the right side of the table"."""
@@ -119,7 +135,7 @@ SYNONYMS = {
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
-    **{"high": "highest", "low": "lowest"},
+    **{"high": "highest", "low": "lowest", "farther": "farthest", "closer": "closest", "nearer": "closest"},
     **{"isolated": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
@@ -150,3 +166,13 @@ LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""
+
+
+def is_superlative(word: str) -> bool:
+    """Does a word pick the end of an order: "nearest", "leftmost", "middle"?"""
+    return word.endswith(("est", "most")) or word == "middle"
+
+
+def counted(words: Iterable[str], of: str = "of ") -> int | None:
+    """How many the words of a noun phrase say that there are: 5 for "of 5"; None where they do not."""
+    return next((int(word[len(of) :]) for word in words if word.startswith(of) and word[len(of) :].isdecimal()), None)

@@ -58,7 +58,7 @@ def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | Non
 def _numbered(values: Floats) -> Ints | None:
     """(n,) the number of the line on which each lies, lines being one step apart; None where they are not."""
     order = np.sort(values)
-    gaps = np.diff(order)
+    gaps = order[1:] - order[:-1]
     if not len(gaps) or gaps.max() <= 0.0:
         return None
     starts = np.concatenate([[0], np.flatnonzero(gaps > 0.5 * gaps.max()) + 1])

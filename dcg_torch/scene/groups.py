@@ -7,7 +7,7 @@ third row" counts through all that is there, as one reads a page: a thing is in 
 
 from __future__ import annotations
 
-import itertools
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
@@ -36,7 +36,7 @@ _ASIDE = 0.2
 _SPREAD = 2.4
 """The farthest neighbours in a group are at most so many times as far apart as the nearest."""
 _FEW = 40
-"""Points up to which all distances are sorted."""
+"""Things up to which all distances are sorted, and all classes are looked at together."""
 _CHUNK = 1024
 """Steps that are looked at together."""
 _MANY, _NEIGHBOURS = 512, 33
@@ -61,22 +61,38 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     if len(there) < 2:
         return ()
     position = _seen(there, unit, robot)
-    alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(there)))}
-    for j, o in enumerate(there):
+    found: dict[str, set[tuple[int, ...]]] = {ROW: set(), STACK: set(_stacks(position)), CLUSTER: set()}
+    for numbers, code in _compared(there):
+        points = position[numbers]
+        found[ROW].update(_numbers_of(_even_rows(points, code), numbers))
+        found[CLUSTER].update(_numbers_of(_clusters(points, code), numbers))
+    place = position.tolist()
+    found[ROW].update(members for members in found[CLUSTER] if _in_line([place[j] for j in members]))
+    return tuple(
+        _group(kind, [there[j] for j in members], [place[j] for j in members])
+        for kind, of_kind in found.items()
+        for members in sorted(of_kind, key=lambda m: (-len(m), m))[:_MOST]
+    )
+
+
+def _compared(objects: Sequence[Object]) -> Iterable[tuple[Ints, Ints]]:
+    """The numbers of objects and the class of each: one of all, those of one type, those of one type and colour.
+
+    Few are looked at in all classes at once, so that an object is there once for each; many class by class.
+    """
+    alike: dict[tuple[str | None, ...], list[int]] = {(): list(range(len(objects)))}
+    for j, o in enumerate(objects):
         alike.setdefault((o.type,), []).append(j)
         alike.setdefault((o.type, o.color), []).append(j)
-    found: dict[str, dict[frozenset[int], None]] = {ROW: {}, STACK: {}, CLUSTER: {}}
-    for among in alike.values():
-        near = [frozenset(among[k] for k in members) for members in _clusters(position[among])]
-        found[ROW] |= dict.fromkeys(frozenset(among[k] for k in row) for row in _even_rows(position[among]))
-        found[ROW] |= dict.fromkeys(members for members in near if _in_line(position[sorted(members)]))
-        found[CLUSTER] |= dict.fromkeys(near)
-    found[STACK] = dict.fromkeys(_stacks(position))
-    return tuple(
-        _group(kind, [there[j] for j in sorted(members)], position[sorted(members)])
-        for kind, of_kind in found.items()
-        for members in itertools.islice(sorted(of_kind, key=lambda m: (-len(m), sorted(m))), _MOST)
-    )
+    classes = list(dict.fromkeys(tuple(members) for members in alike.values() if len(members) >= _LEAST))
+    together = [classes] if len(objects) <= _FEW else [[members] for members in classes]
+    for some in filter(None, together):
+        numbers = np.array([j for members in some for j in members], dtype=np.int64)
+        yield numbers, np.repeat(np.arange(len(some)), [len(members) for members in some])
+
+
+def _numbers_of(found: Iterable[Sequence[int]], numbers: Ints) -> Iterable[tuple[int, ...]]:
+    return (tuple(sorted(numbers[list(members)].tolist())) for members in found)
 
 
 def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
@@ -92,7 +108,7 @@ def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | Non
     for kind, (axis, first, last) in _LINES.items():
         lines = list(_parted(-position[:, axis], top))
         for k, members in enumerate(lines):
-            line = _group(kind, [there[j] for j in members], position[members])
+            line = _group(kind, [there[j] for j in members], position[members].tolist())
             counted = {f"{k + 1} from the {first}", f"{len(lines) - k} from the {last}"}
             counted |= {MIDDLE_LINE} if 2 * k + 1 == len(lines) else set()
             found.append(replace(line, attributes=line.attributes | counted))
@@ -107,11 +123,11 @@ def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
     return seen
 
 
-def _group(kind: str, members: Sequence[Object], position: Floats) -> Object:
+def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[float]]) -> Object:
     ids = tuple(o.id for o in members)
     types, colors = {o.type for o in members}, {o.color for o in members}
     one_type = next(iter(types)) if len(types) == 1 else None
-    deep, wide = np.ptp(position[:, :2], axis=0)
+    deep, wide, _ = map(_extent, zip(*position, strict=True))
     lies = {ACROSS if wide >= deep else ALONG} if kind == ROW else set()
     return Object(
         id=f"{kind}: {' '.join(ids)}",
@@ -124,11 +140,13 @@ def _group(kind: str, members: Sequence[Object], position: Floats) -> Object:
     )
 
 
-def _even_rows(points: Floats) -> Iterable[list[int]]:
-    """Maximal runs of at least `_LEAST` in a straight line on one level, one step apart."""
-    if len(points) < _LEAST:
-        return
-    follow = _next_steps(points)
+def _extent(values: Sequence[float]) -> float:
+    return max(values) - min(values)
+
+
+def _even_rows(points: Floats, code: Ints) -> Iterable[list[int]]:
+    """Maximal runs of at least `_LEAST` of one class in a straight line on one level, one step apart."""
+    follow = _next_steps(points, code)
     for i, j in follow:
         if (j, i) in follow:
             continue  # this is not an end of the row
@@ -139,27 +157,27 @@ def _even_rows(points: Floats) -> Iterable[list[int]]:
             yield run
 
 
-def _next_steps(points: Floats) -> dict[tuple[int, int], int]:
+def _next_steps(points: Floats, code: Ints) -> dict[tuple[int, int], int]:
     """Which thing stands one more step on, of each step (i, j) between two that are next to each other on a level."""
-    i, j = _steps(points)
+    i, j = _steps(points, code)
     due = 2.0 * points[j] - points[i]
     length = np.hypot(*(points[j] - points[i])[:, :2].T)
-    best, miss = _nearest_to(points, due)
+    best, miss = _nearest_to(points, due, code, code[i])
     kept = miss < _UNEVEN * length
     pairs = zip(i[kept].tolist(), j[kept].tolist(), strict=True)
     return dict(zip(pairs, best[kept].tolist(), strict=True))
 
 
-def _steps(points: Floats) -> tuple[Ints, Ints]:
-    """The pairs of things on one level that are about as near to each other as either is to any."""
+def _steps(points: Floats, code: Ints) -> tuple[Ints, Ints]:
+    """The pairs of things of a class on one level that are about as near to each other as either is to any of it."""
     if len(points) <= _MANY:
-        offset = points[None, :, :] - points[:, None, :]
-        distance = np.hypot(offset[..., 0], offset[..., 1])
-        level = np.abs(offset[..., 2]) < SAME_SPOT
-        apart = np.where(level & (distance > SAME_SPOT), distance, np.inf)
-        nearest = apart.min(axis=1)
-        i, j = np.nonzero(apart < _STEP * np.minimum(nearest[:, None], nearest[None, :]) + 1e-6)
-        return i, j
+        i, j = np.nonzero(code[:, None] == code[None, :])
+        x, y, z = (own[j] - own[i] for own in points.T)
+        distance = np.hypot(x, y)
+        apart = np.where((np.abs(z) < SAME_SPOT) & (distance > SAME_SPOT), distance, np.inf)
+        nearest = np.minimum.reduceat(apart, np.searchsorted(i, np.arange(len(points))))
+        near = apart < _STEP * np.minimum(nearest[i], nearest[j]) + 1e-6
+        return i[near], j[near]
     from scipy.spatial import cKDTree  # here: few worlds are so large
 
     tree = cKDTree(points[:, :2])
@@ -171,54 +189,55 @@ def _steps(points: Floats) -> tuple[Ints, Ints]:
     return i, others[i, k]
 
 
-def _nearest_to(points: Floats, places: Floats) -> tuple[Ints, Floats]:
-    """The thing nearest to each of some places, and how far it is from it."""
+def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tuple[Ints, Floats]:
+    """The thing of a wanted class that is nearest to each of some places, and how far it is from it."""
     if len(points) > _MANY:
         from scipy.spatial import cKDTree  # here: few worlds are so large
 
         distance, number = cKDTree(points).query(places)
         return number, distance
     found, missed = [], []
-    for part in np.split(places, range(_CHUNK, len(places), _CHUNK)):
-        miss = np.linalg.norm(points[None] - part[:, None], axis=2)
+    for start in range(0, len(places) or 1, _CHUNK):
+        part = slice(start, start + _CHUNK)
+        square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(points.T, places[part].T, strict=True))
+        miss = np.where(code[None, :] == wanted[part, None], np.sqrt(square), np.inf)
         found.append(miss.argmin(axis=1))
-        missed.append(miss[np.arange(len(part)), found[-1]])
+        missed.append(miss[np.arange(len(miss)), found[-1]])
     return np.concatenate(found), np.concatenate(missed)
 
 
-def _clusters(points: Floats) -> Iterable[list[int]]:
-    """The clusters of single linkage, on at least `_LEAST` spots, that are closer together than to anything else."""
+def _clusters(points: Floats, code: Ints) -> Iterable[list[int]]:
+    """The clusters of single linkage, on at least `_LEAST` spots, that are closer together than to anything else.
+
+    Those of each class by itself.
+    """
     n = len(points)
-    if n < _LEAST:
-        return
-    merges = _single_linkage(points[:, :2])
+    merges = _single_linkage(points[:, :2], code)
     members: list[list[int]] = [[k] for k in range(n)]
     spots = [1] * n  # how many places seen from above a cluster is at
     first = [np.inf] * n  # the distance at which the first two of a cluster come together
-    ends = [np.inf] * (2 * n - 1)  # the distance at which a cluster becomes part of a larger one
-    for left, right, distance, _ in merges:
-        one, other = int(left), int(right)
+    ends = [np.inf] * (n + len(merges))  # the distance at which a cluster becomes part of a larger one
+    for one, other, distance in merges:
         ends[one] = ends[other] = distance
         first.append(min(first[one], first[other], max(distance, SAME_SPOT)))
         spots.append(spots[one] + spots[other] - (distance < SAME_SPOT))
-        members.append(sorted(members[one] + members[other]))
-    for k in range(n, 2 * n - 1):
-        last = max(merges[k - n][2], SAME_SPOT)
+        members.append(members[one] + members[other])
+    for k, (_, _, distance) in enumerate(merges, start=n):
+        last = max(distance, SAME_SPOT)
         if last <= _SPREAD * first[k] and ends[k] >= _APART * last and spots[k] >= _LEAST:
             yield members[k]
 
 
-def _single_linkage(points: Floats) -> list[list[float]]:
-    """Which two clusters come together at which distance, the n points being the first ones, as scipy tells it."""
+def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
+    """Which two clusters come together at which distance, the n points being the first ones."""
     n = len(points)
-    if n > _FEW:
+    if code[-1] == 0 and n > _FEW:
         from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
 
-        merges: list[list[float]] = linkage(points, "single").tolist()
-        return merges
-    i, j = np.triu_indices(n, 1)
-    offset = points[i] - points[j]
-    apart = np.sqrt((offset * offset).sum(axis=1))
+        return [(int(one), int(other), distance) for one, other, distance, _ in linkage(points, "single").tolist()]
+    i, j = np.nonzero(np.triu(code[:, None] == code[None, :], 1))
+    x, y = (own[i] - own[j] for own in points.T)
+    apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")
     cluster, members, found = list(range(n)), [[k] for k in range(n)], []
     for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
@@ -228,18 +247,22 @@ def _single_linkage(points: Floats) -> list[list[float]]:
         members.append(members[left] + members[right])
         for k in members[-1]:
             cluster[k] = len(members) - 1
-        found.append([float(left), float(right), distance, float(len(members[-1]))])
-        if len(found) == n - 1:
-            break
+        found.append((left, right, distance))
     return found
 
 
-def _in_line(points: Floats) -> bool:
-    """Do points lie along a line on one level?"""
-    if np.ptp(points[:, 2]) >= SAME_SPOT:
+def _in_line(points: Sequence[Sequence[float]]) -> bool:
+    """Do points lie along a line on one level? It is the axis along which they are spread most."""
+    x, y, z = zip(*points, strict=True)
+    if _extent(z) >= SAME_SPOT:
         return False
-    flat = points[:, :2] - points[:, :2].mean(axis=0)
-    along, aside = np.abs(flat @ np.linalg.svd(flat, full_matrices=False)[2].T).max(axis=0)
+    middle = sum(x) / len(x), sum(y) / len(y)
+    there = [(a - middle[0], b - middle[1]) for a, b in zip(x, y, strict=True)]
+    spread = sum((a - b) * (a + b) for a, b in there)
+    angle = math.atan2(2.0 * sum(a * b for a, b in there), spread) / 2.0
+    c, s = math.cos(angle), math.sin(angle)
+    along = max(abs(a * c + b * s) for a, b in there)
+    aside = max(abs(b * c - a * s) for a, b in there)
     return bool(aside <= _ASIDE * along)
 
 
@@ -268,14 +291,14 @@ def _uncovered(position: Floats) -> Ints:
     return np.flatnonzero(free)
 
 
-def _stacks(position: Floats) -> Iterable[frozenset[int]]:
+def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
     """Things over one another."""
     stack = {j: {j} for j in range(len(position))}
     for i, j in zip(*(numbers.tolist() for numbers in _over(position)), strict=True):
         if stack[i] is not stack[j]:
             stack[i] |= stack[j]
             stack |= dict.fromkeys(stack[j], stack[i])
-    return dict.fromkeys(frozenset(of) for of in stack.values() if len(of) >= 2)
+    return (tuple(sorted(of)) for of in stack.values() if len(of) >= 2)
 
 
 def _over(position: Floats) -> tuple[Ints, Ints]:

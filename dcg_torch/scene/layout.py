@@ -42,6 +42,8 @@ DIRECTION = "direction"
 """Type of the places that are no point but a way to look: "on your left"."""
 GROUND = "ground"
 """Type of the place that everything stands on."""
+EDGES = ("edge", "corner")
+"""Types of the places that are no point."""
 HEADINGS = {"far side": (1.0, 0.0), "near side": (-1.0, 0.0), "left side": (0.0, 1.0), "right side": (0.0, -1.0)}
 """Attribute of a place -> where that side is, in the frame of who looks."""
 OF_ROBOT, OF_SPEAKER = "of robot", "of speaker"
@@ -87,6 +89,20 @@ class Layout:
         """(n,) is it an object?"""
         solid: Bools = ~(self.group | self.place)
         return solid
+
+    @functools.cached_property
+    def line(self) -> Bools:
+        """(n,) is it a row or a column of the whole scene?"""
+        found = np.zeros(len(self.things), dtype=np.bool_)
+        found[[j for j in self.members if not self.things[j].attributes.isdisjoint(LINES)]] = True
+        return found
+
+    @functools.cached_property
+    def wide(self) -> Floats | None:
+        """(n, 2) what of the half extents makes objects more than points; None where all things are points."""
+        if self.bodies is not None:
+            return self.bodies.wide
+        return np.zeros_like(self.half) if self.half.any() else None
 
     @functools.cached_property
     def colors(self) -> tuple[str, ...]:
@@ -143,7 +159,7 @@ class Layout:
         code = np.full(len(self.things), -1, dtype=np.int64)
         longest = np.zeros(len(self.things), dtype=np.int64)
         for k, (group, inside) in enumerate(self.members.items()):
-            if not self.things[group].attributes.isdisjoint(LINES):
+            if self.line[group]:
                 continue
             better = inside[longest[inside] < len(inside)]
             longest[better], code[better] = len(inside), k
@@ -166,19 +182,19 @@ def layout(world: WorldModel) -> Layout:
     position /= world.unit
     half = np.zeros((n, 2))
     for j in range(placed, n):
-        half[j] = (0.0, 0.0) if (size := things[j].size) is None else size[:2]
-    half = half / 2 / world.unit
+        if (size := things[j].size) is not None:
+            half[j] = size[:2]
+    half /= 2 * world.unit
     members = _members(world) if world.groups else {}
-    for i, inside in members.items():
-        position[i] = position[inside].mean(axis=0)
-        half[i] = np.ptp(position[inside, :2], axis=0) / 2
+    if members:
+        _of_groups(members, position, half)
     numbers = np.arange(n)
     place, group = numbers >= placed, (numbers >= objects) & (numbers < placed)
     middle = _middle(position[:objects, :2])
-    direction, ground, edge = (np.zeros(n, dtype=np.bool_) for _ in range(3))
-    for j in range(placed, n):
-        type_ = things[j].type
-        direction[j], ground[j], edge[j] = type_ == DIRECTION, type_ == GROUND, type_ in ("edge", "corner")
+    none, types = [False] * placed, [place.type for place in world.places]
+    direction, ground, edge = (
+        np.array([*none, *(type_ in of for type_ in types)], dtype=np.bool_) for of in ((DIRECTION,), (GROUND,), EDGES)
+    )
     speaker = None
     if world.speaker is not None:
         speaker = to_robot_frame(viewer, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
@@ -197,6 +213,18 @@ def _members(world: WorldModel) -> dict[int, Ints]:
     number = {o.id: j for j, o in enumerate(world.things)}
     first = len(world.objects)
     return {first + g: np.array([number[m] for m in o.members], dtype=np.int64) for g, o in enumerate(world.groups)}
+
+
+def _of_groups(members: dict[int, Ints], position: Floats, half: Floats) -> None:
+    """Where groups are, the mean of their members, and how far they reach; in place."""
+    group, inside = list(members), np.concatenate(list(members.values()))
+    counts = np.array([len(of) for of in members.values()])
+    starts, own = np.cumsum(counts) - counts, position[inside]
+    total = np.zeros((len(group), 3))
+    np.add.at(total, np.repeat(np.arange(len(group)), counts), own)  # member after member: the same bits every time
+    position[group] = total / counts[:, None]
+    reach = np.maximum.reduceat(own[:, :2], starts, axis=0) - np.minimum.reduceat(own[:, :2], starts, axis=0)
+    half[group] = reach / 2
 
 
 def _middle(seen: Floats) -> Floats:

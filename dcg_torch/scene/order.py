@@ -37,6 +37,11 @@ class Alike:
     @classmethod
     def by(cls, code: Ints) -> Alike:
         """The class of a thing is that of its code; -1: it has none."""
+        if len(code) <= _FEW:
+            few = code.tolist()
+            number = {value: k for k, value in enumerate(sorted({*few} - {-1}))} | {-1: -1}
+            which = np.array([number[value] for value in few], dtype=np.int64)
+            return cls(which, [np.flatnonzero(which == k) for k in range(len(number) - 1)])
         known, which = np.unique(code, return_inverse=True)
         none = int(len(known) > 0 and known[0] < 0)
         order = np.argsort(which, kind="stable")
@@ -144,3 +149,14 @@ def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
             out[:, asking] = [np.searchsorted(v, b) for v, b in zip(ordered, bound[:, asking], strict=True)]
     out[np.isnan(bound)] = 0
     return out
+
+
+def highest(values: Floats, count: int) -> NDArray[np.int64]:
+    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
+    if count == 1:
+        return np.array([values.argmax()])
+    if len(values) <= max(512, 2 * count):
+        return np.argsort(-values, kind="stable")[:count]
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    among = np.flatnonzero(values >= least)
+    return among[np.argsort(-values[among], kind="stable")[:count]]

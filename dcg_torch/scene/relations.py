@@ -6,12 +6,12 @@ Relations are families of values, of which at most one fires: to one landmark, o
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.layout import LINES, NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike
 from dcg_torch.scene.order import before as lower
@@ -48,10 +48,21 @@ RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for famil
 """Family of relation features -> the names of its values; at most one value of a family fires."""
 RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
+_COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
+
+_BETWEEN = list(RELATIONS).index("between")
+
+Standing = tuple[NDArray[np.int16], Floats, Bools]
+"""How things stand to one landmark, whatever they are compared with: (families, n) indices into `RELATION_NAMES`, (n,)
+how far they are from it, and which of them may be the closest or the farthest."""
 
 
 def relations(
-    where: Layout, landmarks: Sequence[Sequence[int]], among: str, members: Bools | None = None
+    where: Layout,
+    landmarks: Sequence[Sequence[int]],
+    among: str,
+    members: Bools | None = None,
+    known: dict[int, Standing] | None = None,
 ) -> NDArray[np.int16]:
     """The relation features of every thing to every tuple of landmarks.
 
@@ -59,85 +70,91 @@ def relations(
         landmarks: c tuples of thing numbers; all but "between" is to the first of each.
         among: which of `SETS` "the closest" is one of.
         members: (n,) the things that it is one of, instead of such a set.
+        known: what was found of this layout before; more is added.
 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
     """
+    known = {} if known is None else known
+    first = [of[0] for of in landmarks]
+    if new := [j for j in dict.fromkeys(first) if j not in known]:
+        known.update(zip(new, _standing(where, np.array(new)), strict=True))
     alike = where.alike(among) if members is None else Alike.by(np.where(members & ~where.place, 0, -1))
-    found = _families(where, [tuple(of) for of in landmarks], alike)
-    out = np.full((len(RELATIONS), len(landmarks), len(where.things)), -1, dtype=np.int16)
+    found, distance, may = (np.array(part) for part in zip(*(known[j] for j in first), strict=True))
+    found[:, _COMPARED] = _orders(where, np.array(first), distance, may, alike)
+    if any(len(of) > 1 for of in landmarks):
+        found[:, _BETWEEN] = between(where, landmarks)
+    out: NDArray[np.int16] = found.transpose(0, 2, 1)
+    return out
+
+
+def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
+    """Of each landmark."""
+    position, place = where.position, where.place[first][:, None]
+    x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
+    covers = apart = None
+    if where.bodies is not None:
+        covers, apart = where.bodies.over(first, np.stack([x, y], axis=2))
+    if where.wide is not None:
+        half = where.half[first][:, None, :] + where.wide[first][:, None, :] + where.wide[None]
+        x, y = (np.sign(v) * np.maximum(np.abs(v) - half[..., k], 0.0) for k, v in enumerate((x, y)))
+    distance = np.hypot(x, y)
+    itself = first[:, None] == np.arange(len(position))[None, :]
+    exists = np.isfinite(distance) & ~itself
+    # A line of the whole scene has everything near it: a thing is in it or not.
+    alone = exists & ~where.line[first][:, None] if where.members else exists
+    near = distance
+    if covers is not None and apart is not None:
+        near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
+        near = np.where(covers, np.minimum(near, 0.0), near)
+    steps = np.searchsorted(_BOUNDS, np.where(exists, near, 0.0), side="left")
+    found = {
+        "distance": np.where(alone & ~place, steps, -1),
+        "vertical": _vertical(where, first, near, up, exists, covers, apart),
+        "itself": (itself & ~place) - 1,
+    }
+    aside = exists & (near >= SAME_SPOT)
+    if place.any():
+        point = ~(where.direction | where.ground)[first][:, None]
+        aside &= point & ~where.edge[first][:, None]  # an edge or a corner has no sides
+        found["place distance"] = np.where(exists & place & point, steps, -1)
+        found |= _headed(where, first, exists)
+    found |= _sides(where, first, x, y, aside)
+    if where.group[first].any():
+        found |= _members(where, first)
+    out = np.full((len(RELATIONS), *distance.shape), -1, dtype=np.int16)
     for of_family, family in zip(out, RELATIONS, strict=True):
         if family in found:
             of_family[:] = found[family]
     out += _STARTS * (out >= 0)
-    return out.transpose(1, 2, 0)
+    return zip(out.transpose(1, 0, 2), distance, alone, strict=True)
 
 
-def _families(where: Layout, landmarks: Sequence[tuple[int, ...]], alike: Alike) -> dict[str, Ints]:
-    """family -> (c, n) number of the value that fires, -1 for none; a family that fires nowhere may be missing."""
-    first = np.array([of[0] for of in landmarks], dtype=np.int64)
-    position = where.position
-    offset = position[None, :, :] - position[first][:, None, :]  # (c, n, 3)
-    flat = offset[..., :2]
-    half = where.half[first][:, None, :]
-    if where.bodies is not None:
-        wide = where.bodies.wide
-        half = half + wide[first][:, None, :] + wide[None]
-    with np.errstate(invalid="ignore"):
-        if half.any():
-            flat = np.sign(flat) * np.maximum(np.abs(flat) - half, 0.0)
-        distance = np.hypot(flat[..., 0], flat[..., 1])
-    exists = np.isfinite(distance) & (first[:, None] != np.arange(len(position))[None, :])
-    # A line of the whole scene has everything near it: a thing is in it or not.
-    alone = exists & ~np.array([not where.things[j].attributes.isdisjoint(LINES) for j in first.tolist()])[:, None]
-    solid, point = ~where.place[first][:, None], ~(where.direction | where.ground)[first][:, None]
-    of_place = exists & ~solid & point
-    covers, apart = None, exists & False
-    if where.bodies is not None:
-        covers, apart = where.bodies.over(first, offset)
-    near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
-    near = near if covers is None else np.where(covers, np.minimum(near, 0.0), near)
-    steps = np.searchsorted(DISTANCES, np.where(exists, near, 0.0), side="left")
-    found = {
-        "distance": np.where(alone & solid, steps, -1),
-        "place distance": np.where(of_place, steps, -1),
-        "vertical": _vertical(where, first, near, offset[..., 2], exists, covers, apart),
-    }
-    itself = first[:, None] == np.arange(len(position))[None, :]
-    found["itself"] = np.where(itself & solid, 0, -1)
-    found |= _sides(where, first, flat, exists & point & (near >= SAME_SPOT))
-    found |= _orders(where, first, distance, alone, alike)
-    if where.place[first].any():
-        found |= _headed(where, first, exists)
-    if where.group[first].any():
-        found |= _members(where, first)
-    if any(len(of) > 1 for of in landmarks):
-        found["between"] = _between(position, landmarks)
-    return found
-
-
-_OVER, _BESIDE = (
-    np.array([VERTICAL.index(name) for name in names])
-    for names in (
-        ("level", "on top", "higher over", "lower under", "right under"),
-        ("level", "above", "above", "below", "below"),
-    )
+_BOUNDS = np.array(DISTANCES)
+_VERTICAL = np.array(
+    [
+        [VERTICAL.index(name) for name in names]
+        for names in (
+            ("below", "below", "level", "above", "above"),
+            ("lower under", "right under", "level", "on top", "higher over"),
+        )
+    ]
 )
-"""Values of "vertical" for what is on the landmark's spot and what is not; an index below 0 counts from the end."""
-
+"""Values of "vertical" for what is not on the landmark's spot and what is, from far below to far above."""
+_UP = np.array([*np.nextafter([-ONE_LEVEL, -0.01], -np.inf), 0.01, ONE_LEVEL])
+"""Heights from which on things are one step less far below, or farther above; a thing just at a bound is nearer."""
 
 _BESIDE_IT = 0.7
 """Units at least between things that are known to cover no part of one another."""
 
 
 def _vertical(
-    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools
+    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools | None
 ) -> Ints:
-    # From -2, far below, to 2, far above; 0 is on a level.
-    step = (up > 0.01).astype(np.int64) + (up > ONE_LEVEL) - (up < -0.01) - (up < -ONE_LEVEL)
-    if where.bodies is not None and covers is not None:
-        step = np.where(covers | apart, where.bodies.steps(first, covers), step)
-    value = np.where(distance < SAME_SPOT, _OVER[step], _BESIDE[step])
+    step = np.searchsorted(_UP, up, side="left")  # 2 is on a level
+    if where.bodies is not None and covers is not None and apart is not None:
+        step = np.where(covers | apart, where.bodies.steps(first, covers) + 2, step)
+    value = _VERTICAL[(distance < SAME_SPOT).astype(np.int64), np.minimum(step, 4)]
     if where.ground[first].any():
         on_ground = np.where(where.resting, VERTICAL.index("higher over"), VERTICAL.index("on top"))[None]
         value = np.where(where.ground[first][:, None], on_ground, value)
@@ -145,41 +162,41 @@ def _vertical(
     return out
 
 
-def _sides(where: Layout, first: Ints, flat: Floats, aside: Bools) -> dict[str, Ints]:
-    """On which side of the landmark, by the three frames; an edge or a corner has no sides."""
-    sided = aside & ~where.edge[first][:, None]
-    bearing = np.arctan2(flat[..., 1], flat[..., 0])
+def _sides(where: Layout, first: Ints, x: Floats, y: Floats, sided: Bools) -> dict[str, Ints]:
+    """On which side of the landmark, by the three frames."""
+    bearing = np.arctan2(y, x)
     mark = where.position[first, :2]
     away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    seen = sided & away
-    found = {"side": np.where(sided, _sector(bearing, sided), -1)}
-    found["side seen"] = np.where(seen, _sector(bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None], seen), -1)
+    frames = [(bearing, sided), (bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None], sided & away)]
     if where.speaker is not None:
         view = mark - where.speaker
         near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
         view[near] = where.middle - where.speaker
-        spoken = bearing - np.arctan2(view[:, 1], view[:, 0])[:, None]
-        found["side spoken"] = np.where(sided, _sector(spoken, sided), -1)
-    across, along = np.abs(flat[..., 1]) < SAME_SPOT, np.abs(flat[..., 0]) < SAME_SPOT
-    found["line"] = np.where(sided & along, 0, np.where(sided & across, 1, -1))
+        frames.append((bearing - np.arctan2(view[:, 1], view[:, 0])[:, None], sided))
+    found = dict(zip(FRAMES, (np.where(kept, _sector(angle, kept), -1) for angle, kept in frames), strict=False))
+    along, across = (sided & (np.abs(v) < SAME_SPOT) for v in (x, y))
+    found["line"] = np.where(along, 0, np.where(across, 1, -1))
     return found
 
 
 def _sector(angle: Floats, kept: Bools) -> Ints:
     """Which of the eight `SECTORS`, as seen by who looks along angle 0; any for what is not kept."""
-    return np.round(np.where(kept, angle, 0.0) / (math.pi / 4)).astype(np.int64) % 8
+    return np.rint(np.where(kept, angle, 0.0) / (math.pi / 4)).astype(np.int64) & 7
 
 
-def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> dict[str, Ints]:
-    """The closest and the farthest of those alike; in a direction, the one that is farthest that way."""
-    heading = np.nan_to_num(where.heading[first])
-    offset = where.position[None, :, :2] - where.position[first][:, None, :2]
-    ahead = -(offset * heading[:, None, :]).sum(axis=2)
-    value = np.where(where.direction[first][:, None], ahead, distance)
-    signed = np.concatenate([np.where(exists, value, math.inf), np.where(exists, -value, math.inf)])
-    before = lower(signed, alike, NEAREST).reshape(2, *value.shape)
+def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> Ints:
+    """(c, 2, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
+    value = distance
+    if where.direction[first].any():
+        heading = np.nan_to_num(where.heading[first])
+        offset = where.position[None, :, :2] - where.position[first][:, None, :2]
+        ahead = -(offset * heading[:, None, :]).sum(axis=2)
+        value = np.where(where.direction[first][:, None], ahead, distance)
+    signed = np.where(exists, np.stack([value, -value]), math.inf)
+    before = lower(signed.reshape(-1, value.shape[1]), alike, NEAREST).reshape(signed.shape)
     compared = exists & (alike.code >= 0) & (before < NEAREST)
-    return dict(zip(_ORDERS, np.where(compared, before, -1), strict=True))
+    out: Ints = np.where(compared, before + _STARTS[_COMPARED], -1).transpose(1, 0, 2)
+    return out
 
 
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
@@ -211,24 +228,28 @@ def _members(where: Layout, first: Ints) -> dict[str, Ints]:
     """To a group: is a thing in it, on top of it, at its end or in the middle?"""
     shape = (len(first), len(where.things))
     found = {family: np.full(shape, -1, dtype=np.int64) for family in ("member", "member top", "member place")}
-    for c, g in enumerate(first):
-        if not where.group[g]:
-            continue
-        inside = np.sort(where.members[int(g)])
-        found["member"][c] = 1
-        found["member"][c, inside] = 0
-        height = where.position[inside, 2]
-        found["member top"][c, inside] = np.where(height > height.max() - TIE, 0, 1)
-        reach = np.linalg.norm(where.position[inside] - where.position[g], axis=1)
-        place = np.full(len(inside), 2)
-        place[reach > reach.max() - 0.25] = 0
-        place[reach < min(0.25, reach.min() + TIE)] = 1
-        found["member place"][c, inside] = place
+    row = np.flatnonzero(where.group[first])
+    members = [where.members[g] for g in first[row].tolist()]
+    found["member"][row] = 1
+    counts, inside = np.array([len(of) for of in members]), np.concatenate(members)
+    starts, row, group = np.cumsum(counts) - counts, np.repeat(row, counts), np.repeat(first[row], counts)
+    found["member"][row, inside] = 0
+    height = where.position[inside, 2]
+    found["member top"][row, inside] = height <= np.repeat(np.maximum.reduceat(height, starts), counts) - TIE
+    reach = np.linalg.norm(where.position[inside] - where.position[group], axis=1)
+    least, most = (np.repeat(of.reduceat(reach, starts), counts) for of in (np.minimum, np.maximum))
+    end, middle = reach > most - 0.25, reach < np.minimum(0.25, least + TIE)
+    found["member place"][row, inside] = np.where(middle, 1, np.where(end, 0, 2))
     return found
 
 
-def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
-    """Is a thing between the first two landmarks: over their line, and not off to the side?"""
+def between(where: Layout, landmarks: Sequence[Sequence[int]]) -> NDArray[np.int16]:
+    """Is a thing between the first two landmarks: over their line, and not off to the side?
+
+    Returns:
+        (c, n) indices into `RELATION_NAMES`, -1 where there are no two.
+    """
+    position = where.position
     pairs = np.array([(of[0], of[1] if len(of) > 1 else of[0]) for of in landmarks], dtype=np.int64)
     start, span = position[pairs[:, 0], :2], position[pairs[:, 1], :2] - position[pairs[:, 0], :2]
     length = np.hypot(*span.T)
@@ -240,5 +261,6 @@ def _between(position: Floats, landmarks: Sequence[Sequence[int]]) -> Ints:
         apart = (pairs[:, 0] != pairs[:, 1]) & np.isfinite(length) & (length >= TIE)
     numbers = np.arange(len(position))
     end = (numbers[None] == pairs[:, :1]) | (numbers[None] == pairs[:, 1:])
-    out: Ints = np.where(apart[:, None] & ~end & np.isfinite(along), np.where(inside, 0, 1), -1)
+    value = _STARTS[_BETWEEN] + np.where(inside, 0, 1)
+    out: NDArray[np.int16] = np.where(apart[:, None] & ~end & np.isfinite(along), value, -1).astype(np.int16)
     return out

@@ -28,6 +28,8 @@ def laid_flat(position: Floats) -> Floats:
     A picture is what stands at one distance and at several heights, some of it over nothing (so it is no stack), or in
     rows and columns that are all full.
     """
+    if not len(position) or position[:, 0].max() - position[:, 0].min() > TIE:
+        return position
     seen = position[np.isfinite(position).all(axis=1)]
     if len(seen) < 3 or np.ptp(seen[:, 0]) > TIE or np.ptp(seen[:, 2]) <= TIE or np.ptp(seen[:, 1]) <= TIE:
         return position
