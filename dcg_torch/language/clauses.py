@@ -26,7 +26,7 @@ class Clause:
     negated: bool = False
     objects: list[Item] = field(default_factory=list)
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
-    statement: bool = False
+    statement: Item | None = None  # its copula, if it says something of a noun phrase
     acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
     sentence: int = 0

@@ -98,7 +98,8 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
-    phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
+    said = verb or chosen.clause.statement  # "are" of "the scissors are in the drawer" tells, and is no action
+    phrase = Phrase(PhraseKind.VERB, said.text if said else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
 
 
@@ -138,15 +139,15 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
         before = found[: found.index(chosen)]
         earlier = [choice for choice in before if not (choice.noun.pronoun and choice.noun.is_a("empty"))]
-        fronted = [c for c in earlier if c.clause.verb is None and c.clause.sentence == chosen.clause.sentence]
-        if fronted and fronted[-1].place is None and chosen.place is None:
-            return fronted[-1]  # "(Start at the church.) The tree closest to it, mark that."
+        last = earlier[-1] if earlier and chosen.place is None else chosen
+        # What begins the sentence: "Start at the church. The tree closest to it, mark that."
+        fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
-        if handled and chosen.place is None:
+        if handled and chosen.place is None and not fronted:
             return handled[-1]
         if earlier:
-            meant = max(earlier, key=lambda choice: (choice.score, found.index(choice)))
-            if meant.place or chosen.place or meant.score > TARGETS["shun"]:
+            meant = last if fronted else max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+            if meant.place or chosen.place or chosen.score <= TARGETS["shun"]:
                 return meant
             objects = chosen.clause.objects  # "there was a cup. take it": it is to be taken
             objects[objects.index(noun)] = meant.noun
