@@ -15,6 +15,7 @@ from dcg_torch.names.normal import normalise
 from dcg_torch.names.rooms import room_named, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM
 from dcg_torch.names.weights import log_odds, names_one_of
+from dcg_torch.names.wordnet import nouns
 from dcg_torch.scene.rooms import in_room
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -154,6 +155,8 @@ class _Speaking:
     def own_room(self, phrase: Phrase) -> tuple[Phrase, list[str]]:
         """ "The bedroom lamp" is a lamp in the bedroom, where no class has such a name."""
         words = (phrase.noun or "").split(" ")
+        if phrase.noun in nouns():  # a kitchen table is a kind of table
+            return phrase, []
         for k in range(len(words) - 1, 0, -1):
             room, thing = replace(phrase, noun=" ".join(words[:k])), " ".join(words[k:])
             if _room(room) is None or not names_one_of(thing, self.types):

@@ -8,6 +8,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.names.rooms import room_named
 
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
@@ -46,14 +47,28 @@ def list_places(clauses: Sequence[Clause]) -> None:
         return
     if len({noun.noun for noun in bare}) < len(bare) or not all(noun.is_a("named") for noun in bare):
         return
+    bare.sort(key=lambda noun: room_named(noun.noun or "") is not None)  # "kitchen, mug": a mug
     bare[0].children += [noun.behind("near") for noun in bare[1:]]
-    for clause in clauses[1:]:
-        clause.objects = []
+    for clause in clauses:
+        clause.objects = [noun for noun in clause.objects if noun is bare[0]]
+
+
+def hang_fragments(clauses: Sequence[Clause]) -> None:
+    """ "The red car... is there one? Yes, by the bridge.": a place by itself is where what was named before it is."""
+    for k, clause in enumerate(clauses):
+        before = clauses[k - 1] if k else clause
+        parted = k > 0 and before.refused is not None and clause.refused is None
+        if not parted or clause.verb or clause.objects or not clause.places:
+            continue
+        named = [main_object(other) for other in clauses[:k] if other.refused is None and other.verb is None]
+        if named and (noun := named[-1]) is not None and noun.noun is not None:
+            noun.children += clause.places
+            clause.places = []
 
 
 def tells_of_neighbour(clause: Clause) -> bool:
-    """ "Beside it is a stand": a clause that says what stands by what was named before."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else None
+    """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
+    thing = clause.objects[0] if len(clause.objects) == 1 and (clause.verb is None or exists(clause)) else None
     return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
 
 

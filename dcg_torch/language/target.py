@@ -78,6 +78,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
     references.list_places(clauses)
+    references.hang_fragments(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -144,6 +145,8 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         if handled and chosen.place is None:
             return handled[-1]
+        if earlier and references.tells_of_neighbour(earlier[-1].clause):
+            return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
         if earlier:
             return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
         later = [other for other in found[found.index(chosen) :] if not other.noun.pronoun]
