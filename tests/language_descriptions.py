@@ -71,7 +71,7 @@ DEVELOPMENT = (
     D("put down the block that you are holding", "block", None, (), ("held",)),
     D("take the block whose color is green", "block", "green"),
     P("move the stack of two blocks to the corner", "block", None, (), ("stack", "of 2")),
-    D("lift the bigger of the two cubes", "cube", None, (), ("bigger",), 1),
+    D("lift the bigger of the two cubes", "cube", None, (), ("bigger", "of 2"), 1),
     D("pick one of the blocks next to the red cube", "block", None, (("next to", "cube"),), ("one of",), 1),
     P("grab the blocks that are next to each other", "block", None, (("next to", "block"),)),
     D("take the cube without a pyramid on top", "cube", None, (("without", "pyramid"),)),

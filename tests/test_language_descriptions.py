@@ -217,30 +217,52 @@ def test_a_place_alone_is_of_a_thing_unnamed(parser: Parser, text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("text", "preposition"),
+    ("text", "preposition", "number"),
     [
-        ("there are three cones on your right, go to the middle one", "on"),
-        ("in the row of five cones, go to the middle one", "in"),
-        ("out of the three cones near the wall pick the middle one", "near"),
+        ("there are three cones on your right, go to the middle one", "on", ("of 3",)),
+        ("in the row of five cones, go to the middle one", "in", ()),  # the row is of five
+        ("out of the three cones near the wall pick the middle one", "near", ("of 3",)),
     ],
 )
-def test_one_of_several_that_were_named_before(parser: Parser, text: str, preposition: str) -> None:
+def test_one_of_several_that_were_named_before(
+    parser: Parser, text: str, preposition: str, number: tuple[str, ...]
+) -> None:
     meant = target_phrase(tree_of(parser, text))
-    assert (meant.phrase.noun, meant.phrase.words) == ("cone", ("middle",))
+    assert (meant.phrase.noun, meant.phrase.words) == ("cone", ("middle", *number))
     assert [place.phrase.words for place in meant.children] == [(preposition,)]
 
 
 @pytest.mark.parametrize(
-    ("text", "word"),
+    ("text", "words"),
     [
-        ("the bigger of the two cubes", "bigger"), ("the largest of the cubes", "largest"),
-        ("the smallest of all the cubes", "smallest"), ("the middle of the two cubes", "middle"),
-        ("the third of the five cubes", "third"), ("the last of those cubes", "last"),
+        ("the bigger of the two cubes", ("bigger", "of 2")), ("the largest of the cubes", ("largest",)),
+        ("the smallest of all the cubes", ("smallest",)), ("the middle of the two cubes", ("middle", "of 2")),
+        ("the third of the five cubes", ("third", "of 5")), ("the last of those cubes", ("last",)),
     ],
 )  # fmt: skip
-def test_picks(parser: Parser, text: str, word: str) -> None:
+def test_picks(parser: Parser, text: str, words: tuple[str, ...]) -> None:
     phrase = target(parser, text)
-    assert (phrase.noun, phrase.words, phrase.count, phrase.plural) == ("cube", (word,), 1, False)
+    assert (phrase.noun, phrase.words, phrase.count, phrase.plural) == ("cube", words, 1, False)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("there are two cones next to each other, take the left one", ("left", "of 2")),
+        ("take the darker of the pair of cones", ("darker", "pair", "of 2")),
+        ("two cones are close together. Take the higher one.", ("higher", "of 2")),
+    ],
+)
+def test_a_singular_picks_one_of_several(parser: Parser, text: str, words: tuple[str, ...]) -> None:
+    phrase = target(parser, text)
+    assert (phrase.noun, set(phrase.words), phrase.plural) == ("cone", set(words), False)
+
+
+@pytest.mark.parametrize("text", ["the two cones that almost touch", "the two cones that nearly touch each other"])
+def test_what_touches_is_next_to_another_such_thing(parser: Parser, text: str) -> None:
+    meant = target_phrase(tree_of(parser, text))
+    assert meant.phrase.count == 2
+    assert [(c.phrase.words, c.children[0].phrase.words) for c in meant.children] == [(("touching",), ("each other",))]
 
 
 def test_strings_that_nobody_would_say_have_an_outcome(parser: Parser) -> None:

@@ -50,7 +50,7 @@ def said(tree: ParseTree) -> str:
             (),
             [("on", "shelf"), ("next to", "kettle")],
         ),
-        ("Take a face. It is the lower of the two faces on the left.", "face", ("lower",), [("on", "left")]),
+        ("Take a face. It is the lower of the two faces on the left.", "face", ("lower", "of 2"), [("on", "left")]),
         ("Walk to the desk. Pick up the stapler.", "stapler", (), [("near", "desk")]),
         ("Walk to the desk by the door. Take the pen from the desk.", "pen", (), [("from", "desk by door")]),
     ],

@@ -5,7 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.names.attributes import ATTRIBUTE_FACTS, COLOR_FACTS, attribute_evidence, color_evidence
+from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
+from dcg_torch.names.color_names import COLOR_FACTS, color_evidence
 from dcg_torch.names.colors import FEATURES, WEIGHTS, color_features, color_scores
 from dcg_torch.names.palette import color_log_likelihood, lab, region
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
@@ -13,6 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
+from dcg_torch.names.attributes import counts
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
@@ -41,15 +41,13 @@ class Place(_Record):
     yaw: _Coordinate = 0.0
 
 
-_ASKING = re.compile(r"(?:has|is|wears)(?=[A-Z_])")
+_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
+"""Keys whose numbers are names: "block 7"."""
 
 
 def _is_truth(key: str, value: object) -> bool:
-    return isinstance(value, bool) or (_ASKING.match(key) is not None and value in (0, 1))
-
-
-_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
-"""Keys whose numbers are names: "block 7"."""
+    whole = isinstance(value, int) and value in (0, 1) and key not in _NUMBERED
+    return isinstance(value, bool) or (whole and not counts(key))
 
 
 def _is_number(key: str, value: object) -> bool:
@@ -81,7 +79,7 @@ class EpisodeObject(_Record):
     def attributes(self) -> frozenset[str]:
         """Its further keys: "held" where true, "beard: no" where false, "material: wood" where a string.
 
-        Of numbers 1 and 0 are such where the key asks for yes or no ("hasBeard"); all else is not used.
+        Of numbers 1 and 0 are such ("hasBeard"), but for keys that count ("row"); all else is not used.
         """
         further = {**(self.model_extra or {}), "size": self.size}
         named = {

@@ -17,19 +17,21 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.grounding.describing import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence
 from dcg_torch.names.evidence import is_generic, may_be_meant_for, unheard_of
-from dcg_torch.names.vocabulary import PLACE_WORDS, WORKED_OUT
+from dcg_torch.names.palette import lab, region
+from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
-_DOUBT = 0.4
+_DOUBT = 0.2
 """Of what is likelier absent than there so much counts: people call what is there by odd names about as often as they
 speak of what is not there."""
 _STRANGE = (6.0, 2.5)
@@ -38,10 +40,11 @@ _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
 _ODD = (2.5, 1.6)
 """The same of the colour's: a colour has neighbours that people take for it."""
-_CONTRARY = 4.0
-"""Of each word that an attribute of the thing contradicts: "with a hat" said of who wears none."""
-_UNMARKED = 2.0
-"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_UNLIKE = (3.0, 1.6)
+"""The same of how untypical of the colour word a colour looks that no name is given of."""
+_CONTRARY = (5.0, 1.5)
+"""Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:
+who has misjudged one thing may have misjudged two."""
 _NEW = 7.0
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
 _LETTER = 7.7
@@ -60,13 +63,14 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     """The log-odds that nothing there is meant; None where that is not judged by names.
 
     That is so before the robot has looked all round, of groups and places, where nothing is there, and where colours
-    are judged by looking, for then any noun may be a colour ("coffee"). What the speaker has ruled out counts for
-    nothing.
+    are judged by looking alone while the noun is no name of a thing, for then it may be a colour ("coffee"). What the
+    speaker has ruled out counts for nothing.
     """
     objects = encoder.world.objects
     if not judges_absence(encoder):
         return None
-    if phrase.look and any(o.rgb is not None for o in objects):
+    shown = bool(phrase.look) and any(o.rgb is not None for o in objects)
+    if shown and (phrase.color is None or not _named(phrase.noun, objects)):
         return None
     if in_group(phrase) or phrase.noun in PLACE_WORDS:
         return None
@@ -75,9 +79,11 @@ def log_odds_of_absence(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -
     if not seen.any() or not any(o.hypothetical and LOOKED_ROUND in o.attributes for o in objects):
         return None
     strange = np.minimum(_SLIP, _excess(_noun_gap(tables, encoder, phrase), *_STRANGE))
-    odd = _excess(_color_gap(tables, encoder, phrase), *_ODD)
+    gap = _look_gap(phrase.color, objects) if shown else _color_gap(tables, encoder, phrase)
+    odd = _excess(gap, *(_UNLIKE if shown else _ODD))
     if phrase.words:
-        odd = odd + _CONTRARY * np.array([_contradicted(phrase.words, o) for o in objects])
+        contrary = np.array([contradicted(phrase.words, o) for o in objects])
+        odd = odd + _CONTRARY[0] * np.minimum(1.0, contrary) + _CONTRARY[1] * np.maximum(0.0, contrary - 1.0)
     found = _RARE + float((strange + odd)[seen].min())
     return found if found < 0.0 else _DOUBT * found
 
@@ -92,15 +98,6 @@ def less_for_many_types(encoder: WorldEncoder) -> float:
     if not unseen or not all(LOOKED_ROUND in o.attributes for o in unseen):
         return 0.0
     return min(0.0, math.log(_TYPES / len(unseen)))
-
-
-def _contradicted(words: Sequence[str], thing: Object) -> float:
-    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
-    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
-    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
-    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
-    return others + _UNMARKED * marks
 
 
 def _excess(gap: Floats, start: float, slope: float) -> Floats:
@@ -145,6 +142,21 @@ def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     best = tables.log_odds_of(color, [_like(None, phrase.color), _like(known, phrase.color, known=known is not None)])
     gap = best[[int(o.known) for o in objects]] - tables.log_odds(encoder, color)
     return np.where([o.color is not None for o in objects], np.maximum(0.0, gap), 0.0)
+
+
+def _named(noun: str | None, objects: Sequence[Object]) -> bool:
+    """Is a noun the name of something that is there, and no word for whatever there is?"""
+    types = {o.type for o in objects if o.type is not None and not o.hypothetical}
+    return noun is not None and not is_generic(noun) and names_one_of(noun, types)
+
+
+def _look_gap(color: str | None, objects: Sequence[Object]) -> Floats:
+    """(objects,) how untypical of a colour word each thing looks; 0 for what shows no colour, and for strange words."""
+    found, looks = region(color or ""), [j for j, o in enumerate(objects) if o.rgb is not None]
+    gap = np.zeros(len(objects))
+    if found is not None and looks:
+        gap[looks] = -found.log_density(lab(np.array([objects[j].rgb for j in looks], dtype=np.float64)))
+    return gap
 
 
 def _like(type_: str | None, color: str | None, *, known: bool = False) -> Object:

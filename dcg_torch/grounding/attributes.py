@@ -10,9 +10,21 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.attributes import HAS, NOT_, OF_KEY, attribute_key, named_key, states_value
+from dcg_torch.names.attributes import (
+    HAS,
+    NOT_,
+    OF_KEY,
+    attribute_key,
+    is_clothing,
+    named_key,
+    says_value,
+    says_whether,
+    states_value,
+)
+from dcg_torch.names.evidence import is_generic
+from dcg_torch.names.normal import normalise, singular
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS
-from dcg_torch.names.weights import names_one_of
+from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _HELD = "held"
@@ -25,6 +37,17 @@ _MADE = frozenset({"of", "from", "in"})
 """Prepositions before what a thing is made of."""
 _OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
 """Keys whose values people use as nouns: "the woman", "the blonde", "the ball"; "the iron" is no thing of iron."""
+_OF_WHOLE = frozenset({"orientation", "gender", "age", "smiling"})
+"""Keys that say how a whole thing is: of "a man in a suit looking left" the man looks left."""
+_OF_PEOPLE = frozenset(
+    {"gender", "age", "hair", "beard", "mustache", "glasses", "hat", "tie", "suit", "smiling", "bald"}
+)
+"""Keys that people have: where things carry two of them "the chap" is one of these, whatever their class is called."""
+_CLOTHES = frozenset(["clothes", "clothing", "cloth", "outfit", "attire", "dress", "wear", "garment"])
+"""Nouns for whatever people wear."""
+_PICTURES = frozenset(["picture", "pic", "photo", "photograph", "image", "portrait", "face", "headshot"])
+_SHOWING = {("of", True, False), ("in", False, True), ("on", False, True)}
+"""Prepositions between a picture and a person, and which of the two nouns is the picture."""
 _PLACES = frozenset({*PLACE_WORDS, *LINE_OF})
 """Nouns that name parts of a scene, whatever keys there are: a column is no `shape`."""
 _ENDINGS = ("ed", "d")
@@ -44,23 +67,32 @@ def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
         return tree
     types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
-    return _Speaking(keys, tuple(sorted(types)), colored).root(tree)
+    worn = {attribute_key(a.partition(":")[0]) for a in given if not _yes_or_no(a)}
+    return _Speaking(keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn)))).root(tree)
+
+
+def _yes_or_no(attribute: str) -> bool:
+    _, _, value = attribute.partition(":")
+    return value.strip() in ("", "yes", "no")
 
 
 class _Speaking:
     """Reads trees by the keys and the classes that are there."""
 
-    def __init__(self, keys: frozenset[str], types: Sequence[str], colored: bool) -> None:
-        self.keys, self.types, self.colored = keys, types, colored
+    def __init__(self, keys: frozenset[str], types: Sequence[str], colored: bool, worn: Sequence[str]) -> None:
+        self.keys, self.types, self.colored, self.worn = keys, types, colored, worn
+        self.of_people = len(keys & _OF_PEOPLE) > 1
 
     def root(self, tree: ParseTree) -> ParseTree:
         """The whole tree: "he has dark hair and a tie", "glasses, no beard" name the thing by what it has."""
         nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
-        had = [word for noun in nouns for word in self.possessed(noun, denied=False)]
-        owners = [noun for noun in nouns if not self.possessed(noun, denied=False)]
+        wears = "wear" in tree.phrase.words
+        of_each = [self.possessed(noun, denied=False) if wears or noun.phrase.noun else [] for noun in nouns]
+        had = [word for words in of_each for word in words]
+        owners = [noun for noun, words in zip(nouns, of_each, strict=True) if not words]
         if had and (len(nouns) > 1 or not set(tree.phrase.words).isdisjoint(_HAVING) or not tree.phrase.words):
             first = owners[0] if owners else ParseTree(Phrase(PhraseKind.NOUN, ""))
-            below = tuple(c for noun in nouns if self.possessed(noun, denied=False) for c in noun.children)
+            below = tuple(c for noun, words in zip(nouns, of_each, strict=True) if words for c in noun.children)
             owner = _with_words(replace(first, children=(*first.children, *below)), had)
             rest = [child for child in tree.children if all(child is not noun for noun in nouns)]
             tree = replace(tree, children=(owner, *owners[1:], *rest))
@@ -70,14 +102,37 @@ class _Speaking:
         """A node and all below it."""
         children: list[ParseTree] = []
         words: list[str] = []
-        for child in tree.children:
+        if tree.phrase.kind is PhraseKind.NOUN and self.of_people:
+            tree = self.pictured(tree)
+        left = list(tree.children)
+        while left:
+            child = left.pop(0)
             moved = list(self.moved(child)) if tree.phrase.kind is PhraseKind.NOUN else []
             words += [word for word, _ in moved]
-            children += [below for _, of in moved for below in of] if moved else [child]
+            left[:0] = [below for _, of in moved for below in of]
+            children += [] if moved else [child]
         tree = replace(tree, children=tuple(self.described(child) for child in children))
         if tree.phrase.kind is not PhraseKind.NOUN:
             return tree
         return _with_words(replace(tree, phrase=self.own_words(tree.phrase)), words)
+
+    def pictured(self, tree: ParseTree) -> ParseTree:
+        """ "The picture of the old man", "the man in the left picture": what shows somebody stands for who is shown."""
+        shows = (tree.phrase.noun or "").split(" ")
+        if len(shows) > 1 and shows[-1] in _PICTURES:
+            return replace(tree, phrase=replace(tree.phrase, noun=" ".join(shows[:-1])))
+        for k, place in enumerate(tree.children):
+            if place.phrase.kind is not PhraseKind.PREPOSITION or len(place.children) != 1:
+                continue
+            phrase, shown = tree.phrase, place.children[0].phrase
+            if (place.phrase.words[0], phrase.noun in _PICTURES, shown.noun in _PICTURES) not in _SHOWING:
+                continue
+            noun = phrase.noun if shown.noun in _PICTURES else shown.noun
+            words = tuple(dict.fromkeys((*phrase.words, *shown.words)))
+            both = replace(phrase, noun=noun, words=words, color=phrase.color or shown.color)
+            below = (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :])
+            return self.pictured(ParseTree(both, below))
+        return tree
 
     def moved(self, place: ParseTree) -> Iterator[tuple[str, tuple[ParseTree, ...]]]:
         """The words that a prepositional phrase says of its noun phrase, if its landmarks are no things.
@@ -108,16 +163,37 @@ class _Speaking:
     def possessed(self, noun: ParseTree, *, denied: bool) -> list[str]:
         """The words that say that an object has what a noun phrase names; none if it names no key."""
         phrase = noun.phrase
-        if phrase.noun is None or phrase.noun in _PLACES or names_one_of(phrase.noun, self.types):
+        said = [word for word in (phrase.color, *phrase.words) if word]
+        if phrase.noun is None or (phrase.noun in _CLOTHES and phrase.noun not in self.keys):
+            return self.dressed(phrase, denied=denied)
+        if phrase.noun in _PLACES or names_one_of(phrase.noun, self.types):
             return []
         key = named_key(phrase.noun, self.keys)
         if key is None:
             return []
-        like = [word for word in (phrase.color, *phrase.words) if word and not word.startswith(NOT_)]
-        denied = denied != ("no" in like)
+        whole = [w for w in said if _is_of_whole(w.removeprefix(NOT_), key)]
+        like = [w for w in said if w not in whole and not w.startswith(NOT_)]
+        denied = denied or "no" in like
         values = [word for word in like if word != "no" and word not in _OWNED]
-        said = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
-        return [f"{NOT_}{word}" if denied else word for word in said]
+        own = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
+        return [*(f"{NOT_}{word}" if denied else word for word in own), *whole]
+
+    def dressed(self, phrase: Phrase, *, denied: bool) -> list[str]:
+        """The words of "(wearing) black", "in formal clothes", where what people wear is told."""
+        values = [word for word in phrase.words if states_value(word, self.keys & {"suit"})]
+        if len(self.worn) == 1 and phrase.color is not None:
+            values.append(f"{HAS}{phrase.color} {self.worn[0]}")
+        return [f"{NOT_}{word}" if denied else word for word in values]
+
+    def without_values(self, noun: str, phrase: Phrase) -> tuple[str | None, list[str]]:
+        """A noun without what states values before it: "redhead man"; None where it is all of a value: "red head"."""
+        before, last = noun.split(" ")[:-1], noun.split(" ")[-1]
+        if any(" " in word and singular(word.split(" ")[-1]) == noun and says_value(word) for word in phrase.words):
+            return None, []
+        if not before or noun in map(normalise, self.types) or not all(states_value(w, self.keys) for w in before):
+            return noun, []
+        known = names_one_of(last, self.types) or (self.of_people and _is_person(last))
+        return (last, before) if known else (noun, [])
 
     def own_words(self, phrase: Phrase) -> Phrase:
         """A noun phrase whose noun, colour and participles say what attributes hold: "woman", "grey-haired"."""
@@ -134,14 +210,31 @@ class _Speaking:
                 like = [words[k - 1]]  # "dark-haired"
             words[k] = f"{NOT_ if denied else ''}{HAS}{' '.join((*like, key))}"
         noun = phrase.noun
+        if noun is not None:
+            noun, values = self.without_values(noun, phrase)
+            words += values
+            color = None if noun is None else color
         if noun is not None and states_value(noun, self.keys):
             named = names_one_of(noun, self.types)
             if named or states_value(noun, self.keys & _OF_LOOKS):
                 words.append(noun)
                 noun = noun if named else None
+        if self.of_people and noun is not None and _is_person(noun) and not names_one_of(noun, self.types):
+            noun = noun if any(_is_person(type_) for type_ in self.types) else None
         if color is not None and not self.colored:
-            words.append(color)
+            own = {part for word in phrase.text.split() for part in normalise(word).split()}
+            dressed = len(self.worn) == 1 and own.isdisjoint(color.split())  # "the guy in black"
+            words.append(f"{HAS}{color} {self.worn[0]}" if dressed else color)
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
+
+
+def _is_of_whole(word: str, key: str) -> bool:
+    """Does a word beside what somebody has say how he himself is: "a tie and bald", "a suit looking left"?"""
+    return states_value(word, _OF_WHOLE - {key}) or (says_whether(word) and not states_value(word, frozenset({key})))
+
+
+def _is_person(name: str) -> bool:
+    return not is_generic(name) and log_odds(name, "person") > 0.0
 
 
 _OWNED = frozenset({"your", "my", "his", "her", "their"})

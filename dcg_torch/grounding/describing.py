@@ -12,17 +12,23 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
+from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import LATERAL, RANKING
+from dcg_torch.grounding.together import shades_among, so_many
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, says_size, size_side
+from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.vocabulary import RANKING, SIDED, TOGETHER, WITHIN, WORKED_OUT, counted
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 _IN_THE_SET = math.log(0.5)
+_GROUP_IN_THE_SET = math.log(0.1)
+"""The same of groups: a stack of four is less usual than one of three, and may be the tallest."""
 _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
@@ -32,12 +38,17 @@ _NEAR = 4.5
 
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
+_LIKE_SIZES = 0.15
+"""Sizes that differ by no more than this share of the differences among all of a kind are not told apart."""
 _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
-_BEYOND = 1e6
-"""More than any coordinate: what is not described as well comes after all that is."""
+_UNMARKED = 2.0
+"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_AGAIN = 2.0
+"""Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
+counts, and one that nobody fits does not make all alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -63,11 +74,15 @@ def modifier_factor(
     number, several = encoder.number, _counted_landmark(tree)
     combos = list(itertools.product(*beams))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
-    asserted = Correspondence.INACTIVE if NOT in tree.phrase.words else Correspondence.ACTIVE
-    table = tables.placed(encoder, tree.phrase, landmarks, compared)
-    log_psi = table[tables.factor.correspondences.index(asserted)]
-    if tree.phrase.plural and asserted is Correspondence.ACTIVE and tree.phrase.words[0] in _AROUND:
-        log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
+    denied = NOT in tree.phrase.words
+    if tree.phrase.words[0] in SAME_AS:
+        log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
+    else:
+        table = tables.placed(encoder, tree.phrase, landmarks, compared)
+        asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
+        log_psi = table[tables.factor.correspondences.index(asserted)]
+        if tree.phrase.plural and not denied and tree.phrase.words[0] in _AROUND:
+            log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -132,6 +147,11 @@ def ranks_from(tree: ParseTree) -> bool:
     return name in RANKING or name.partition(" ")[2] in RANKING
 
 
+def picks_a_side(tree: ParseTree) -> bool:
+    """Is it a modifier that picks by a side: "(of the two cubes) the one on the left"?"""
+    return tree.phrase.words[0] != WITHIN and len(tree.children) == 1 and tree.children[0].phrase.noun in SIDED
+
+
 def is_to_a_place(tree: ParseTree) -> bool:
     """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
     return "to a thing" not in tree.phrase.context
@@ -144,7 +164,8 @@ class Comparison:
     Attributes:
         among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
             as it says that there are: "the middle one of the five on the left".
-        log_size: (things,) log-factor of the size that it says.
+        log_size: (things,) log-factor of the size that it says, of what contradicts a thing more than once, and of
+            standing close together.
         phrase: the phrase without the words that `log_size` has taken up.
     """
 
@@ -159,50 +180,56 @@ def comparison_set(
     """What the words of a noun phrase compare with: what all the rest of it describes.
 
     Words for a size ("the upper large one") describe by degrees: how far is a thing from the largest, or the smallest?
-    They compare with all of the phrase's name where places leave one size alone ("the large one at the top").
+    They compare with all of the phrase's name where places leave one size alone ("the large one at the top"), or sizes
+    that differ by little beside those of all of its kind ("the tiny black specks").
     """
     phrase = tree.phrase
+    close = counted(phrase.words, TOGETHER)
+    several = close or picked_from(phrase)
+    shades = comparing_words(phrase.look) if several else ()  # they compare those, not all in view
     told = of_attributes(phrase.words, encoder)
-    table = tables.unranked(encoder, replace(phrase, words=tuple(word for word in told if not says_size(word))))
+    apart = tuple(word for word in told if not says_size(word))
+    table = tables.unranked(
+        encoder, replace(phrase, words=apart, look=tuple(w for w in phrase.look if w not in shades))
+    )
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    log_size = np.zeros(len(fit))
+    log_size = _contradictions(told, encoder)
+    fit, odds = fit + log_size, odds + log_size
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     if sizes:
-        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named)
+        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named, _of_kind(phrase, encoder, tables))
         if off is not None:
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
-            log_size = -_SIZED * off**2
+            log_size = log_size - _SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
-    several, objects = picked_from(phrase), len(encoder.world.objects)
-    if several is not None and several <= objects:
-        found = np.zeros(len(fit), dtype=np.bool_)
-        found[highest(_along_a_side(fit, modifiers, encoder)[:objects], several)] = True
-        return Comparison(found, log_size, phrase)
-    described = _described(fit, odds)
+    among = so_many(several, own if close else fit, fit, modifiers, encoder, bool(close)) if several else None
+    if among is not None:
+        log_size = log_size + shades_among(shades, among[0], encoder)
+        return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
+    described = _described(fit, odds, _GROUP_IN_THE_SET if in_group(phrase) else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
 
 
-def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats:
-    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
+def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
+    """(things,) those that the noun of a phrase names."""
+    table = tables.unranked(encoder, replace(phrase, color=None, look=(), words=()))
+    number = tables.factor.correspondences.index
+    fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
+    return _described(fit, fit - table[number(Correspondence.INACTIVE)])
 
-    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others.
-    """
-    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if len(m.tree.children) == 1]
-    sides = [(m, side) for m, side in sided if side in LATERAL and NOT not in m.tree.phrase.words]
-    if len(sides) != 1:
-        return fit
-    modifier, side = sides[0]
-    rest = fit - modifier.log_psi
-    y = encoder.layout.position[:, 1]
-    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
-    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
+
+def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
+    if len(told) < 2:
+        return np.zeros(len(encoder.all))
+    return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -212,8 +239,8 @@ def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
     return looks or sized or bool(of_attributes(phrase.words, encoder))
 
 
-def _described(fit: Floats, odds: Floats) -> Bools:
-    described: Bools = (fit >= fit.max() + _IN_THE_SET) & (odds >= odds.max() - _BEHIND)
+def _described(fit: Floats, odds: Floats, least: float = _IN_THE_SET) -> Bools:
+    described: Bools = (fit >= fit.max() + least) & (odds >= odds.max() - _BEHIND)
     return described
 
 
@@ -221,16 +248,20 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
     """(things,) from 0 to 1: how far a thing is from the largest (1), smallest (-1) or mean size (0) that is said.
 
     Args:
-        sets: (things,) the first of them that has several sizes is what is compared.
+        sets: (things,) the first of them that has several sizes is what is compared; the last is all of a kind.
 
     Returns:
         The largest of the distances, 0 for what has no size; None where all are of one size.
     """
     sizes = [math.nan if o.size is None else bulk(o.size) for o in encoder.world.objects]
     logs = np.log([v if v > 0.0 else math.nan for v in sizes])
-    for among in sets:
+    differ = [
+        float(np.ptp(logs[own])) if (own := among[: len(logs)] & np.isfinite(logs)).any() else 0.0 for among in sets
+    ]
+    least = 2 if 0 in sides else 1  # of two none is of medium size
+    for among in (*sets, encoder.perceived) if 0 in sides else sets:
         known = logs[among[: len(logs)] & np.isfinite(logs)]
-        if len(known) > 1 and np.ptp(known) > _SAME_SIZE:
+        if len(known) > least and np.ptp(known) > max(_SAME_SIZE, _LIKE_SIZES * differ[-1]):
             place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
             off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
             return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))
@@ -243,15 +274,13 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
     return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
 
 
-def highest(values: Floats, count: int) -> NDArray[np.int64]:
-    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
-    if count == 1:
-        return np.array([values.argmax()])
-    if len(values) <= max(512, 2 * count):
-        return np.argsort(-values, kind="stable")[:count]
-    least = np.partition(values, len(values) - count)[len(values) - count]
-    among = np.flatnonzero(values >= least)
-    return among[np.argsort(-values[among], kind="stable")[:count]]
+def contradicted(words: Sequence[str], thing: Object) -> float:
+    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
+    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
+    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
+    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
+    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
+    return others + _UNMARKED * marks
 
 
 def ranks(tree: ParseTree) -> bool:

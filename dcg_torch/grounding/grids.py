@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, color_evidence
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence
+from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.vocabulary import CELL, CELL_STEPS, INSIDE, LINE_ENDS, LINE_OF, NUMBER_WORDS, ORDINALS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.grids import Cell, Grid, grid_of

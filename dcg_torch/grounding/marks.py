@@ -17,7 +17,8 @@ from typing import Any, Final, TypeVar
 
 from dcg_torch.grounding.mark_finder import FoundMark, find_marks, text_words
 from dcg_torch.grounding.spoken import ParsedCommand
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, color_evidence
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence
+from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.marks import Marks, is_strange, mark_words, marks_of
 from dcg_torch.names.normal import singular
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind

@@ -7,6 +7,8 @@ import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, together
+from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
     BY_COMPASS,
@@ -32,6 +34,7 @@ from dcg_torch.names.vocabulary import (
     SIDED,
     SYNONYMS,
     VERTICAL,
+    VIEWERS,
     WORKSPACE,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
@@ -57,7 +60,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(_middle_of_set(_sided(tree)))
+    tree = _farthest_to_a_side(middle_of_set(of_a_pair(_sided(from_the_ground(tree)))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -76,7 +79,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
-    words = _read_along(words, children)
+    words = levels_of_stack(_read_along(words, children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -85,7 +88,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
-    return ParseTree(replace(phrase, words=words), children)
+    return together(ParseTree(replace(phrase, words=words), children))
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -172,37 +175,6 @@ def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[
     return (*words, READ_FROM[line][1])
 
 
-def _middle_of_set(tree: ParseTree) -> ParseTree:
-    """ "The cube in the middle of the five cubes on the left" is the middle one of those on the left."""
-    phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN:
-        return tree
-    for k, place in enumerate(tree.children):
-        name, landmark = place.phrase.words[0], place.children[0].phrase if len(place.children) == 1 else phrase
-        loose = _CLUSTERS & {*landmark.words}
-        inside = name == _MIDDLE_OF or (bool(loose) and name in INSIDE and "middle" in phrase.words)
-        if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
-            continue
-        others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
-        number = next((int(w[3:]) for w in landmark.words if w[:3] == "of " and w[3:].isdecimal()), landmark.count)
-        if others or number == 2 or phrase.plural:
-            continue
-        few = () if number is None else (f"of {number}",)
-        words = tuple(dict.fromkeys((*phrase.words, "middle", *few)))
-        one = replace(phrase, noun=phrase.noun or landmark.noun, color=phrase.color or landmark.color, words=words)
-        return ParseTree(one, (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :]))
-    return tree
-
-
-_MIDDLE_OF = "in the middle of"
-_CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == ("cluster",))
-
-
-def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
-    nouns, colors = {phrase.noun, several.noun} - {None}, {phrase.color, several.color} - {None}
-    return len(nouns) == 1 and len(colors) <= 1
-
-
 def _picks(tree: ParseTree) -> str | None:
     """The rank that a place in a group is: "on the right side of the row" is the rightmost in it."""
     if len(tree.children) != 1 or not in_group(tree.children[0].phrase):
@@ -260,6 +232,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
+    if phrase.noun in VIEWERS and phrase.noun not in there:
+        phrase = replace(phrase, noun="you")
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
         if name in SIDE_OF:
             name, phrase = "on", replace(phrase, noun=SIDE_OF[name], words=())

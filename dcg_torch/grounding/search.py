@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.describing import (
     comparison_set,
-    highest,
     is_narrowed,
     is_to_a_place,
     modifier_factor,
     of_attributes,
+    picks_a_side,
     ranks,
     ranks_from,
 )
@@ -28,6 +28,8 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
+from dcg_torch.names.vocabulary import counted
+from dcg_torch.scene.order import highest
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -35,6 +37,8 @@ Bools = NDArray[np.bool_]
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
+_NOT_THIS = 50.0
+"""Nats that take a hypothetical object out."""
 _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
 
@@ -164,9 +168,10 @@ class Search:
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
-        others = {id(c): self._modifier(c) for c in own if not ranks_from(c)}
+        several = counted(tree.phrase.words) is not None
+        others = {id(c): self._modifier(c) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
-        some = len(others) < len(own) and (bool(parts) or is_narrowed(tree.phrase, self.encoder))
+        some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
@@ -265,13 +270,15 @@ class Search:
         log_odds = self._absence[bare]
         there = self.encoder.perceived[: found.scores.shape[1]]
         if log_odds is None:
-            shift = less_for_many_types(self.encoder)
-        else:
+            shift = np.where(there, 0.0, less_for_many_types(self.encoder))
+        else:  # what is not there is one thing, whatever its type is
             totals = np.logaddexp.reduce(found.scores, axis=(0, 2))
-            shift = log_odds + np.logaddexp.reduce(totals[there]) - np.logaddexp.reduce(totals[~there])
-        if shift == 0.0 or not np.isfinite(shift):
+            one = np.where(there, -np.inf, totals).argmax()
+            shift = np.where(there, 0.0, -_NOT_THIS)
+            shift[one] = log_odds + np.logaddexp.reduce(totals[there]) - totals[one]
+        if not shift.any() or not np.isfinite(shift).all():
             return found
-        return replace(found, scores=np.where(there[:, None], found.scores, found.scores + shift))
+        return replace(found, scores=found.scores + shift[:, None])
 
     def _told(self, phrase: Phrase) -> tuple[str, ...]:
         """The words of a noun phrase that say something of groups or attributes."""

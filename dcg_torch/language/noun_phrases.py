@@ -73,8 +73,8 @@ class NounPhrase(Reader):
     def _number(self, token: Token) -> int:
         short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
         number = NUMBERS.get(token.text) or (int(token.text) if short else None)
-        if self.group is not None or (self.picked and "middle" in self.words and (number or 0) > 2):
-            self.of = number
+        if self.group is not None or (self.picked and self.count == 1 and (number or 0) > 1):
+            self.of = number  # "the left one of the two cubes"
             return 1
         if not self.determined and singular(self.text(self.at + 1)) in SETS["measures"]:
             behind = self.tag(self.at + 2)
@@ -161,12 +161,17 @@ class NounPhrase(Reader):
             return 0
         last = self.nouns[-1].text
         unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
-        if unit not in SETS["groups"] | SETS["carriers"]:
-            return 0
+        crossing = any(token.text in SETS["lines"] for token in self.tokens[self.at + 2 : self.at + 4])
+        if unit not in SETS["groups"] | SETS["carriers"] or (crossing and unit in SETS["lines"]):
+            return 0  # "the second column of the third row" is no group of rows
         self.words += [t.text for t in self.nouns[:-1]]
         self.nouns = []
         if unit in SETS["pairs"]:
-            self.count = 2
+            self.words += [unit] if unit in SETS["close_pairs"] else []
+            if self.picked and self.count == 1:
+                self.of = 2
+            else:
+                self.count = 2
         elif unit in SETS["groups"]:
             self.words.append(unit)
             self.group = unit

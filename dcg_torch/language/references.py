@@ -35,7 +35,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
 
 
 def _the_same(one: Item, other: Item) -> bool:
-    """ "(This is) a brown desk. The desk (is against the wall)": a thing that is told of first, and then named again."""
+    """ "(This is) a brown desk. The desk (is against the wall)": a thing is told of, and then named again."""
     first, then = sorted((one, other), key=lambda noun: noun.start)
     named = one.noun == other.noun is not None and not (one.plural or other.plural)
     alone = then.definite and not (then.words or then.color or about_it(then))
@@ -75,7 +75,7 @@ def hang_fragments(clauses: Sequence[Clause]) -> None:
         if named and (noun := named[-1]) is not None and noun.noun is not None:
             noun.children += clause.places
             clause.places = []
-        elif (asked := main_object(before)) is not None and asked.noun is not None:  # "Where is the hammer? By the box."
+        elif (asked := main_object(before)) is not None and asked.noun is not None:  # "Where is it? There."
             clause.objects, clause.places = [replace(asked, children=clause.places)], []
 
 
@@ -139,7 +139,10 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     one.color = one.color or group.color
     for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
         one.children.remove(place)  # "(there are five cones,) the one in the middle" is the middle one of the five
-        one.words += ("middle", *((f"of {group.count}",) if (group.count or 0) > 2 else ()))
+        one.words += ("middle",)
+    if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
+        pair = (word for word in group.words if word in SETS["close_pairs"])
+        one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 

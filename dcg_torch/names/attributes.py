@@ -1,4 +1,4 @@
-"""What the attributes of an object and its colour's name say about words: named facts, to be weighed elsewhere."""
+"""What the attributes of an object say about words: named facts, to be weighed elsewhere."""
 
 from __future__ import annotations
 
@@ -6,10 +6,9 @@ import functools
 from collections.abc import Collection, Sequence
 from typing import Final
 
-import numpy as np
-
+from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.normal import normalise, read_data
-from dcg_torch.names.palette import color_words, region
+from dcg_torch.names.palette import region
 from dcg_torch.names.weights import log_odds
 
 ATTRIBUTE_FACTS: Final = (
@@ -17,15 +16,6 @@ ATTRIBUTE_FACTS: Final = (
     "attribute: alike",  # "facing left" said of `orientation: left`
     "attribute: contrary",  # "big" said of `size: small`
     "attribute: silent",  # nothing is known of the object in this respect
-)
-COLOR_FACTS: Final = (
-    "color: equal",  # "grey" said of "gray"
-    "color: same hue",  # "light blue" said of "blue"
-    "color: alike",  # "turquoise" said of "cyan"
-    "color: near",  # "orange" said of "red"
-    "color: shades apart",  # "dark blue" said of "light blue"
-    "color: far",
-    "color: strange",  # nothing tells where one of them is
 )
 HAS, NOT_ = "with ", "not "
 """How words say that an object has what a key names: "with glasses", "with dark hair", "not with tie"."""
@@ -36,7 +26,6 @@ _KEY_ODDS = 1.5
 _COMPARED = ("er", "est")
 _FREE = frozenset({"state", "texture"})  # several values of such a key may hold at once
 _NONE, _SOME = "none", "has it"  # the first words of the values of a thing that an object has or has not
-_ALIKE, _NEAR = 22.0, 45.0  # distances in the space of `palette`
 
 
 @functools.cache
@@ -44,7 +33,7 @@ def _meanings() -> tuple[dict[str, frozenset[tuple[str, int]]], frozenset[tuple[
     """The values (key and number in its list) that each word may mean, and the pairs that exclude one another."""
     data = read_data("values.yaml")
     opposites = data.pop("opposites")
-    for name in ("absent", "present", "part_of"):
+    for name in ("absent", "present", "part_of", "same_key", "clothes", "counted", "sides"):
         del data[name]
     found: dict[str, set[tuple[str, int]]] = {}
     values = [(key, k, words) for key, lists in data.items() for k, words in enumerate(lists)]
@@ -149,6 +138,8 @@ def _value_fact(word: str, pairs: Sequence[tuple[str, str]]) -> str | None:
     meant = meanings.get(word)
     if meant is None:
         return None
+    if word in _words_of("sides"):
+        return "attribute: silent"
     true = {one for key, value in pairs for one in _held(key, value)}
     if meant & true:
         return "attribute: alike"
@@ -170,6 +161,8 @@ def _held(key: str, value: str) -> frozenset[tuple[str, int]]:
         none = {v for v in meanings[normalise(_NONE)] if v[0] in key.split(" ")}
         return frozenset(none | {other for one, other in excluded if one in state})
     told = frozenset(state) if value in _words_of("present") else _of_key(meanings.get(value, frozenset()), key)
+    if not own and region(value) is not None and "hair" not in key.split(" "):
+        told = frozenset(v for v in told if v[0] != "hair")  # a red shirt makes no redhead
     return told if own and told & meanings[normalise(_NONE)] else told | own
 
 
@@ -182,7 +175,7 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
     like = said.removesuffix(key).strip()
     if not like or value in _words_of("absent"):
         return "attribute: contrary" if value in _words_of("absent") else "attribute: equal"
-    if value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
+    if value == key or value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
         whole = read_data("values.yaml")["part_of"].get(key)
         told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
         return _possession_fact(f"{like} {whole}", told) if told else "attribute: silent"
@@ -231,11 +224,21 @@ def attribute_key(key: str) -> str:
     ('beard', 'hair', 'orientation')
     """
     words = normalise(key).split(" ")
-    if words == ["sex"]:
-        return "gender"
     while len(words) > 1 and words[0] in ("has", "ha", "is", "with", "wears", "wear", "wearing"):
         words = words[1:]
-    return " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+    found = " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+    return str(read_data("values.yaml")["same_key"].get(found, found))
+
+
+@functools.lru_cache(maxsize=4096)
+def counts(key: str) -> bool:
+    """Are the values of a key numbers, so that 1 and 0 do not mean yes and no: "row"?"""
+    return attribute_key(key) in _words_of("counted")
+
+
+def is_clothing(key: str) -> bool:
+    """Does a key or a noun name what people wear, of which a colour is told: "in black"?"""
+    return key in _words_of("clothes")
 
 
 @functools.lru_cache(maxsize=4096)
@@ -247,6 +250,18 @@ def named_key(noun: str, keys: frozenset[str]) -> str | None:
     """
     near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
     return max(near, key=lambda key: log_odds(noun, key), default=None)
+
+
+def says_value(phrase: str) -> bool:
+    """Is it, as a whole, the value of some attribute: "red head"?"""
+    return normalise(phrase) in _meanings()[0]
+
+
+def says_whether(word: str) -> bool:
+    """Does a word say whether somebody has a thing: "bald", "bearded", "smiling"?"""
+    meanings, _ = _meanings()
+    meant = meanings.get(normalise(word), frozenset())
+    return not meant.isdisjoint(meanings[normalise(_NONE)] | meanings[normalise(_SOME)])
 
 
 @functools.lru_cache(maxsize=4096)
@@ -278,41 +293,3 @@ def _of_key(values: frozenset[tuple[str, int]], key: str) -> frozenset[tuple[str
     """The values that the key of an attribute leaves: "left" of an `orientation`; all, where the key is strange."""
     own = frozenset(v for v in values if v[0] in key.split(" "))
     return own or values
-
-
-@functools.lru_cache(maxsize=16384)
-def color_evidence(word: str, name: str) -> tuple[str, ...]:
-    """The fact that holds between a colour word and the name that a recogniser gives a colour: one of `COLOR_FACTS`.
-
-    >>> color_evidence("Grey", "gray"), color_evidence("light blue", "blue"), color_evidence("cyan", "turquoise")
-    (('color: equal',), ('color: same hue',), ('color: alike',))
-    """
-    if normalise(word) == normalise(name):
-        return ("color: equal",)
-    said, named = _color_name(word), _color_name(name)
-    if said == named or frozenset((said, named)) in color_words().exchanged:
-        return ("color: alike",)
-    shades = [_shade(one) for one in (said, named)]
-    if said.split(" ")[-1] == named.split(" ")[-1]:
-        return ("color: shades apart",) if shades[0] * shades[1] < 0.0 else ("color: same hue",)
-    one, other = _region_of(said), _region_of(named)
-    if one is None or other is None:
-        return ("color: strange",)
-    apart = float(np.linalg.norm(np.array(one) - np.array(other)))
-    return ("color: alike" if apart < _ALIKE else "color: near" if apart < _NEAR else "color: far",)
-
-
-def _color_name(name: str) -> str:
-    alike = color_words().alike
-    return " ".join(alike.get(word, word) for word in normalise(name).split(" ") if word not in ("color", "colored"))
-
-
-def _shade(name: str) -> float:
-    """Is a colour a light one (above 0) or a dark one of its hue?"""
-    axes = color_words().axes
-    return sum(axes.get(word, {}).get("lightness", 0.0) for word in name.split(" ")[:-1])
-
-
-def _region_of(name: str) -> tuple[float, float, float] | None:
-    found = region(name) or region(name.split(" ")[-1])
-    return None if found is None else found.mean

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -18,6 +19,7 @@ FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "comp
 WEIGHTS: Final = (1.0, 1.0, 0.5, 1.0, 1.0, 1.0)
 """The shipped weight of each; they can be learned from use."""
 _VIVID = 60.0  # chroma of a vivid colour
+_GRAYISH = 7.0  # chroma up to which the mean of a region is gray
 _TYPICAL = 15.0  # differences of lightness or chroma between patches are measured in this
 
 
@@ -84,7 +86,8 @@ def _term(words: tuple[str, ...], start: int, degree: float) -> tuple[_Term | No
         name = normalise(" ".join(words[start : start + length]))
         if len(name.split(" ")) == length and name in listed_colors() and not degree:
             first = normalise(words[start])
-            axes = tuple(color_words().axes.get(first, {}).items()) if first != "gray" else ()
+            grayish = "gray" in name.split(" ")
+            axes = () if grayish else tuple(color_words().axes.get(first, {}).items())
             return _Term("region", region(name), axes), length
     stem, form = _stem(normalise(words[start]))
     axes = tuple(color_words().axes.get(stem, {}).items()) if stem != "gray" or form == "er" else ()
@@ -140,7 +143,7 @@ def color_features(words: Sequence[str], rgbs: Array) -> Array:
 def _of_region(term: _Term, of: Region, colors: Array) -> Array:
     density = of.log_density(colors)
     if term.feature == "region":
-        return density
+        return density + _told_from_grays(of, colors)
     if term.feature == "not region":
         share = np.exp(density - density.max())
         denied: Array = np.log1p(-0.95 * share / share.sum())
@@ -152,6 +155,28 @@ def _of_region(term: _Term, of: Region, colors: Array) -> Array:
     toward = -np.linalg.norm((colors - goal) * np.array(scale), axis=1)
     result: Array = term.sign * (toward - toward.mean()) / _TYPICAL
     return result
+
+
+@functools.cache
+def _grays() -> tuple[Region, ...]:
+    return tuple(found for name in ("black", "dark gray", "gray", "light gray", "white") if (found := region(name)))
+
+
+def _told_from_grays(of: Region, colors: Array) -> Array:
+    """Of a gray, black or white: the log-probability of that word rather than of another such, for each colour.
+
+    What is black is told from what is dark gray more sharply than either looks typical.
+    """
+    if math.hypot(*of.mean[1:]) > _GRAYISH:
+        return np.zeros(len(colors))
+    own, *others = (_narrow(one).log_density(colors) for one in (of, *(g for g in _grays() if g != of)))
+    rival: Array = own - np.logaddexp.reduce([own, *others], axis=0)
+    return rival
+
+
+def _narrow(of: Region) -> Region:
+    wide, red, yellow = of.spread
+    return Region(of.mean, (wide / 2.0, red / 2.0, yellow / 2.0))
 
 
 def color_scores(words: Sequence[str], rgbs: Array, weights: Sequence[float] = WEIGHTS) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 # What people call the places; the side is the one that the word itself names, seen from the robot.
 PLACE_WORDS = {
     "corner": ("corner", None),
@@ -92,6 +94,10 @@ ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
     **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
 }
+TOGETHER = "together "
+"""Begins the word that says how many of a kind stand together, and are meant or picked from: "together 2"."""
+MUTUAL = frozenset({"next to", "touching", "near", "close to", "beside"})
+"""Prepositions by which several stand together: "two cubes next to each other"."""
 ANYTHING = frozenset({"thing", "object", "item", "one"})
 """Nouns that may be said of every object."""
 SIDE_WORDS = {"left": "left side", "right": "right side", "top": "far side", "far": "far side", "back": "far side"}
@@ -110,6 +116,8 @@ WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "pi
 WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 """What people call all of a scene, where nothing that is there is called so."""
 GROUND_WORD = "board"
+VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
+"""Who sees the scene, where nothing that is there is called so."""
 SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
 SIDE_OF |= {"in the middle of": "middle"}
 """Of the whole scene a preposition names a side: "on the right side of the table"."""
@@ -127,7 +135,7 @@ SYNONYMS = {
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
-    **{"high": "highest", "low": "lowest"},
+    **{"high": "highest", "low": "lowest", "farther": "farthest", "closer": "closest", "nearer": "closest"},
     **{"isolated": "alone"},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
@@ -163,3 +171,8 @@ PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
 def is_superlative(word: str) -> bool:
     """Does a word pick the end of an order: "nearest", "leftmost", "middle"?"""
     return word.endswith(("est", "most")) or word == "middle"
+
+
+def counted(words: Iterable[str], of: str = "of ") -> int | None:
+    """How many the words of a noun phrase say that there are: 5 for "of 5"; None where they do not."""
+    return next((int(word[len(of) :]) for word in words if word.startswith(of) and word[len(of) :].isdecimal()), None)

@@ -112,11 +112,15 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
+    z = z.copy()
     nothing = np.full(len(x), math.nan)
     volume, height = nothing.copy(), nothing.copy()
     for j in np.flatnonzero(where.solid).tolist():
         if (size := where.things[j].size) is not None:
             volume[j], height[j] = bulk(size), size[2]
+    for group, inside in where.members.items():  # "the highest stack", "the largest group"
+        volume[group], height[group] = len(inside), np.ptp(z[inside]) if len(inside) else math.nan
+        z[group] = z[inside].max(initial=-math.inf)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
 from dcg_torch.names.attributes import OF_KEY
-from dcg_torch.names.vocabulary import GROUP_WORDS, ORDINALS
+from dcg_torch.names.vocabulary import GROUP_WORDS, ORDINALS, TOGETHER, counted
 from dcg_torch.types import (
     LOOKED_ROUND,
     NOT,
@@ -131,7 +131,7 @@ def scene_features(phrase: Phrase) -> Iterator[Feature]:
     of = "word" if phrase.kind is PhraseKind.NOUN else str(phrase.kind)
     if phrase.kind in (PhraseKind.NOUN, PhraseKind.MODIFIER):
         for word in phrase.words:
-            if word != NOT and OF_KEY not in word:
+            if word != NOT and OF_KEY not in word and not word.startswith(TOGETHER):
                 yield Group.RELATION, f"{of}: {word}, scene {phrase.scene}"
 
 
@@ -139,7 +139,7 @@ def picked_from(phrase: Phrase) -> int | None:
     """How many those are that a noun phrase picks from: "the middle one of the five"; None where it does not say."""
     if not GROUP_WORDS.keys().isdisjoint({phrase.noun, *phrase.words}):
         return None
-    return next((int(word[3:]) for word in phrase.words if word[:3] == "of " and word[3:].isdecimal()), None)
+    return counted(phrase.words)
 
 
 def word_features(phrase: Phrase) -> Iterator[Feature]:
@@ -153,6 +153,7 @@ def word_features(phrase: Phrase) -> Iterator[Feature]:
     words = [word for word in words if OF_KEY not in word]  # each by itself says nothing of others like it
     if is_noun and picked_from(phrase) is not None:
         words = [word for word in words if not word.startswith("of ")]
+    words = [word for word in words if not word.startswith(TOGETHER)]  # which these are, is measured
     for word in words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
     if is_noun and len(words) > 1:
