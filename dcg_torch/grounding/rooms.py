@@ -12,7 +12,7 @@ from dataclasses import replace
 
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
-from dcg_torch.names.rooms import room_named, within_words
+from dcg_torch.names.rooms import room_named, told_rooms, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM
 from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.names.wordnet import nouns
@@ -22,6 +22,8 @@ from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, World
 _IN, _ELSEWHERE = 0.45, 0.15
 """Probabilities from which a thing is taken to be in a room, and below which it is taken not to be."""
 _ELSE = f"{LIKELY_ROOM}another"
+_TELLING = 0.8
+"""From which a thing tells its room by itself."""
 _ABOUT = frozenset({"in", "inside", "at"})
 _NAMED = 4.0
 """Log-odds from which a noun is rather a class that is there than a room."""
@@ -29,10 +31,10 @@ _NAMED = 4.0
 
 def by_rooms(tree: ParseTree, world: WorldModel) -> ParseTree:
     """A tree in which rooms that something is in are words of what is in them."""
-    if not any(_may_name_room(node.phrase) for node in tree.walk()):
+    if not any(_may_name_room(node.phrase) or node.phrase.noun == "room" for node in tree.walk()):
         return tree
     types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
-    return _Speaking(_values(world), types).node(tree)
+    return _Speaking(_values(world), types, world.objects).node(tree)
 
 
 def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[ParseTree, bool]]:
@@ -49,7 +51,7 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
     rooms = [_room(noun) if noun and is_only_a_room(noun.noun or "", types) else None for noun in nouns]
     if all(room is None for room in rooms) or all(rooms):
         return [(tree, False) for tree in trees]
-    speaking = _Speaking(_values(world), types)
+    speaking = _Speaking(_values(world), types, world.objects)
     word = next(speaking.word(noun) for noun, room in zip(nouns, rooms, strict=True) if noun and room)
     found = []
     for tree, room in zip(trees, rooms, strict=True):
@@ -113,8 +115,8 @@ class _Speaking:
         values: room -> the attributes that say that something is in it.
     """
 
-    def __init__(self, values: dict[str, list[str]], types: Collection[str]) -> None:
-        self.values, self.types = values, types
+    def __init__(self, values: dict[str, list[str]], types: Collection[str], things: Sequence[Object]) -> None:
+        self.values, self.types, self.things = values, types, things
 
     def node(self, tree: ParseTree) -> ParseTree:
         """A phrase and all below it."""
@@ -124,7 +126,7 @@ class _Speaking:
             children[0] = _of_first(children[0], words)
         if tree.phrase.kind is not PhraseKind.NOUN:
             return replace(tree, children=tuple(children))
-        words, children = self.moved(children)
+        words, children = self.moved(self.rooms_with(children))
         phrase, own = self.own_room(tree.phrase)
         return _with_words(ParseTree(phrase, tuple(children)), (*own, *words))
 
@@ -145,6 +147,27 @@ class _Speaking:
                 words.append(f"{NOT_}{word}" if name != plain else word)
                 left += child.children[0].children
         return words, left
+
+    def rooms_with(self, children: Sequence[ParseTree]) -> list[ParseTree]:
+        """Places in which "(in) the room with the piano" is what such a room is called."""
+        inside = next((c for c in children if _is_in(c) and c.children[0].phrase.noun == "room"), None)
+        if inside is None:
+            return list(children)
+        below = [*inside.children[0].children, *children]
+        holder = next((c for c in below if c.phrase.words == ("with",) and len(c.children) == 1), None)
+        name = None if holder is None else self.room_of(holder.children[0].phrase.noun or "")
+        if name is None:
+            return list(children)
+        room = ParseTree(Phrase(PhraseKind.NOUN, name, noun=name))
+        return [replace(inside, children=(room,)), *(c for c in children if c is not inside and c is not holder)]
+
+    def room_of(self, noun: str) -> str | None:
+        """The room that a thing of some name is in: where it is said to be, or where such things mostly are."""
+        meant = [o for o in self.things if o.type in self.types and log_odds(noun, o.type or "") > _NAMED]
+        given = {room for room, told in self.values.items() for o in meant if not o.attributes.isdisjoint(told)}
+        likely = {room for o in meant for room, weight in told_rooms(o.type or "") if weight >= _TELLING}
+        found = given or likely
+        return found.pop() if len(found) == 1 else None
 
     def word(self, room: Phrase) -> str | None:
         """What says that something is in the room that a noun phrase names; None if it names none, or a thing."""
@@ -175,6 +198,14 @@ class _Speaking:
             word = self.word(room)
             return (phrase, []) if word is None else (replace(phrase, noun=thing), [word])
         return phrase, []
+
+
+def _is_in(place: ParseTree) -> bool:
+    return (
+        place.phrase.kind is PhraseKind.PREPOSITION
+        and place.phrase.words[0] in within_words()
+        and len(place.children) == 1
+    )
 
 
 def _of_first(tree: ParseTree, words: Sequence[str]) -> ParseTree:
