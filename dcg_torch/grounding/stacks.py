@@ -1,14 +1,11 @@
-"""Blocks of a stack in plain words: "the second block from the ground", "the bottom block of the tallest stack"."""
+"""Blocks of a stack in plain words: "the second block from the ground"."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS
+from dcg_torch.names.vocabulary import ORDINALS, PLACE_WORDS
 from dcg_torch.types import ParseTree, PhraseKind
-
-_LEVELS = {"top": "highest", "bottom": "lowest"}
 
 
 def from_the_ground(tree: ParseTree) -> ParseTree:
@@ -21,17 +18,6 @@ def from_the_ground(tree: ParseTree) -> ParseTree:
         return tree
     kept = tuple(c for c in tree.children if c is not ground)
     return ParseTree(replace(phrase, words=(*phrase.words, "from the bottom")), (*kept, *ground.children[0].children))
-
-
-def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tuple[str, ...]:
-    """The words of a noun phrase whose object is in a stack: its top is the highest of it."""
-    places = (c for c in children if c.phrase.words[:1] and c.phrase.words[0] in INSIDE and len(c.children) == 1)
-    groups = (
-        GROUP_WORDS.get(w, ()) for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words)
-    )
-    if not any(kinds[:1] == ("stack",) for kinds in groups):
-        return tuple(words)
-    return tuple(_LEVELS.get(word, word) for word in words)
 
 
 def _is_ground(place: ParseTree) -> bool:
