@@ -86,10 +86,13 @@ class _Builder(NounPhrases):
         if extreme and item.words[0] in PLACING["of_extremes"]:  # "the closest cone to you"
             self.last.words = tuple(word for word in self.last.words if word != extreme)
             item.words, forced = (f"{extreme} {item.words[0]}",), True
+        nouns = list(self.nouns)
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
+            if self.joined and self.pending and len(nouns) > 1:
+                nouns.pop()  # "on the sofa and not on the bed"
         self.preposition = item
-        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.pending.append(Pending(item, nouns, forced, self.joined))
         self.forced = self.joined = False
 
     def adverb(self, item: Item, after: Item) -> None:

@@ -158,7 +158,9 @@ def _about_noun(place: Pending) -> bool:
 def _below(owner: Item, place: Item) -> None:
     child = place.children[0]
     if place.words == ("of",) and child.is_a("pronoun") and not owner.pronoun:
-        return  # "the bigger cube of the two"
+        owner.children += child.children  # "the bigger cube of the two (on the table)"
+        child.children = owner.children
+        return
     if place.words[0] in PLACING["sided"] and child.is_a("left_right"):
         place.words = ("on",)
     elif place.words == ("towards",) and child.is_a("place"):

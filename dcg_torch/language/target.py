@@ -77,10 +77,12 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
     references.list_places(clauses)
+    references.hang_fragments(clauses)
     found = choices(clauses)
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
+    references.take_what_was_asked_of(chosen.noun, chosen.clause, clauses)
     verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
@@ -145,6 +147,8 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         if handled and chosen.place is None and not fronted:
             return handled[-1]
+        if earlier and references.tells_of_neighbour(earlier[-1].clause):
+            return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
         if earlier:
             meant = last if fronted else max(earlier, key=lambda choice: (choice.score, found.index(choice)))
             if meant.place or chosen.place or chosen.score <= TARGETS["shun"]:
