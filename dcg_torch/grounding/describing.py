@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
 from collections.abc import Sequence
@@ -12,13 +13,12 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
-from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import closest_together
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
-from dcg_torch.names.vocabulary import CELL, LATERAL, RANKING, SIDED, TOGETHER, WITHIN, counted
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side, states_value
+from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, LATERAL, RANKING, SIDED, TOGETHER, WITHIN, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
 
@@ -45,6 +45,8 @@ _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
 _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_JUDGED, _BY_EYE = 0.7, frozenset({"orientation", "age", "size"})
+"""The same of a word for what people judge by eye, and judge in many ways."""
 _AGAIN = 2.0
 """Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
 counts, and one that nobody fits does not make all alike."""
@@ -184,7 +186,7 @@ def comparison_set(
     among = _so_many(several, own if close else fit, fit, modifiers, encoder, close) if several else None
     if among is not None:
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
-    described = _described(fit, odds, _GROUP_IN_THE_SET if in_group(phrase) else _IN_THE_SET)
+    described = _described(fit, odds, _GROUP_IN_THE_SET if phrase.noun in GROUP_WORDS else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
@@ -296,8 +298,15 @@ def contradicted(words: Sequence[str], thing: Object) -> float:
     heard = [word for word in words if not word.startswith(CELL)]
     told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
     marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
-    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
+    others = sum(_weight(word) for word, found in told if "attribute: contrary" in found)
     return others + _UNMARKED * marks
+
+
+@functools.lru_cache(maxsize=4096)
+def _weight(word: str) -> float:
+    if OF_KEY in word:
+        return _UNMARKED
+    return _JUDGED if states_value(word.removeprefix(f"{NOT} "), _BY_EYE) else 1.0
 
 
 def highest(values: Floats, count: int) -> NDArray[np.int64]:

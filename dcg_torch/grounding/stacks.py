@@ -8,8 +8,6 @@ from dataclasses import replace
 from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS
 from dcg_torch.types import ParseTree, PhraseKind
 
-_LEVELS = {"top": "highest", "bottom": "lowest"}
-
 
 def from_the_ground(tree: ParseTree) -> ParseTree:
     """A noun phrase in which "the second from the ground" is the second from the bottom."""
@@ -24,14 +22,14 @@ def from_the_ground(tree: ParseTree) -> ParseTree:
 
 
 def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tuple[str, ...]:
-    """The words of a noun phrase whose object is in a stack: its top is the highest of it."""
+    """The words of a noun phrase whose object is in a stack: the bottom one is the lowest, and not the nearest."""
     places = (c for c in children if c.phrase.words[:1] and c.phrase.words[0] in INSIDE and len(c.children) == 1)
     groups = (
         GROUP_WORDS.get(w, ()) for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words)
     )
     if not any(kinds[:1] == ("stack",) for kinds in groups):
         return tuple(words)
-    return tuple(_LEVELS.get(word, word) for word in words)
+    return tuple("lowest" if word == "bottom" else word for word in words)
 
 
 def _is_ground(place: ParseTree) -> bool:
