@@ -180,6 +180,11 @@ def comparison_set(
             phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
             log_size = log_size - _SIZED * off**2
             fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
+    for side in _denied_sizes(phrase.words):
+        off = _off_size((side,), encoder, named, _of_kind(phrase, encoder, tables))
+        off = np.ones(len(fit)) if off is None else off
+        log_size = log_size - _SIZED * (1.0 - off) ** 2
+        fit, odds = (np.where(off < _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
     several = counted(phrase.words, TOGETHER)
     close = several is not None
     several = several or picked_from(phrase)
@@ -190,6 +195,12 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _denied_sizes(words: Sequence[str]) -> list[int]:
+    """The sizes that words such as "not small" rule out."""
+    sides = (size_side(word.removeprefix(f"{NOT} ")) for word in words if word.startswith(f"{NOT} "))
+    return [side for side in sides if side is not None]
 
 
 def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
