@@ -32,8 +32,9 @@ _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
 
-_NEAR = 4.5
-"""The same of what its name and its colour alone say: brown is near orange, and no orange."""
+_NEAR = 4.4
+"""The same of what its name and its colour alone say: brown is near orange, and no orange; light gray is no gray where
+something is called gray."""
 
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
