@@ -262,3 +262,12 @@ def test_a_parser_of_ones_own_need_not_give_dataclasses() -> None:
 
     heard(parse, "take the shell block", (), things)
     assert asked[-1] == "take the shell block"
+
+
+@pytest.mark.parametrize(("type_", "word"), [("piece", "letter: x"), ("block", None)])
+def test_letters_of_pieces_are_their_shapes(type_: str, word: str | None) -> None:
+    """A piece with the letter X is a plus; on a block it is no more than a letter."""
+    marks = marks_of((type_, frozenset({f"letter: {letter}"})) for letter in "XWL")
+    assert marks is not None
+    found = marks.named(["plus"])
+    assert (found.word if found is not None else None) == word
