@@ -19,6 +19,10 @@ from dcg_torch.language import parse_command
         ("Take the box on the table. Scratch that, take the bag.", None, "bag"),
         ("Could you bring it to me? The mug, I mean, the white one.", "white", "mug"),
         ("Let's take a green thing, the ball.", "green", "ball"),
+        ("Take the mug. No, put it on the shelf.", None, "mug"),
+        ("Put the cube on the table, no, the ball.", None, "ball"),
+        ("Take the red cup. No, the blue one. Sorry, the white one.", "white", "cup"),
+        ("Take the cup from the sink, no, the plate.", None, "plate"),
     ],
 )
 def test_a_correction_replaces_what_was_said(text: str, color: str | None, noun: str) -> None:
@@ -30,6 +34,8 @@ def test_a_correction_replaces_what_was_said(text: str, color: str | None, noun:
     ("text", "noun", "relations"),
     [
         ("Grab the mug on the left, no wait, on the right.", "mug", [("on", "right")]),
+        ("Take the cup by the lamp, no, behind it.", "cup", [("behind", "lamp")]),
+        ("On the shelf, the cup.", "cup", [("on", "shelf")]),
         ("We need a torch. It should be lying by the vise.", "torch", [("by", "vise")]),
         ("Do you see the shelf? There's a cup on it. Bring me that cup.", "cup", [("on", "shelf")]),
         ("You know the bowl? Well, next to it is a spoon, and I'd like the spoon.", "spoon", [("next to", "bowl")]),

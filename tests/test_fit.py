@@ -116,6 +116,26 @@ class TestRows:
         assert point.norm == pytest.approx(np.abs(gradient.reshape(len(gradient), -1)[:, columns]).max(), rel=1e-9)
 
 
+@pytest.mark.parametrize("labels", [2, 3])
+def test_rows_written_out_that_share_too_many_weights_are_fitted_by_conjugate_gradients(labels: int) -> None:
+    """Words that always come together are one variable; the optimum is that of all weights."""
+    rng = np.random.default_rng(5)
+    design = random_design(rng, phrases=60, rows=500, labels=labels, columns=(30, 40))
+    language = np.hstack([design.language, np.where(design.language[:, :1] == 0, 30, -1)])  # beside each 0
+    design = DesignMatrix(language, design.grounding, design.phrase, design.count)
+    factor = LogLinearFactor(np.ones((31, 40), dtype=np.bool_), (BINARY, TERNARY)[labels - 2])
+    weight = factor.weight.numpy()
+    objective = reduce([design], weight, weight, np.ones((31, 40), dtype=np.bool_), np.ones((31, 40))).objective
+    assert isinstance(objective.rows, SparseRows)
+    point = objective(rng.normal(size=objective.strength.size * (labels - 1)))
+    step = 1e-5 * rng.normal(size=point.at.shape)
+    slope = objective(point.at + step).gradient - objective(point.at - step).gradient
+    assert objective.product(point, step.reshape(labels - 1, -1)).reshape(-1) == pytest.approx(slope / 2.0, abs=1e-10)
+    fit(factor, [design], l2=1.0)
+    assert np.abs(objective_at(factor, [design], 1.0)[1]).max() < 1e-7
+    assert np.array_equal(factor.weight.numpy()[:, 0], factor.weight.numpy()[:, 30])
+
+
 def test_what_fires_is_counted() -> None:
     rng = np.random.default_rng(5)
     for grid in (False, True):

@@ -121,6 +121,16 @@ def test_a_corpus_teaches_which_reading_is_meant(model: GroundingModel, world: W
     assert after > before
 
 
+def test_what_is_taken_of_several_readings_has_the_runner_up_of_its_own(model: GroundingModel) -> None:
+    cups = [Percept(f"cup {k}", "cup", None, (2.0, y, 0.0)) for k, y in enumerate((-1.0, 1.5))]
+    seen = model.world_model([*KITCHEN[:1], *cups], robot=Pose(0.0, 0.0), looked=True)
+    assert len(worth_grounding(parse_command(SENTENCE), seen, {})) > 1
+    solution = model.ground(SENTENCE, seen)
+    assert solution.tree is not None
+    assert solution.runner_up is not None
+    assert solution.runner_up == model.solve(solution.tree, solution.world).runner_up
+
+
 def test_an_unheard_noun_names_a_thing_and_hardly_a_place(model: GroundingModel) -> None:
     """ "The mailbox" is no edge and no corner: of its landmarks things have nearly all the weight."""
     things = [

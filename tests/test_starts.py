@@ -15,7 +15,7 @@ from dcg_torch.grounding.reduction import reduce
 from dcg_torch.learning.assignment import propagate
 from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.scene import groups
-from dcg_torch.types import Symbol
+from dcg_torch.types import Object, Symbol
 
 
 def counted(count: np.ndarray) -> np.ndarray:
@@ -94,7 +94,24 @@ def test_few_points_come_together_as_many_do(grid: bool, monkeypatch: pytest.Mon
     rng = np.random.default_rng(1)
     for _ in range(30):
         points = rng.integers(-3, 4, (12, 3)).astype(float) if grid else rng.uniform(-3.0, 3.0, (12, 3))
-        few = list(module._clusters(points))
+        one = np.zeros(len(points), dtype=np.int64)
+        few = sorted(map(sorted, module._clusters(points, one)))
         with monkeypatch.context() as patch:
             patch.setattr(module, "_FEW", 0)
-            assert sorted(few) == sorted(module._clusters(points))
+            assert few == sorted(map(sorted, module._clusters(points, one)))
+
+
+def test_groups_of_all_classes_together_are_those_of_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    module = sys.modules[groups.__module__]
+    rng = np.random.default_rng(2)
+    for _ in range(20):
+        points = rng.integers(-3, 4, (14, 3)) * [1.0, 1.0, 0.5]
+        kinds = rng.choice(["cube", "ball"], 14).tolist(), rng.choice(["red", "green"], 14).tolist()
+        things = [
+            Object(str(k), kind, True, color=color, position=tuple(place))
+            for k, (kind, color, place) in enumerate(zip(*kinds, points.tolist(), strict=True))
+        ]
+        together = groups(things)
+        with monkeypatch.context() as patch:
+            patch.setattr(module, "_FEW", 0)
+            assert groups(things) == together

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from dcg_torch.grounding.describing import contradicted
+from dcg_torch.grounding.contrary import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group
@@ -31,7 +31,7 @@ from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""
-_DOUBT = 0.4
+_DOUBT = 0.2
 """Of what is likelier absent than there so much counts: people call what is there by odd names about as often as they
 speak of what is not there."""
 _STRANGE = (6.0, 2.5)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import functools
 import itertools
 import math
 from collections.abc import Sequence
@@ -11,16 +10,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.together import closest_together
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side, states_value
-from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, LATERAL, RANKING, SIDED, TOGETHER, WITHIN, counted
+from dcg_torch.grounding.together import shades_among, so_many
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
+from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.vocabulary import GROUP_WORDS, RANKING, SIDED, TOGETHER, WITHIN, counted
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -44,17 +45,6 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
-_UNMARKED = 2.0
-"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
-_JUDGED, _BY_EYE = 0.7, frozenset({"orientation", "age", "size"})
-"""The same of a word for what people judge by eye, and judge in many ways."""
-_AGAIN = 2.0
-"""Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
-counts, and one that nobody fits does not make all alike."""
-_BEYOND = 1e6
-"""More than any coordinate: what is not described as well comes after all that is."""
-_ALIKE = 0.7
-"""Nats by which things differ that are described alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -87,6 +77,8 @@ def modifier_factor(
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
         asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
         log_psi = table[tables.factor.correspondences.index(asserted)]
+        if tree.phrase.plural and not denied and tree.phrase.words[0] in _AROUND:
+            log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -98,6 +90,30 @@ def modifier_factor(
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
+
+    Where extents are known, by the gap between the two; the rest as it was.
+    """
+    where = encoder.layout
+    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+        return log_psi
+    n = len(where.bodies.half)
+    at, half = where.position[:n, :2], where.bodies.half
+    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
+    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
+    found = log_psi.copy()
+    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_REACH, _VAGUE = 0.6, 0.12
+"""Units of a gap up to which things stand around another, and how vague that is."""
 
 
 def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
@@ -144,8 +160,8 @@ class Comparison:
     Attributes:
         among: (things,) what it describes apart from its ranks: as well as half of what it describes best. Or as many
             as it says that there are: "the middle one of the five on the left".
-        log_size: (things,) log-factor of the size that it says, of standing close together, and of what contradicts a
-            thing more than once.
+        log_size: (things,) log-factor of the size that it says, of what contradicts a thing more than once, and of
+            standing close together.
         phrase: the phrase without the words that `log_size` has taken up.
     """
 
@@ -164,38 +180,61 @@ def comparison_set(
     that differ by little beside those of all of its kind ("the tiny black specks").
     """
     phrase = tree.phrase
+    close = counted(phrase.words, TOGETHER)
+    several = close or picked_from(phrase)
+    shades = comparing_words(phrase.look) if several else ()  # they compare those, not all in view
     told = of_attributes(phrase.words, encoder)
-    table = tables.unranked(encoder, replace(phrase, words=tuple(word for word in told if not says_size(word))))
+    apart = tuple(word for word in told if not says_size(word))
+    table = tables.unranked(
+        encoder, replace(phrase, words=apart, look=tuple(w for w in phrase.look if w not in shades))
+    )
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    log_size = _contradictions(told, encoder)
-    fit, odds = fit + log_size, odds + log_size
-    sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
-    if sizes:
-        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named, _of_kind(phrase, encoder, tables))
-        if off is not None:
-            phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
-            log_size = log_size - _SIZED * off**2
-            fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
-    for side in _denied_sizes(phrase.words):
-        off = _off_size((side,), encoder, named, _of_kind(phrase, encoder, tables))
-        off = np.ones(len(fit)) if off is None else off
-        log_size = log_size - _SIZED * (1.0 - off) ** 2
-        fit, odds = (np.where(off < _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
-    several = counted(phrase.words, TOGETHER)
-    close = several is not None
-    several = several or picked_from(phrase)
-    among = _so_many(several, own if close else fit, fit, modifiers, encoder, close) if several else None
+    again = of_contradictions(told, encoder)
+    phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
+    log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
+    among = so_many(several, own if close else fit, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
+        log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     described = _described(fit, odds, _GROUP_IN_THE_SET if phrase.noun in GROUP_WORDS else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _sized(
+    phrase: Phrase,
+    told: Sequence[str],
+    described: tuple[Floats, Floats],
+    named: Bools,
+    encoder: WorldEncoder,
+    tables: Tables,
+) -> tuple[Phrase, Floats, Floats]:
+    """What the sizes say that a phrase states or denies.
+
+    Returns:
+        The phrase without the sizes that are taken up, the log-factor of each thing, and what takes things of other
+        sizes out of those that are compared.
+    """
+    log_size, out = np.zeros(len(named)), np.zeros(len(named))
+    sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
+    denied = _denied_sizes(phrase.words)
+    kind = _of_kind(phrase, encoder, tables) if sizes or denied else named
+    off = _off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
+    if off is not None:
+        phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
+        log_size, out = -_SIZED * off**2, np.where(off > _OFF, -_BEHIND - 1.0, 0.0)
+    for side in denied:
+        off = _off_size((side,), encoder, named, kind)
+        if off is not None:
+            log_size = log_size - _SIZED * (1.0 - off) ** 2
+            out = np.where(off < _OFF, -_BEHIND - 1.0, out)
+    return phrase, log_size, out
 
 
 def _denied_sizes(words: Sequence[str]) -> list[int]:
@@ -210,57 +249,6 @@ def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
-
-
-def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
-    """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
-    if len(told) < 2:
-        return np.zeros(len(encoder.all))
-    return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
-
-
-def _so_many(
-    several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
-) -> tuple[Bools, Floats] | None:
-    """The so many things that a phrase speaks of, and the log-factor of being one of those that stand together.
-
-    Where more are described alike, or they are said to be `close` together, they are those that stand closest together.
-    None where there are not so many.
-    """
-    objects = len(encoder.world.objects)
-    position = encoder.layout.position
-    there = np.isfinite(position[:objects]).all(axis=1) & np.isfinite(own[:objects])
-    if several > there.sum():
-        return None
-    found = np.zeros(len(fit), dtype=np.bool_)
-    sided = None if close else _along_a_side(fit, modifiers, encoder)
-    values = np.where(there, (own if sided is None else sided)[:objects], -np.inf)
-    first = highest(values, several + 1)
-    last = float(values[first[several - 1]])
-    tied = len(first) > several and last - values[first[several]] < _ALIKE
-    if sided is not None or not (close or tied):
-        found[first[:several]] = True
-        return found, np.zeros(len(fit))
-    alike = np.zeros(len(fit), dtype=np.bool_)
-    alike[:objects] = values >= last - _ALIKE
-    return closest_together(position, alike, fit, several)
-
-
-def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
-    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
-
-    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others. None where
-    nothing is ranked within a side.
-    """
-    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if m.tree.phrase.words[0] == WITHIN]
-    sides = [(m, side) for m, side in sided if side in LATERAL]
-    if len(sides) != 1:
-        return None
-    modifier, side = sides[0]
-    rest = fit - modifier.log_psi
-    y = encoder.layout.position[:, 1]
-    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
-    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -303,33 +291,6 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
     told = {word: set(attribute_evidence((word,), encoder.given)) for word in words}
     return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
-
-
-def contradicted(words: Sequence[str], thing: Object) -> float:
-    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.startswith(CELL)]
-    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
-    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
-    others = sum(_weight(word) for word, found in told if "attribute: contrary" in found)
-    return others + _UNMARKED * marks
-
-
-@functools.lru_cache(maxsize=4096)
-def _weight(word: str) -> float:
-    if OF_KEY in word:
-        return _UNMARKED
-    return _JUDGED if states_value(word.removeprefix(f"{NOT} "), _BY_EYE) else 1.0
-
-
-def highest(values: Floats, count: int) -> NDArray[np.int64]:
-    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
-    if count == 1:
-        return np.array([values.argmax()])
-    if len(values) <= max(512, 2 * count):
-        return np.argsort(-values, kind="stable")[:count]
-    least = np.partition(values, len(values) - count)[len(values) - count]
-    among = np.flatnonzero(values >= least)
-    return among[np.argsort(-values[among], kind="stable")[:count]]
 
 
 def ranks(tree: ParseTree) -> bool:

@@ -213,6 +213,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
         PhraseKind.MODIFIER,
         tree.phrase.text,
         words,
+        plural=head.plural,
         count=several,
         context=_landmark_context(tree),
         among=head.among,

@@ -9,6 +9,7 @@ moved by a solver: of the other free ones the prior is the optimum, and what is 
 
 from __future__ import annotations
 
+import functools
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -161,7 +162,8 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
     if solver != "lbfgs":
-        return solvers.newton(objective, objective.newton_cg_step, start, tolerance=tolerance, max_steps=max_steps)
+        step = functools.partial(objective.newton_cg_step, tolerance=tolerance)
+        return solvers.newton(objective, step, start, tolerance=tolerance, max_steps=max_steps)
     return solvers.lbfgs(objective, start, tolerance=tolerance, max_steps=max_steps)
 
 

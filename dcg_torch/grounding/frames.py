@@ -43,15 +43,20 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
         tree: of the likeliest reading.
         solve: grounds a tree in the world as the robot sees it.
     """
-    place = next((child for child in tree.children if child.phrase.words[:1] == (FACING,) and child.children), None)
+    views_ = (FACING, FACING_FROM)
+    place = next((c for c in tree.children if c.phrase.words[:1] and c.phrase.words[0] in views_ and c.children), None)
     if place is None or len(tree.children) < 2 or place.children[0].phrase.noun is None:
         return None
     found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), place.children[:1]))
     thing = found.object
-    return None if thing is None or thing.hypothetical else seen_facing(found.world, thing)
+    if thing is None or thing.hypothetical:
+        return None
+    return seen_facing(found.world, thing, away=place.phrase.words[0] == FACING_FROM)
 
 
 FACING = "facing"
+FACING_FROM = "facing from"
+"""With one's back to it."""
 
 
 def from_the_other_side(tree: ParseTree) -> ParseTree:

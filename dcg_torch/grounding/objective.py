@@ -29,6 +29,8 @@ from dcg_torch.grounding.solvers import Function, Point
 
 _SETTLED = 1e-10
 """Variables of a block whose gradient is less stay where they are."""
+_OF_TOLERANCE = 0.25
+"""Share of the tolerance that may be left of the gradient after a Newton step."""
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
 
@@ -143,26 +145,41 @@ class Objective:
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""
-        u = self.rows.scores(d)
-        u -= (point.chances * u).sum(axis=0)
-        u *= point.chances
-        u *= self.total
-        bent: Floats = self.rows.gradient(u) + self.strength * (d - d.sum(axis=0) / len(self.count))
-        return bent
+        return self.hessian(point)(d)
 
-    def newton_cg_step(self, point: Point) -> Floats:
+    def hessian(self, point: Point) -> Callable[[Floats], Floats]:
+        """At a point, as a function of d (Q, K)."""
+        rows, chances, total = self.rows, point.chances, self.total
+        if len(chances) == 1:
+            curvature, strength = total * chances * (1.0 - chances), self.strength / 2.0
+            return lambda d: rows.gradient(curvature * rows.scores(d)) + strength * d
+
+        def times(d: Floats) -> Floats:
+            u = rows.scores(d)
+            u -= (chances * u).sum(axis=0)
+            u *= chances
+            u *= total
+            bent: Floats = rows.gradient(u) + self.strength * (d - d.sum(axis=0) / len(self.count))
+            return bent
+
+        return times
+
+    def newton_cg_step(self, point: Point, tolerance: float = 0.0) -> Floats:
         """An approximate Newton step by preconditioned conjugate gradients.
 
         The system is solved as well as the gradient is small: so the last steps converge superlinearly.
+
+        Args:
+            tolerance: of the gradient's max-norm; the system is not solved much better than that asks for.
         """
-        solve = self._preconditioner(point)
+        solve, hessian = self._preconditioner(point), self.hessian(point)
         residual = -point.gradient.reshape(len(point.chances), -1)
         step = np.zeros_like(residual)
         eased = solve(residual)
         towards, size = eased, float(np.vdot(residual, eased))
-        enough = size * min(0.1, point.norm) ** 2
+        enough = size * max(min(0.1, point.norm), _OF_TOLERANCE * tolerance / point.norm) ** 2
         for _ in range(_CG_STEPS):
-            bent = self.product(point, towards)
+            bent = hessian(towards)
             length = size / float(np.vdot(towards, bent))
             step += length * towards
             residual = residual - length * bent

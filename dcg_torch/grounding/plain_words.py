@@ -7,6 +7,7 @@ import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, together
 from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
@@ -22,7 +23,6 @@ from dcg_torch.names.vocabulary import (
     LINE_FROM,
     LINE_OF,
     MIDDLE_LINE,
-    MUTUAL,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -33,11 +33,9 @@ from dcg_torch.names.vocabulary import (
     SIDE_OF,
     SIDED,
     SYNONYMS,
-    TOGETHER,
     VERTICAL,
     VIEWERS,
     WORKSPACE,
-    counted,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
@@ -62,7 +60,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(_middle_of_set(_of_a_pair(_sided(from_the_ground(tree)))))
+    tree = _farthest_to_a_side(middle_of_set(of_a_pair(_sided(from_the_ground(tree)))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -90,35 +88,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
-    return _together(ParseTree(replace(phrase, words=words), children))
-
-
-def _of_a_pair(tree: ParseTree) -> ParseTree:
-    """ "The darker one of the pair of dots" is one of two that stand together."""
-    phrase = tree.phrase
-    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in INSIDE]
-    of = next((c.children[0] for c in places if _PAIR in c.children[0].phrase.words), None)
-    if phrase.kind is not PhraseKind.NOUN or of is None or phrase.plural:
-        return tree
-    words = tuple(dict.fromkeys((*phrase.words, *of.phrase.words, "of 2")))
-    one = replace(phrase, noun=phrase.noun or of.phrase.noun, color=phrase.color or of.phrase.color, words=words)
-    kept = tuple(c for c in tree.children if c.children[:1] != (of,) and c not in of.children)
-    return ParseTree(one, (*kept, *of.children))
-
-
-def _together(tree: ParseTree) -> ParseTree:
-    """ "The two cubes next to each other", "the left one of the pair": those that are nearest to one another."""
-    phrase = tree.phrase
-    several = counted(phrase.words) or phrase.count or 0
-    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in MUTUAL]
-    close = [c for c in places if _EACH_OTHER in c.children[0].phrase.words]
-    if several < 2 or not (close or _PAIR in phrase.words):
-        return tree
-    words = (*(word for word in phrase.words if word != _PAIR), f"{TOGETHER}{several}")
-    return ParseTree(replace(phrase, words=words), tuple(c for c in tree.children if c not in close))
-
-
-_EACH_OTHER, _PAIR = "each other", "pair"
+    return together(ParseTree(replace(phrase, words=words), children))
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -205,37 +175,6 @@ def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[
     return (*words, READ_FROM[line][1])
 
 
-def _middle_of_set(tree: ParseTree) -> ParseTree:
-    """ "The cube in the middle of the five cubes on the left" is the middle one of those on the left."""
-    phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN:
-        return tree
-    for k, place in enumerate(tree.children):
-        name, landmark = place.phrase.words[0], place.children[0].phrase if len(place.children) == 1 else phrase
-        loose = _CLUSTERS & {*landmark.words}
-        inside = name == _MIDDLE_OF or (bool(loose) and name in INSIDE and "middle" in phrase.words)
-        if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
-            continue
-        others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
-        number = counted(landmark.words) or landmark.count
-        if others or number == 2 or phrase.plural:
-            continue
-        few = () if number is None else (f"of {number}",)
-        words = tuple(dict.fromkeys((*phrase.words, "middle", *few)))
-        one = replace(phrase, noun=phrase.noun or landmark.noun, color=phrase.color or landmark.color, words=words)
-        return ParseTree(one, (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :]))
-    return tree
-
-
-_MIDDLE_OF = "in the middle of"
-_CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == ("cluster",))
-
-
-def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
-    nouns, colors = {phrase.noun, several.noun} - {None}, {phrase.color, several.color} - {None}
-    return len(nouns) == 1 and len(colors) <= 1
-
-
 def _picks(tree: ParseTree) -> str | None:
     """The rank that a place in a group is: "on the right side of the row" is the rightmost in it."""
     if len(tree.children) != 1 or not in_group(tree.children[0].phrase):
@@ -280,6 +219,10 @@ def _is_all(place: ParseTree) -> bool:
     return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 
 
+_NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
+"""What is in none of the corners is near none: it is not merely no nearest one."""
+
+
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
     if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
@@ -306,8 +249,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             phrase = replace(phrase, noun="corner", words=corner)
         elif len(sides) < len(phrase.words) and inside:
             name, phrase = NEAREST, replace(phrase, words=sides)
-    if phrase.noun in ("corner", "middle", "center") and inside and not landmark.children:
-        name = NEAREST
+    if phrase.noun in ("corner", "middle", "center") and not landmark.children:
+        name = NEAREST if inside else _NOT_AT.get(name, name)
     name = SAME_RELATION.get(name, name)
     like = (LIKE_RELATION[name],) if name in LIKE_RELATION else ()
     words = (name, *like, *tree.phrase.words[1:])

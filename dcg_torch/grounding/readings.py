@@ -27,6 +27,8 @@ from dcg_torch.grounding.factor_tree import (
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
+from dcg_torch.grounding.room_parts import by_corners, by_heights
+from dcg_torch.grounding.rooms import by_rooms, is_only_a_room, led_into_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -35,10 +37,14 @@ from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.workspace import with_groups
-from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
+_ABSENT = 3.0
+"""Further down are those kept that name what is there, where the best one does not."""
+_TO_A_ROOM = 2.0
+"""How much less likely a reading is that means a room by which others only say where the thing is."""
 _SENSELESS = math.log(1e-6)
 
 
@@ -60,12 +66,31 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     """
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
-    kept = [(r, weight) for r, weight in weighed if weight >= weighed[0][1] - _NEGLIGIBLE]
+    strange = [_speaks_of_what_is_not_there(r.tree, world) for r, _ in weighed]
+    least = weighed[0][1] - _NEGLIGIBLE if weighed else 0.0
+    kept = [
+        (r, weight)
+        for (r, weight), absent in zip(weighed, strange, strict=True)
+        if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
+    ]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
+    led = led_into_rooms([by_heights(by_corners(by_rooms(tree, world), world), world) for tree, _, _ in trees], world)
+    trees = [
+        (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
+        for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)
+    ]
     looks = _Looks.of(world)
     told = [(by_attributes(_looking(tree, command.text, looks), world), weight, rules) for tree, weight, rules in trees]
     placed = by_cells([tree for tree, _, _ in told], world)
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
+
+
+def _speaks_of_what_is_not_there(tree: ParseTree, world: WorldModel) -> bool:
+    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    types = [t for t in world.classes if not t.startswith(OPAQUE)]
+    if noun is None or not types:
+        return False
+    return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -160,12 +185,25 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
     for search, _ in searches if brief else ():
         solution = search.with_runner_up(solution)
+    solution = _several_there(solution)
     if len(searches) == 1:
         return solution
     told = [
         np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
     ]
     return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
+
+
+def _several_there(solution: Solution) -> Solution:
+    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
+    best, other = solution.best, solution.runner_up
+    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
+        return solution
+    noun = solution.noun
+    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
+    if noun is None or not noun.plural or unseen >= 0.5:
+        return solution
+    return replace(solution, best=other, runner_up=best)
 
 
 def _fit(solution: Solution) -> float:

@@ -1,7 +1,8 @@
 """From design matrices to the smallest problem that has the same optimum.
 
-Few rows: each row is written out as the pairs that fire, rows and weights that are alike by symmetry become one,
-weights of a single row are eliminated, and Newton's method has a dense matrix of the others.
+Few rows: each row is written out as the pairs that fire, and rows and weights that are alike by symmetry become one.
+Where few weights are left that rows share, weights of a single row are eliminated, and Newton's method has a dense
+matrix of the others.
 
 Many rows: pairs are never written out. Scores are sums over cells of the phrases' side times the weights, or, where
 most phrases occur with most groundings, the whole product of the phrases' side, the weights and the groundings' side.
@@ -19,7 +20,7 @@ from dcg_torch.grounding.cells import cell_rows, together
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.grounding.objective import Objective
 from dcg_torch.grounding.psi import Floats, binary
-from dcg_torch.grounding.rows import ArrowheadRows, GridRows
+from dcg_torch.grounding.rows import ArrowheadRows, GridRows, SparseRows
 from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
 from dcg_torch.grounding.written import (
     Mask,
@@ -97,14 +98,13 @@ def reduce(
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
     few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
     if prefer == "newton" or (prefer == "auto" and few):
-        found = _written(write_out(designs, weight, fixed, active, strength, times), fixed, always=prefer == "newton")
-        if found is not None:
-            return found
+        written = write_out(designs, weight, fixed, active, strength, times)
+        return _written(written, fixed, always=prefer == "newton")
     return _factored(designs, weight, fixed, active, strength, times)
 
 
-def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None:
-    """Rows written out and made few by symmetry; None if too much stays for Newton's method.
+def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced:
+    """Rows written out and made few by symmetry.
 
     Args:
         always: Newton's method it is to be.
@@ -120,9 +120,14 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None
     count = count[:, alike.row_first] * alike.row_size
     offset = None if offset is None else offset[:, alike.row_first]
     own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
-    found = split(incidence, fires / root[incidence.column])
-    if not (always or _pays(found, len(start))):
-        return None
+    value = fires / root[incidence.column]
+    found = split(incidence, value) if always or _may_pay(incidence) else None
+    if found is None or not (always or _pays(found, len(start))):
+        rows = SparseRows.written(incidence, value)
+        tied = alike.column, (1.0 / root)[alike.column]
+        return Reduced(
+            Objective(rows, count, offset, own, 1.0 / root), start.reshape(-1), constant, fixed, columns, tied
+        )
     order = found.order
     number = np.empty_like(order)
     number[order] = np.arange(len(order))
@@ -130,6 +135,11 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None
     count, offset = count[:, found.row_order], None if offset is None else offset[:, found.row_order]
     objective = Objective(found.rows(), count, offset, own[order], 1.0 / root[order])
     return Reduced(objective, start[:, order].reshape(-1), constant, fixed, columns, tied)
+
+
+def _may_pay(incidence: Incidence) -> bool:
+    """May Newton's method pay? Not if too many columns fire in several rows."""
+    return int(np.count_nonzero(np.bincount(incidence.column) > 1)) <= _NEWTON_COLUMNS
 
 
 def _pays(found: Split, q: int) -> bool:

@@ -14,6 +14,7 @@ import numpy as np
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
+from dcg_torch.grounding.symmetry import Incidence
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
@@ -150,8 +151,8 @@ class SparseRows:
     """Rows that are sums of cells, and cells that are sums of variables: a cell is a phrase with a grounding column.
 
     Attributes:
-        factors: binary matrices, CSR, whose product says which variables each row has: (N, cells) and (cells, K), or
-            where that is small, the product itself.
+        factors: matrices, CSR, whose product says how much of which variables each row has: (N, cells) and (cells, K),
+            which are binary, or where that is small, the product itself.
     """
 
     factors: tuple[csr_array, ...]
@@ -170,9 +171,16 @@ class SparseRows:
         few = int(np.diff(cell_starts)[cells].sum()) <= _FEW_ENTRIES
         return cls((factors[0] @ factors[1],) if few else factors)
 
+    @classmethod
+    def written(cls, incidence: Incidence, value: Floats) -> Self:
+        """From what fires in each row, and how much (entries,) each of it counts."""
+        starts = np.append(incidence.starts, len(incidence.row))
+        return cls((_csr(starts, incidence.column, value, (incidence.rows, incidence.columns)),))
+
     @cached_property
     def _back(self) -> tuple[csr_array, ...]:
-        return tuple(factor.T for factor in self.factors)
+        few = len(self.factors) == 1  # then a copy by columns costs little, and is the faster way
+        return tuple(factor.T.tocsr() if few else factor.T for factor in self.factors)
 
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
@@ -192,10 +200,14 @@ def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
 
 
 def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+    return _csr(starts, numbers, np.ones(len(numbers)), shape)
+
+
+def _csr(starts: Ints, numbers: Ints, values: Floats, shape: tuple[int, ...]) -> csr_array:
     from scipy.sparse import csr_array  # here: only large fits need it
 
     small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
-    return csr_array((np.ones(len(numbers)), numbers.astype(small), starts.astype(small)), shape=shape)
+    return csr_array((values, numbers.astype(small), starts.astype(small)), shape=shape)
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:

@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.describing import (
     comparison_set,
-    highest,
     is_narrowed,
     is_to_a_place,
     modifier_factor,
@@ -30,6 +29,7 @@ from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.names.vocabulary import counted
+from dcg_torch.scene.order import highest
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -216,15 +216,17 @@ class Solution:
             own = self._probability_of_set({o.id for o in meant})
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
-    def _probability_of_set(self, inside: Collection[str]) -> float:
-        """That just these are meant: the least likely of them before the likeliest other.
+    def _probability_of_set(self, inside: set[str]) -> float:
+        """That just these are meant: that things there are, and the least likely of them before the likeliest other.
 
         What people describe, they describe together: whether one is meant hangs on whether the others are. So it is as
         likely that all are as that the least likely is.
         """
+        unseen = {o.id for o in self.world.objects if o.hypothetical}
+        absent = sum(p for i, p in self.probabilities.items() if i in unseen)
         least = min(self.probabilities[i] for i in inside)
-        other = max((p for i, p in self.probabilities.items() if i not in inside), default=0.0)
-        return least / (least + other)
+        other = max((p for i, p in self.probabilities.items() if i not in inside | unseen), default=0.0)
+        return (1.0 - absent) * least / (least + other)
 
 
 def target_of(tree: ParseTree) -> ParseTree | None:

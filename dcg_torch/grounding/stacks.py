@@ -1,4 +1,4 @@
-"""Blocks of a stack in plain words: "the second block from the ground", "the bottom block of the tallest stack"."""
+"""Blocks of a stack in plain words: "the second block from the ground"."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ def from_the_ground(tree: ParseTree) -> ParseTree:
 
 def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tuple[str, ...]:
     """The words of a noun phrase whose object is in a stack: the bottom one is the lowest, and not the nearest."""
+    if "bottom" not in words:
+        return tuple(words)
     places = (c for c in children if c.phrase.words[:1] and c.phrase.words[0] in INSIDE and len(c.children) == 1)
-    groups = (
-        GROUP_WORDS.get(w, ()) for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words)
-    )
-    if not any(kinds[:1] == ("stack",) for kinds in groups):
+    named = (w for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words))
+    if not any(GROUP_WORDS.get(word, ())[:1] == ("stack",) for word in named):
         return tuple(words)
     return tuple("lowest" if word == "bottom" else word for word in words)
 

@@ -1,4 +1,4 @@
-"""Several that stand together: "the two dots that almost touch", "the left one of the three cups".
+"""A counted few: "the two dots that almost touch", "the left one of the three cups", "the five on the left".
 
 People who count a few of many mean those that are nearest to one another. That is measured, not learned: a thing is as
 likely one of N as the distance to its Nth nearest is small beside that of the closest N.
@@ -6,18 +6,61 @@ likely one of N as the distance to its Nth nearest is small beside that of the c
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features.said import look_scores
+from dcg_torch.grounding.solution import ModifierFactor
+from dcg_torch.names.vocabulary import LATERAL, WITHIN
+from dcg_torch.scene.order import highest
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
+_IN_THE_SET = math.log(0.5)
+_BEYOND = 1e6
+"""More than any coordinate: what is not described as well comes after all that is."""
+_ALIKE = 0.7
+"""Nats by which things differ that are described alike."""
+_SHADED = 2.0
+"""Nats for each unit by which a colour's score stays behind the best of those that are compared."""
 _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
 """The most that it loses."""
 _TOUCHING = 0.02
 """Share of the largest distance below which distances are alike."""
+
+
+def so_many(
+    several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
+) -> tuple[Bools, Floats] | None:
+    """The so many things that a phrase speaks of, and the log-factor of being one of those that stand together.
+
+    Where more are described alike, or they are said to be `close` together, they are those that stand closest together.
+    None where there are not so many.
+    """
+    objects = len(encoder.world.objects)
+    position = encoder.layout.position
+    there = np.isfinite(position[:objects]).all(axis=1) & np.isfinite(own[:objects])
+    if several > there.sum():
+        return None
+    found = np.zeros(len(fit), dtype=np.bool_)
+    sided = None if close else _along_a_side(fit, modifiers, encoder)
+    values = np.where(there, (own if sided is None else sided)[:objects], -np.inf)
+    first = highest(values, several + 1)
+    last = float(values[first[several - 1]])
+    tied = len(first) > several and last - values[first[several]] < _ALIKE
+    if sided is not None or not (close or tied):
+        found[first[:several]] = True
+        return found, np.zeros(len(fit))
+    alike = np.zeros(len(fit), dtype=np.bool_)
+    alike[:objects] = values >= last - _ALIKE
+    return closest_together(position, alike, fit, several)
 
 
 def closest_together(position: Floats, candidates: Bools, log_fit: Floats, several: int) -> tuple[Bools, Floats]:
@@ -42,3 +85,30 @@ def closest_together(position: Floats, candidates: Bools, log_fit: Floats, sever
     log_close = np.full(len(position), _FAR)
     log_close[at] = np.maximum(_FAR, np.minimum(0.0, loss - loss[first]))
     return found, np.where(found, 0.0, log_close)
+
+
+def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
+    """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
+
+    What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others. None where
+    nothing is ranked within a side.
+    """
+    sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if m.tree.phrase.words[0] == WITHIN]
+    sides = [(m, side) for m, side in sided if side in LATERAL]
+    if len(sides) != 1:
+        return None
+    modifier, side = sides[0]
+    rest = fit - modifier.log_psi
+    y = encoder.layout.position[:, 1]
+    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
+    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
+
+
+def shades_among(words: tuple[str, ...], among: Bools, encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of what compares colours, "the darker of the two": among these, not among all in view."""
+    log_shade = np.zeros(len(among))
+    members = np.flatnonzero(among)
+    scores = look_scores(words, [encoder.all[j] for j in members.tolist()])
+    if scores is not None:
+        log_shade[members] = _SHADED * np.nan_to_num(scores - np.nanmax(scores))
+    return log_shade

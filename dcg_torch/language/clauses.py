@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import SETS
+from dcg_torch.language.predicates import is_state
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})
@@ -94,9 +95,15 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if verbs:  # "it is on the left and is touching the cone"
         first = clause[: clause.index(verbs[0])]
         return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
-    named = k + 1 < len(items) and items[k + 1].noun is not None
+    named = k + 1 < len(items) and items[k + 1].noun is not None and not (_of_one(clause) and is_state(items[k + 1]))
     named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
     return not named and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
+
+
+def _of_one(clause: Sequence[Item]) -> bool:
+    """ "The middle one (is sick)"."""
+    first = next((item for item in clause if item.kind is Kind.NOUN), END)
+    return first.pronoun and first.long
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:

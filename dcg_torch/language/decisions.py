@@ -11,15 +11,13 @@ from __future__ import annotations
 import heapq
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 T = TypeVar("T")
 _NEGLIGIBLE = -4.0  # log-weight, against the best, of what is not followed up
 
 
-@dataclass(frozen=True, slots=True)
-class Choice:
+class Choice(NamedTuple):
     """A choice that was made: its rule, the normalised log-weights of its options, the number of the chosen one."""
 
     rule: str

@@ -49,6 +49,8 @@ PLACING: Final[Mapping[str, frozenset[str]]] = {
 }
 """Prepositions by what they can do."""
 NUMBERS: Final[Mapping[str, int]] = _WORDS["numbers"]
+NTH: Final = {str(n): word for n, word in enumerate(_WORDS["ordinals"].split()[:10], 1)}
+"""Ordinals by their numbers, as digits."""
 PRONOUNS: Final[Mapping[str, str | None]] = _WORDS["pronouns"]
 CHOICES: Final[Mapping[str, Any]] = GRAMMAR["choices"]
 TARGETS: Final[Mapping[str, float]] = GRAMMAR["targets"]
@@ -100,9 +102,9 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
             number = str(match.lastgroup)[1:]
             _, value, *tags = rows[int(number)]
             way = match.groupdict().get(f"w{number}") or ""
-            way = str(NUMBERS.get(way, NORMAL.get(way, way)))
-            raw = match.group()
-            yield raw, tuple(value.replace("=", raw).replace("<way>", way).split(";")), (*tags, _AS_IS)[0]
+            way, raw = str(NUMBERS.get(way, NORMAL.get(way, way))), match.group()
+            words = value.replace("=", raw).replace("<way>", way).replace("<nth>", NTH.get(way, way))
+            yield raw, tuple(words.split(";")), (*tags, _AS_IS)[0]
 
 
 @functools.cache

@@ -161,8 +161,9 @@ class NounPhrase(Reader):
             return 0
         last = self.nouns[-1].text
         unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
-        if unit not in SETS["groups"] | SETS["carriers"]:
-            return 0
+        crossing = any(token.text in SETS["lines"] for token in self.tokens[self.at + 2 : self.at + 4])
+        if unit not in SETS["groups"] | SETS["carriers"] or (crossing and unit in SETS["lines"]):
+            return 0  # "the second column of the third row" is no group of rows
         self.words += [t.text for t in self.nouns[:-1]]
         self.nouns = []
         if unit in SETS["pairs"]:

@@ -57,6 +57,8 @@ def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: De
                 owner = last
             elif not _belongs_to_verb(place, clause, target, full):
                 owner = _nearest(place, decisions)
+        if owner is None and clause.verb is None and not place.nouns and place.name not in PLACING["frames"]:
+            owner = target  # "in the top row the red one"
         if owner is None:
             clause.places.append(place.item)
         elif not _compound(owner, place, decisions):

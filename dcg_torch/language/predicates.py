@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.english.forms import parts
 from dcg_torch.language.items import Item
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS
 
@@ -111,6 +112,13 @@ def _settle_row(noun: Item) -> None:
             noun.children.remove(place)
             place.said = row.said = True
             return
+
+
+def is_state(item: Item) -> bool:
+    """ "(The one in the middle is) sick": a noun phrase of an adjective that is hardly ever a noun."""
+    alone = item.noun is not None and not (item.determined or item.plural or item.children)
+    used = parts(str(item.noun)) if alone else {}
+    return used.get("a", 0) > used.get("n", 0)
 
 
 def is_edge_of(noun: Item, edge: Item, place: Item) -> bool:

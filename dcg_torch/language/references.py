@@ -14,7 +14,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        there = exists(clause)
+        there = exists(clause) or tells_of_neighbour(clause)
         if clause is own or not clause.objects or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
@@ -25,7 +25,8 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
             noun.children.append(more.behind("with"))
         elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
             same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
-            if same and "other" not in more.words:
+            one_of_them = noun.plural and not more.plural and more.text not in SETS["stands_for"]
+            if same and not one_of_them and "other" not in more.words:
                 noun.take_up(more)
 
 
@@ -38,6 +39,24 @@ def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
     return same[-1] if same and more.definite and all(top.noun != more.noun for top in tops) else None
 
 
+def list_places(clauses: Sequence[Clause]) -> None:
+    """ "Dirty plate. Dining table.": names without articles, of which the first is by the others."""
+    bare = [clause.objects[0] for clause in clauses if len(clause.objects) == 1 and not (clause.verb or clause.places)]
+    if len(bare) < max(2, len(clauses)) or any(noun.determined or noun.plural or noun.pronoun for noun in bare):
+        return
+    if len({noun.noun for noun in bare}) < len(bare) or not all(noun.is_a("named") for noun in bare):
+        return
+    bare[0].children += [noun.behind("near") for noun in bare[1:]]
+    for clause in clauses[1:]:
+        clause.objects = []
+
+
+def tells_of_neighbour(clause: Clause) -> bool:
+    """ "Beside it is a stand": a clause that says what stands by what was named before."""
+    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else None
+    return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
+
+
 def exists(clause: Clause) -> bool:
     """ "There is a cone by the door": a clause that says what is there."""
     return clause.action in SETS["be"] and not clause.statement
@@ -48,10 +67,31 @@ def about_it(noun: Item) -> bool:
     return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
 
 
+def is_context(noun: Item, own: Clause, before: Sequence[Clause]) -> bool:
+    """ "(The mirror above the sink,) there are other mirrors": more things of a name that one has been told of by."""
+    if not (exists(own) and noun.plural and noun.noun):
+        return False
+    named = (other for clause in before for other in _mentions([clause]))
+    return any(other.noun == noun.noun and not other.plural and other.definite for other in named)
+
+
+def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
+    """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
+    for clause in later:
+        denied = main_object(clause) if clause.negated else None
+        if denied is not None and denied.noun == noun.noun is not None and not (denied.color or denied.children):
+            return not denied.words
+    return False
+
+
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
+    of = next((c for c in one.children if c.words == ("of",) and c.children[0].plural and c.children[0].noun), None)
+    if of is not None and one.noun is None and of.start < one.start:
+        one.children.remove(of)  # "of the cubes, the one behind the box"
     below = [node for child in one.children for node in child.children]
     named = [noun for noun in _mentions(clauses) if noun.noun and noun.start < one.start and noun not in below]
+    named += of.children if of is not None and of not in one.children else []
     named = [noun for noun in named if one not in noun.walk()]
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):

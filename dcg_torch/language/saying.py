@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import END, Item
+from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import Pending, conjoin
-from dcg_torch.language.predicates import is_edge_of, last_thing, share_noun
+from dcg_torch.language.predicates import is_edge_of, is_state, last_thing, share_noun
 
 
 class NounPhrases:
@@ -43,6 +43,8 @@ class NounPhrases:
             item.noun, item.color = other.noun, other.color
         if self.is_about_color(item) or self.is_rank(item):
             item.said = True
+        elif self.meets(item):
+            self.nouns.append(item)
         elif self.preposition is not None and (self.joined or not self.preposition.children):
             self.landmark(item, self.preposition)
         elif self.excluded:
@@ -58,6 +60,7 @@ class NounPhrases:
             self.side(item)  # but "on the left and right"
         elif self.nouns and self.is_bare(item):
             last_thing(self.nouns).children.append(item.behind("with" if item.noun in SETS["parts"] else "in"))
+            self.nouns.append(item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
             item.beside = True
             conjoin(item, self.nouns, self.pending, self.clause)
@@ -69,6 +72,23 @@ class NounPhrases:
         """A noun phrase that the clause is about."""
         self.clause.objects.append(item)
         self.nouns.append(item)
+
+    def meets(self, item: Item) -> bool:
+        """Whether two lines, or a line and its end, name a place: "row 3, column 2", "far right, second row"."""
+        line, end = (item, self.last) if item.is_a("line") else (self.last, item)
+        both, alone = end.is_a("line") and end.noun != line.noun, self.clause.objects == [self.last]
+        apart = self.preposition is not None and self.preposition.words[0] not in PLACING["within"]
+        if apart or not line.is_a("line") or not (both or (alone and end.is_a("side"))):
+            return False
+        if self.preposition is not None:
+            self.drop_preposition()
+        if both:
+            end.children.append(item.behind("in"))
+        if alone:
+            words = () if both else (str(end.noun) if end.noun in SETS["middles"] else f"{end.noun}most",)
+            place = (end if both else line).behind("in")
+            self.clause.objects = [Item(Kind.NOUN, place.start, place.start, "", words, pronoun=True, children=[place])]
+        return True
 
     def exclude(self, item: Item) -> None:
         """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
@@ -86,13 +106,13 @@ class NounPhrases:
 
     def is_bare(self, item: Item) -> bool:
         """ "(blue fan,) top row", "(screwdriver,) red handle": where the thing is or what it has, no preposition."""
-        where = item.is_a("bare_place") and self.clause.verb is None
+        where = item.is_a("bare_place") and (self.clause.verb is None or (self.joined and item.is_a("line")))
         return not self.and_joined and (where or (self.joined and item.is_a("bare_part")))
 
     def is_about_color(self, item: Item) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
         place = self.preposition
-        inside = place is not None and not place.children and place.words[0] in PLACING["of_color"]
+        inside = place is not None and not place.children and place.words[0] in PLACING["within"]
         aspect = item.noun in SETS["aspects"]  # "blue in color"
         if not (inside and (aspect or (self.nouns and item.is_a("color")))):
             return aspect and self.relative
@@ -136,7 +156,7 @@ class NounPhrases:
     def leading_place(self, item: Item) -> None:
         """ "Top left corner, red cube": the place named first is where the thing is."""
         objects = self.clause.objects
-        if self.clause.verb is None and len(objects) == 1 and objects[0].is_a("place") and (item.noun or item.words):
+        if self.clause.verb is None and len(objects) == 1 and objects[0].is_a("place"):
             item.children.append(objects.pop().behind("in"))
 
     def repeats(self, item: Item) -> bool:
@@ -147,7 +167,7 @@ class NounPhrases:
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
-        if last.noun in SETS["places"] | SETS["robot"] or (last.pronoun and not ordered):
+        if last.is_a("place") or last.noun in SETS["robot"] or (last.pronoun and not ordered):
             return False
         if not item.determined:
             return item.is_a("color_word")
@@ -163,7 +183,9 @@ class NounPhrases:
         noun.pick(predicate)
         noun.color = noun.color or predicate.color
         self.say(noun, predicate.words)
-        if noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
+        if noun.noun is None and is_state(predicate):
+            self.say(noun, (str(predicate.noun),))
+        elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
             noun.noun, noun.pronoun = predicate.noun, False
 
     def says_where(self) -> bool:

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
 from operator import itemgetter
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 from dcg_torch.english.forms import singular
 from dcg_torch.language import lexicon as lx
@@ -27,8 +26,7 @@ _AFTER: Final = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Token:
+class Token(NamedTuple):
     """Words `start` to `stop` of a command as one: their tag, their text and what they mean in normal form."""
 
     start: int
@@ -38,8 +36,7 @@ class Token:
     value: tuple[str, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Path:
+class Path(NamedTuple):
     """Tokens that cover a command, and their log-weight."""
 
     tokens: tuple[Token, ...]
@@ -112,10 +109,11 @@ class _Lattice:
         out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
         doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
         if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
-            out.append(self._new(i, i + 1, "N", "known_noun", self._value("N", word)))
+            out.append((Token(i, i + 1, "N", word, self._value("N", word)), lx.GRAMMAR["known_noun"]))
         found = match_color(self.words, i)
         if found is not None and found[1] > i + 1:
-            out.append(self._new(i, found[1], "COL", "color", (found[0],), 0.6))
+            text = " ".join(self.words[i : found[1]])
+            out.append((Token(i, found[1], "COL", text, (found[0],)), lx.GRAMMAR["long_color"]))
         for part in (self._patterns, self._compounds):
             out += part(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
@@ -125,12 +123,6 @@ class _Lattice:
             return (word if word in self.names else singular(word),)
         return (normal_color(word),) if tag == "COL" else (lx.NORMAL.get(word, word),)
 
-    def _new(
-        self, i: int, stop: int, tag: str, rule: str, value: tuple[str, ...] | None = None, more: float = 0.0
-    ) -> tuple[Token, float]:
-        text = " ".join(self.words[i:stop])
-        return Token(i, stop, tag, text, (text,) if value is None else value), float(lx.GRAMMAR[rule][tag]) + more
-
     def _patterns(self, i: int) -> list[tuple[Token, float]]:
         """Prepositions, how a thing stands, numbers that are names, ordinals of several words."""
         out: list[tuple[Token, float]] = []
@@ -138,7 +130,8 @@ class _Lattice:
             long = float(lx.GRAMMAR["long_preposition"]) if "P" in tags and " " in raw else 0.0
             out += [(Token(i, i + raw.count(" ") + 1, tag, raw, value), weight + long) for tag, weight in tags.items()]
             if long and self.words[i] in lx.PLACING["single"]:
-                out.append(self._new(i, i + 1, "P", "short_preposition", (self.words[i],)))
+                short = Token(i, i + 1, "P", self.words[i], (self.words[i],))
+                out.append((short, lx.GRAMMAR["short_preposition"]))
         return out
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:
@@ -148,5 +141,6 @@ class _Lattice:
             name = (*self.words[i : i + length - 1], *map(singular, self.words[i + length - 1 : i + length]))
             spoken = tuple(self.words[i : i + length])
             if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
-                return [self._new(i, i + length, tag, "compound", name) for tag in ("N", "NM")]
+                tags = lx.GRAMMAR["compound"].items()
+                return [(Token(i, i + length, tag, " ".join(spoken), name), weight) for tag, weight in tags]
         return []

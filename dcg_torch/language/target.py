@@ -27,13 +27,16 @@ class Mention:
 def choices(clauses: Sequence[Clause]) -> list[Mention]:
     """Every noun phrase that some clause is about, in the order of the command."""
     found: list[Mention] = []
-    for clause in clauses:
+    for n, clause in enumerate(clauses):
         if clause.refused is not None:
             continue
-        penalty = TARGETS["negated"] if clause.negated else 0.0
         target = main_object(clause)
+        taken_back = target is not None and references.denied_later(target, clauses[n + 1 :])
+        penalty = TARGETS["negated"] if clause.negated or taken_back else 0.0
         if target is not None:
-            found.append(Mention(target, clause, _object_score(target, clause, clauses, found) + penalty))
+            score = _object_score(target, clause, clauses, found)
+            score = TARGETS["context"] if references.is_context(target, clause, clauses[:n]) else score
+            found.append(Mention(target, clause, score + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -57,7 +60,8 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
             return TARGETS["identified"]
         if clause.verb is None and clause is clauses[-1] and clause.sentence > clauses[0].sentence:
             return TARGETS["named_last"]
-    another = again or (told and ("other" in target.words or references.about_it(target)))
+    another = again or references.tells_of_neighbour(clause)
+    another = another or (told and ("other" in target.words or references.about_it(target)))
     return TARGETS["another" if another else "statement"]
 
 
@@ -73,6 +77,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     An object to be handled is the first one named, the goal of a drive the last ("go past the cube to the cone").
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
+    references.list_places(clauses)
     found = choices(clauses)
     if not found:
         return None
@@ -88,6 +93,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
     references.describe_later(chosen.noun, chosen.clause, clauses)
     references.one_of_several(chosen.noun, clauses)
+    for below in [node for child in chosen.noun.children for node in child.walk()]:
+        if below.is_a("unnamed"):
+            references.one_of_several(below, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
@@ -128,7 +136,11 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
     noun = chosen.noun
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
-        earlier = [choice for choice in found[: found.index(chosen)] if not choice.noun.pronoun]
+        before = found[: found.index(chosen)]
+        earlier = [choice for choice in before if not (choice.noun.pronoun and choice.noun.is_a("empty"))]
+        fronted = [c for c in earlier if c.clause.verb is None and c.clause.sentence == chosen.clause.sentence]
+        if fronted and fronted[-1].place is None and chosen.place is None:
+            return fronted[-1]  # "(Start at the church.) The tree closest to it, mark that."
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         if handled and chosen.place is None:
             return handled[-1]

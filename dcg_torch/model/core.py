@@ -23,6 +23,8 @@ from dcg_torch.grounding.grids import with_cells
 from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
+from dcg_torch.grounding.room_parts import with_corners
+from dcg_torch.grounding.rooms import with_rooms
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
@@ -36,7 +38,7 @@ from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.model.kept import Followed, Kept
 from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
-from dcg_torch.model.teacher import Told, interpret
+from dcg_torch.model.teacher import Told, forgotten, interpret, settled
 from dcg_torch.model.variant import Variant, initial_features, restrict
 from dcg_torch.scene.upsilon import with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places
@@ -85,7 +87,7 @@ class GroundingModel:
         if Group.NAMES in variant.groups:
             give_odds(model.factor, features)
         model.train()
-        if Group.RELATION in variant.groups:
+        if variant.related:
             designs = encode(place_examples(), features, model.factor.correspondences)
             model.fit_weights(designs, free=taught_mask(features), l2=RELATION_L2)
         return model
@@ -149,7 +151,7 @@ class GroundingModel:
             speaker=speaker,
             unseen=frozenset({LOOKED_ROUND} if looked and Group.OPEN in self.variant.groups else ()),
         )
-        return with_places(world, workspace) if self._related else world
+        return with_places(world, workspace) if self.variant.related else world
 
     def ground(self, command: str | ParseTree | ReadCommand, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11).
@@ -170,16 +172,13 @@ class GroundingModel:
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
-        world = with_cells(world, [reading.tree for reading in readings])
-        frames = self.learner.frames if self._related else None
+        trees = [reading.tree for reading in readings]
+        world = with_corners(with_rooms(with_cells(world, trees), trees), trees)
+        frames = self.learner.frames if self.variant.related else None
         facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)
         searches = [(self._search(view), frame) for view, frame in ([(facing, 0.0)] if facing is not None else seen)]
-        return sum_over_frames(searches, readings if self._related else readings[:1])
-
-    @property
-    def _related(self) -> bool:
-        return Group.RELATION in self.variant.groups
+        return sum_over_frames(searches, readings if self.variant.related else readings[:1])
 
     def _search(self, world: WorldModel) -> SharedSearch:
         encoder = self._kept.last.encoder(self.features, world)
@@ -232,11 +231,7 @@ class GroundingModel:
         Raises:
             ValueError: nothing of this type was ever met, or there is no word.
         """
-        if not word.strip():
-            raise ValueError("a word is text that is not empty")
-        if type_ not in self.known_types:
-            raise ValueError(f"{type_!r}: nothing of this type was ever met; types are {', '.join(self.known_types)}")
-        self.learner = self.learner.told(word, type_)
+        self.learner = settled(self.learner, word, type_)
         self.train()
 
     def forget(self, word: str) -> None:
@@ -245,9 +240,7 @@ class GroundingModel:
         Raises:
             ValueError: it was never heard.
         """
-        if word not in {entry.word for entry in self.lexicon()}:
-            raise ValueError(f"{word!r}: this noun was never heard; model.lexicon() lists those that were")
-        self.learner = self.learner.forget(word)
+        self.learner = forgotten(self.learner, word)
         self.train()
 
     def train(self) -> FitResult:

@@ -63,6 +63,6 @@ def train_open_world(
     from dcg_torch.lessons.generated import generated_lessons
 
     model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed or _ASSUMED))
-    if lessons and Group.RELATION in variant.groups:
+    if lessons and variant.related:
         model.teach(generated_lessons(default_parser().parse, lessons), relations_only=True, rounds=_ROUNDS)
     return model

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.learning.learner import Learner
 from dcg_torch.types import Object, Symbol, WorldModel
 
 
@@ -78,3 +79,27 @@ def _same(one: str, other: str, symbols: Mapping[str, Symbol]) -> Told:
     if known not in symbols:
         return Told(one, problem=f"neither {one!r} nor {other!r} is known")
     return Told(new, symbols[known].type)
+
+
+def settled(learner: Learner, word: str, type_: str) -> Learner:
+    """A learner that holds for certain that a noun names a type.
+
+    Raises:
+        ValueError: nothing of this type was ever met, or there is no word.
+    """
+    if not word.strip():
+        raise ValueError("a word is text that is not empty")
+    if type_ not in learner.known_types:
+        raise ValueError(f"{type_!r}: nothing of this type was ever met; types are {', '.join(learner.known_types)}")
+    return learner.told(word, type_)
+
+
+def forgotten(learner: Learner, word: str) -> Learner:
+    """A learner without all that was heard of a noun.
+
+    Raises:
+        ValueError: it was never heard.
+    """
+    if word not in {entry.word for entry in learner.lexicon()}:
+        raise ValueError(f"{word!r}: this noun was never heard; model.lexicon() lists those that were")
+    return learner.forget(word)

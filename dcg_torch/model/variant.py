@@ -33,6 +33,11 @@ class Variant:
     l2: float = 0.05
     beam: int = 8
 
+    @property
+    def related(self) -> bool:
+        """Whether it knows relations between things."""
+        return Group.RELATION in self.groups
+
 
 def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
     """The examples as a variant sees them: without the objects that it does not represent.
@@ -57,7 +62,7 @@ def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
 def initial_features(variant: Variant, training: TrainingSet, learner: Learner) -> FeatureSet:
     """The columns of a variant before it is trained (Alg. 1, lines 3 and 4)."""
     examples = learner.training_examples(FeatureSet(frozenset()))
-    if Group.RELATION not in variant.groups:
+    if not variant.related:
         return learner.columns(FeatureSet.initial(variant.groups, training.symbols, training.colors, list(examples)))
     words, said = [*training.symbols, *place_symbols()], [*examples, *place_examples()]
     features = FeatureSet.initial(variant.groups, words, training.colors, said)

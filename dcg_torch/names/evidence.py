@@ -65,6 +65,8 @@ class _Name:
 class _Everyday:
     groups: dict[str, frozenset[int]]
     generic: frozenset[str]
+    purposeful: frozenset[str]
+    purposes: dict[str, list[str]]
 
 
 @functools.cache
@@ -79,7 +81,8 @@ def _everyday() -> _Everyday:
         for name in names:
             groups.setdefault(_name(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    return _Everyday(frozen, frozenset(map(str, data["generic"])))
+    generic, purposeful = (frozenset(map(str, data[name])) for name in ("generic", "purposeful"))
+    return _Everyday(frozen, generic, purposeful, data["purposes"])
 
 
 @functools.lru_cache(maxsize=8192)
@@ -124,10 +127,59 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     said, named = _name(noun), _name(class_name)
     if unheard_of(noun):
         said = next((other for other in (named, _name(named.head)) if _misspells(said.text, other.text)), said)
+    if (told := _by_purpose(said, named)) is not None:
+        return told
     form = _form(said, named)
     if form == "name: generic":
         return (form,)
     return form, "kind: everyday" if form == "name: equal" else _kind(said, named)
+
+
+def _by_purpose(said: _Name, named: _Name) -> tuple[str, ...] | None:
+    """The facts of "the measuring thing", "the lamp thingy" and of a name before its kind; None for all else."""
+    everyday = _everyday()
+    if len(said.words) < 2 or said.head in named.words:
+        return None
+    if said.words[: len(named.words)] == named.words and _says_kind(said.words[len(named.words) :], named):
+        return "name: class is head", "kind: same"  # "marker pen"
+    if said.head not in everyday.purposeful:
+        return None
+    *_, word = before = said.words[:-1]
+    if (base := _verb_of(word)) is not None and _is_for(base, named.text):
+        return "name: part", "kind: same"
+    if said.head not in everyday.generic:
+        return None
+    inner = " ".join(before)
+    return evidence(inner, named.text) if base is None and not unheard_of(word) else ("name: generic",)
+
+
+def _verb_of(word: str) -> str | None:
+    """What a word in -ing begins with: "writ" of "writing", "cut" of "cutting"."""
+    base = word.removesuffix("ing")
+    if base == word or len(base) < _SHORTEST:
+        return None
+    return base[:-1] if base[-1] == base[-2] and base[-1] not in "lsz" else base
+
+
+@functools.lru_cache(maxsize=8192)
+def _is_for(base: str, name: str) -> bool:
+    """Is a thing of some name for what a verb says: has it, or a kind that it is of, a name with the verb in it?"""
+    listed = next((of for verb, of in _everyday().purposes.items() if base in (verb, verb.removesuffix("e"))), ())
+    table, own = nouns(), {name, _name(name).head}
+    senses = table.senses(name, _MAIN) or table.senses(_name(name).head, _MAIN)
+    kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
+    if any(_share_a_name(one, part) or one == part for one in listed for part in own):
+        return True
+    if any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
+        return True
+    above = {kind for sense in senses for kind in table.ancestors(sense, _UP - 2)}
+    told = {part for kind in above for lemma in table.names(kind) for part in lemma.split(" ")} | {*name.split(" ")}
+    doubled = base + base[-1]
+    return any(part in {base, base + "e"} or part.startswith((f"{base}ing", f"{base}er", f"{base}or", f"{doubled}ing",
+                                                              f"{doubled}er")) for part in told)  # fmt: skip
+
+
+_SHORTEST = 3
 
 
 def _form(said: _Name, named: _Name) -> str:
@@ -148,6 +200,19 @@ def _form(said: _Name, named: _Name) -> str:
     if named.head in one:
         return "name: class is word"
     return "name: shared word" if one & other else "name: none"
+
+
+def _says_kind(rest: tuple[str, ...], named: _Name) -> bool:
+    """Whether what follows the name of a class says what kind of thing it is: "banana fruit", "marker pen"."""
+    kind = " ".join(rest)
+    if _relation(kind, named.text) in {"everyday", "class is kind", "class is far kind"}:
+        return True
+    # A table lamp is no table: both must be kinds of one narrow kind.
+    said, own = _meanings(kind), _meanings(named.text)
+    return any(nouns().size(one) <= _NARROW for one in said.direct & own.direct)
+
+
+_NARROW = 20
 
 
 def _misspells(word: str, name: str) -> bool:
@@ -204,9 +269,34 @@ def _relation(noun: str, name: str) -> str:
     return "sibling" if said.direct & named.direct else "apart"
 
 
+@functools.lru_cache(maxsize=8192)
+def steps_apart(one: str, other: str) -> int:
+    """How many steps two nouns are apart over the nearest thing that both are kinds of; `FAR_APART` for strangers.
+
+    >>> steps_apart("desk", "table"), steps_apart("couch", "bed"), steps_apart("couch", "pillow") > 4
+    (0, 4, True)
+    """
+    if _share_a_name(_name(one).text, _name(other).text) or one == other:
+        return 0
+    table, least = nouns(), FAR_APART
+    for said in table.senses(_name(one).text, _MAIN) or table.senses(_name(one).head, _MAIN):
+        above = table.ancestors(said, _UP)
+        for named in table.senses(_name(other).text, _MAIN) or table.senses(_name(other).head, _MAIN):
+            common = (above[s] + steps for s, steps in table.ancestors(named, _UP).items() if s in above)
+            least = min(least, min(common, default=FAR_APART))
+    return least
+
+
+_MAIN, _UP = 2, 5
+FAR_APART = 12
+
+
 def is_generic(noun: str) -> bool:
     """May it be said of whatever there is: "thing", "piece"?"""
-    return _name(noun).text in _everyday().generic
+    name, generic = _name(noun), _everyday().generic
+    if len(name.words) > 1 and name.head in generic & _everyday().purposeful:  # "the measuring thing"
+        return _verb_of(name.words[-2]) is not None or unheard_of(name.words[-2])
+    return name.text in generic
 
 
 def unheard_of(noun: str) -> bool:

@@ -72,6 +72,12 @@ LINE_ENDS: dict[str, tuple[int | None, int]] = {
 """Word -> is it an end of rows (0), of columns (1) or of both, and is it the first (1) or the last (-1)?"""
 CELL = "cell: "
 """Begins the attribute that tells in which row and column of a grid a thing stands."""
+LIKELY_ROOM = "likely room: "
+"""Begins the attribute that tells in which room of a home a thing is likely to be."""
+SPOT = "spot: "
+"""Begins the attribute that tells whether a thing is in a corner of a room."""
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT)
+"""Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
 CELL_STEPS |= {"north of": (-1, 0), "south of": (1, 0), "west of": (0, -1), "east of": (0, 1)}

@@ -7,6 +7,7 @@ import functools
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 TABLE = Path(__file__).parent / "data" / "nouns.npz"
 """Made by `tools/noun_table.py`."""
@@ -67,6 +68,16 @@ class Nouns:
             level = [kind for one in level for kind in self.kinds(one) if kind not in found]
             found |= dict.fromkeys(level, step)
         return found
+
+    def names(self, synset: int) -> tuple[str, ...]:
+        """The nouns that have this synset as a sense, in alphabetical order."""
+        first, last = np.searchsorted(self._senses, [synset, synset + 1], sorter=self._by_sense)
+        at = np.searchsorted(self._sense_at, np.sort(self._by_sense[first:last]), side="right") - 1
+        return tuple(self._lemma(k).decode() for k in at.tolist())
+
+    @functools.cached_property
+    def _by_sense(self) -> NDArray[np.int64]:
+        return np.argsort(self._senses, kind="stable")
 
     def size(self, synset: int) -> int:
         """How many synsets are directly a kind of this one."""

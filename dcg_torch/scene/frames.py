@@ -37,14 +37,36 @@ def seen_by_speaker(world: WorldModel) -> WorldModel | None:
     return _turned(world, viewer)
 
 
-def seen_facing(world: WorldModel, thing: Object) -> WorldModel | None:
-    """The world as who stands in the middle of it and faces a thing sees it; None where that can't be told."""
+def seen_facing(world: WorldModel, thing: Object, *, away: bool = False) -> WorldModel | None:
+    """The world as who stands in the middle of it and faces a thing sees it; None where that can't be told.
+
+    Args:
+        away: has the viewer the back to the thing, and looks from there to the middle?
+    """
     middle = _middle(world)
     if middle is None or thing.position is None:
         return None
-    x, y = middle if world.robot is None or not _is_among(world.robot, world) else (world.robot.x, world.robot.y)
+    among = world.robot is not None and not away and _is_among(world.robot, world)
+    x, y = (world.robot.x, world.robot.y) if among and world.robot is not None else middle
     ahead = (thing.position[0] - x, thing.position[1] - y)
-    return None if math.hypot(*ahead) < world.unit / 2.0 else _turned(world, Pose(x, y, math.atan2(ahead[1], ahead[0])))
+    if math.hypot(*ahead) < world.unit / 2.0:
+        return None
+    yaw = _straight_at(thing, ahead)
+    return _turned(world, Pose(*thing.position[:2], yaw + math.pi) if away else Pose(x, y, yaw))
+
+
+def _straight_at(thing: Object, ahead: tuple[float, float]) -> float:
+    """The heading of who faces a thing: straight at what hangs flat on a wall, a window or a whiteboard."""
+    deep, wide = (1.0, 1.0) if thing.size is None else thing.size[:2]
+    if _FLAT * deep < wide and ahead[0]:
+        return 0.0 if ahead[0] > 0.0 else math.pi
+    if _FLAT * wide < deep and ahead[1]:
+        return math.copysign(math.pi / 2.0, ahead[1])
+    return math.atan2(ahead[1], ahead[0])
+
+
+_FLAT = 4.0
+"""How many times as wide as deep a thing is that hangs flat on a wall."""
 
 
 def _middle(world: WorldModel) -> tuple[float, float] | None:

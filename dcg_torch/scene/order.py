@@ -149,3 +149,14 @@ def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
             out[:, asking] = [np.searchsorted(v, b) for v, b in zip(ordered, bound[:, asking], strict=True)]
     out[np.isnan(bound)] = 0
     return out
+
+
+def highest(values: Floats, count: int) -> NDArray[np.int64]:
+    """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
+    if count == 1:
+        return np.array([values.argmax()])
+    if len(values) <= max(512, 2 * count):
+        return np.argsort(-values, kind="stable")[:count]
+    least = np.partition(values, len(values) - count)[len(values) - count]
+    among = np.flatnonzero(values >= least)
+    return among[np.argsort(-values[among], kind="stable")[:count]]

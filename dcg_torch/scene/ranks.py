@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from dcg_torch.names.vocabulary import CELL, MIDDLE_LINE
+from dcg_torch.names.vocabulary import MIDDLE_LINE, WORKED_OUT
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
@@ -67,7 +67,7 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
 def _state_names(
     attributes: frozenset[str], code: int, around: tuple[int, ...] | None, colors: tuple[str, ...]
 ) -> tuple[str, ...]:
-    names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(CELL)]
+    names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(WORKED_OUT)]
     if code:
         code -= 24
         names += [
@@ -112,6 +112,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
 def _values(where: Layout) -> Floats:
     """(axes, n): the lower, the earlier along the axis."""
     x, y, z = where.position.T
+    z = z.copy()
     nothing = np.full(len(x), math.nan)
     volume, height = nothing.copy(), nothing.copy()
     for j in np.flatnonzero(where.solid).tolist():
@@ -119,7 +120,7 @@ def _values(where: Layout) -> Floats:
             volume[j], height[j] = bulk(size), size[2]
     for group, inside in where.members.items():  # "the highest stack", "the largest group"
         volume[group], height[group] = len(inside), np.ptp(z[inside]) if len(inside) else math.nan
-        z = np.where(np.arange(len(z)) == group, z[inside].max(initial=-math.inf), z)
+        z[group] = z[inside].max(initial=-math.inf)
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)

@@ -122,10 +122,22 @@ def _denies(word: str, thing: Object, named: bool) -> bool:
 def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:
     """How far each thing that shows its colour stays behind the one that the words fit best.
 
-    Where none shows it, the names of their colours say what they look like.
-
     Returns:
         (things,) numbers of `LOOK_FACTS`, -1 for what shows none; None where the words say nothing of colours.
+    """
+    scores = look_scores(words, things)
+    if scores is None:
+        return None
+    shown = np.isfinite(scores)
+    found = np.full(len(things), -1, dtype=np.int64)
+    found[shown] = np.searchsorted(_LOOKS, scores[shown].max() - scores[shown], side="left")
+    return found
+
+
+def look_scores(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.float64] | None:
+    """(things,) how well words fit what each looks like, among these things; NaN for what shows no colour.
+
+    Where none shows it, the names of their colours say what they look like. None where the words say nothing of it.
     """
     looks = {j: thing.rgb for j, thing in enumerate(things) if thing.rgb is not None} if words else {}
     if words and not looks:
@@ -133,10 +145,9 @@ def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.i
         looks = {j: rgb for j, rgb in named.items() if rgb is not None}
     if not looks:
         return None
-    shown = list(looks)
     scores = color_scores(words, np.array(list(looks.values()), dtype=np.float64))
     if np.ptp(scores) <= 1e-9:
         return None
-    found = np.full(len(things), -1, dtype=np.int64)
-    found[shown] = np.searchsorted(_LOOKS, scores.max() - scores, side="left")
+    found = np.full(len(things), np.nan)
+    found[list(looks)] = scores
     return found

@@ -1,0 +1,64 @@
+"""What picks from several, in plain words: "the middle one of the five", "the darker of the pair", "close together"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
+
+_EACH_OTHER, _PAIR = "each other", "pair"
+_MIDDLE_OF = "in the middle of"
+_CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == ("cluster",))
+
+
+def middle_of_set(tree: ParseTree) -> ParseTree:
+    """ "The cube in the middle of the five cubes on the left" is the middle one of those on the left."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return tree
+    for k, place in enumerate(tree.children):
+        name, landmark = place.phrase.words[0], place.children[0].phrase if len(place.children) == 1 else phrase
+        loose = _CLUSTERS & {*landmark.words}
+        inside = name == _MIDDLE_OF or (bool(loose) and name in INSIDE and "middle" in phrase.words)
+        if not inside or landmark is phrase or not (landmark.plural and _may_be_one_of(phrase, landmark)):
+            continue
+        others = {w for w in landmark.words if w not in loose and not w.startswith("of ")} - {"other"}
+        number = counted(landmark.words) or landmark.count
+        if others or number == 2 or phrase.plural:
+            continue
+        few = () if number is None else (f"of {number}",)
+        words = tuple(dict.fromkeys((*phrase.words, "middle", *few)))
+        one = replace(phrase, noun=phrase.noun or landmark.noun, color=phrase.color or landmark.color, words=words)
+        return ParseTree(one, (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :]))
+    return tree
+
+
+def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
+    nouns, colors = {phrase.noun, several.noun} - {None}, {phrase.color, several.color} - {None}
+    return len(nouns) == 1 and len(colors) <= 1
+
+
+def of_a_pair(tree: ParseTree) -> ParseTree:
+    """ "The darker one of the pair of dots" is one of two that stand together."""
+    phrase = tree.phrase
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in INSIDE]
+    of = next((c.children[0] for c in places if _PAIR in c.children[0].phrase.words), None)
+    if phrase.kind is not PhraseKind.NOUN or of is None or phrase.plural:
+        return tree
+    words = tuple(dict.fromkeys((*phrase.words, *of.phrase.words, "of 2")))
+    one = replace(phrase, noun=phrase.noun or of.phrase.noun, color=phrase.color or of.phrase.color, words=words)
+    kept = tuple(c for c in tree.children if c.children[:1] != (of,) and c not in of.children)
+    return ParseTree(one, (*kept, *of.children))
+
+
+def together(tree: ParseTree) -> ParseTree:
+    """ "The two cubes next to each other", "the left one of the pair": those that are nearest to one another."""
+    phrase = tree.phrase
+    places = [c for c in tree.children if c.children and c.phrase.words[:1] and c.phrase.words[0] in MUTUAL]
+    close = [c for c in places if _EACH_OTHER in c.children[0].phrase.words]
+    several = counted(phrase.words) or max(2, phrase.count or 0)
+    if phrase.kind is not PhraseKind.NOUN or not (close or _PAIR in phrase.words):
+        return tree
+    words = (*(word for word in phrase.words if word != _PAIR), f"{TOGETHER}{several}")
+    return ParseTree(replace(phrase, words=words), tuple(c for c in tree.children if c not in close))

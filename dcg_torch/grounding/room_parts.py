@@ -1,0 +1,107 @@
+"""Parts of a room: "the trash can that isn't in the corner", "the corner desk", "the lower shelf".
+
+Which corner is not said, and a thing in any of them is meant. In a room that is no rank: nothing is the nearest to a
+corner. So a noun phrase gets a word ("spot: corner"), which is compared with where each thing stands (`with_corners`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+import numpy as np
+
+from dcg_torch.names.attributes import NOT_
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
+from dcg_torch.names.weights import names_one_of
+from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+_ALL = frozenset({"room", "house", "place"})
+_CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
+_WITHIN = frozenset({"in", "at", "inside", "into", "near", "next to", "close to", "by"})
+_CLASSES, _THINGS, _WIDE = 4, 10, 2.0
+"""Classes and things at least in a room, and metres between its walls."""
+_IN, _OUT = 0.7, 1.1
+"""Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
+_APART = 0.3
+"""Metres by which the heights of some things of one name differ at least."""
+_HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
+_HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
+
+
+def by_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest."""
+    if not any(_HEIGHTS.keys() & {*node.phrase.words} for node in tree.walk()):
+        return tree
+    phrase, children = tree.phrase, tuple(by_heights(child, world) for child in tree.children)
+    if _stand_apart_in_height(phrase, world):
+        phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
+    return ParseTree(phrase, children)
+
+
+def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
+    noun = phrase.noun
+    if noun is None or noun in PLACE_WORDS or len(world.classes) < _CLASSES or {*phrase.words} & LATERAL:
+        return False
+    heights = [o.position[2] for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    return len(heights) > 1 and max(heights) - min(heights) >= _APART
+
+
+def by_corners(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in which "in the corner" of a room, whichever it is, is a word of what is there."""
+    if not any("corner" in (node.phrase.noun or "") for node in tree.walk()) or _walls(world) is None:
+        return tree
+    return _told(tree, [t for t in world.classes if not t.startswith(OPAQUE)])
+
+
+def _told(tree: ParseTree, types: list[str]) -> ParseTree:
+    children = tuple(_told(child, types) for child in tree.children)
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return replace(tree, children=children)
+    places = [child for child in children if _is_any_corner(child)]
+    words = [f"{NOT_}{_CORNER}" if c.phrase.words[0].startswith(NOT_) else _CORNER for c in places]
+    first, _, thing = (phrase.noun or "").partition(" ")
+    if first == "corner" and names_one_of(thing, types) and not any("corner" in normalise(t) for t in types):
+        phrase, words = replace(phrase, noun=thing), [*words, _CORNER]
+    phrase = replace(phrase, words=tuple(dict.fromkeys((*phrase.words, *words)))) if words else phrase
+    return ParseTree(phrase, tuple(child for child in children if child not in places))
+
+
+def _is_any_corner(place: ParseTree) -> bool:
+    landmark = place.children[0] if len(place.children) == 1 else place
+    said: Phrase = landmark.phrase
+    inside = place.phrase.kind is PhraseKind.PREPOSITION and place.phrase.words[0].removeprefix(NOT_) in _WITHIN
+    of_room = all(
+        child.phrase.words == ("of",) and child.children[0].phrase.noun in _ALL for child in landmark.children
+    )
+    return inside and said.noun == "corner" and not said.words and of_room
+
+
+def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
+    """The world whose things are told to be in a corner or not, if a tree speaks of the corners of a room."""
+    words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
+    if _CORNER not in words or (walls := _walls(world)) is None:
+        return world
+    return replace(world, objects=tuple(_in_corner(o, walls) for o in world.objects))
+
+
+def _in_corner(thing: Object, walls: np.ndarray) -> Object:
+    own = {a for a in thing.attributes if not a.startswith(SPOT)}
+    if thing.position is not None and not thing.hypothetical:
+        half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
+        off = float((np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half).max())
+        own |= {_CORNER} if off <= _IN else {_ELSEWHERE} if off > _OUT else set()
+    return replace(thing, attributes=frozenset(own))
+
+
+def _walls(world: WorldModel) -> np.ndarray | None:
+    """(2, 2) the least and the greatest x and y of the things of a room; None for what is no room."""
+    seen = [o for o in world.objects if not o.hypothetical and o.position is not None]
+    if len(seen) < _THINGS or len({o.type for o in seen}) < _CLASSES:
+        return None
+    where = np.array([(o.position or ())[:2] for o in seen])
+    half = np.array([(0.0, 0.0) if o.size is None else o.size[:2] for o in seen]) / 2.0
+    walls = np.array([(where - half).min(axis=0), (where + half).max(axis=0)])
+    return walls if (walls[1] - walls[0] >= _WIDE).all() else None

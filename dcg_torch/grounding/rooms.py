@@ -1,0 +1,195 @@
+"""What commands say of rooms: "the lamp in the bedroom", "my office chair", "go to the bathroom and empty the bin".
+
+A room is no thing that others stand next to. So a noun phrase that something is in gets a word for the room: for the
+values of the key that gives the rooms ("room: kids room"), or else for what can be told by what stands around
+("likely room: bedroom"), which is compared with the rooms that each thing is likely to be in (`with_rooms`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
+
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.rooms import room_named, within_words
+from dcg_torch.names.vocabulary import LIKELY_ROOM
+from dcg_torch.names.weights import log_odds, names_one_of
+from dcg_torch.scene.rooms import in_room
+from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+_IN, _ELSEWHERE = 0.45, 0.15
+"""Probabilities from which a thing is taken to be in a room, and below which it is taken not to be."""
+_ELSE = f"{LIKELY_ROOM}another"
+_ABOUT = frozenset({"in", "inside", "at"})
+_NAMED = 4.0
+"""Log-odds from which a noun is rather a class that is there than a room."""
+
+
+def by_rooms(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in which rooms that something is in are words of what is in them."""
+    if not any(_may_name_room(node.phrase) for node in tree.walk()):
+        return tree
+    types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
+    return _Speaking(_values(world), types).node(tree)
+
+
+def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[ParseTree, bool]]:
+    """ "Go to the bedroom and turn on the fan": the fan in the bedroom.
+
+    Args:
+        trees: the readings of one command, see `by_rooms`.
+
+    Returns:
+        Each reading, and whether it only leads to a room where others are about a thing.
+    """
+    types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
+    nouns = [_first_noun(tree) for tree in trees]
+    rooms = [_room(noun) if noun and is_only_a_room(noun.noun or "", types) else None for noun in nouns]
+    if all(room is None for room in rooms) or all(rooms):
+        return [(tree, False) for tree in trees]
+    speaking = _Speaking(_values(world), types)
+    word = next(speaking.word(noun) for noun, room in zip(nouns, rooms, strict=True) if noun and room)
+    found = []
+    for tree, room in zip(trees, rooms, strict=True):
+        placed = any(one.startswith(LIKELY_ROOM) or _is_room(one) for node in tree.walk() for one in node.phrase.words)
+        told = () if room or word is None or placed else (word,)
+        found.append((_of_first(tree, told), room is not None))
+    return found
+
+
+def _first_noun(tree: ParseTree) -> Phrase | None:
+    return next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+
+
+def is_only_a_room(noun: str, types: Collection[str]) -> bool:
+    """Does a noun name a room, and no class that is there?"""
+    return room_named(noun) is not None and not any(log_odds(noun, type_) > _NAMED for type_ in types)
+
+
+def _is_room(word: str) -> bool:
+    _, key, value = word.removeprefix(NOT_).partition(OF_KEY)
+    return bool(key) and room_named(value) is not None
+
+
+def _values(world: WorldModel) -> dict[str, list[str]]:
+    """Room -> the attributes that say that something is in it."""
+    found: dict[str, list[str]] = {}
+    for attribute in sorted({a for o in world.objects for a in o.attributes}):
+        key, _, value = attribute.partition(OF_KEY)
+        if value and (room := room_named(value)) is not None:
+            found.setdefault(room, []).append(f"{attribute_key(key)}{OF_KEY}{normalise(value)}")
+    return found
+
+
+def _may_name_room(phrase: Phrase) -> bool:
+    words = (phrase.noun or "").split(" ")
+    return _is_value(phrase) or any(room_named(" ".join(words[: k + 1])) for k in range(len(words)))
+
+
+def _room(phrase: Phrase) -> str | None:
+    return None if phrase.kind is not PhraseKind.NOUN or phrase.noun is None else room_named(phrase.noun)
+
+
+def _is_value(phrase: Phrase) -> bool:
+    """Is it the name of a room that some key gives: "(in) the kitchen"?"""
+    return phrase.noun is None and any(map(_is_room, phrase.words))
+
+
+class _Speaking:
+    """Reads trees where some rooms are given, and some classes are there.
+
+    Args:
+        values: room -> the attributes that say that something is in it.
+    """
+
+    def __init__(self, values: dict[str, list[str]], types: Collection[str]) -> None:
+        self.values, self.types = values, types
+
+    def node(self, tree: ParseTree) -> ParseTree:
+        """A phrase and all below it."""
+        children = [self.node(child) for child in tree.children]
+        if tree.phrase.kind is PhraseKind.VERB and children:  # "in the kitchen, wipe the table"
+            words, children[1:] = self.moved(children[1:], within=_ABOUT)
+            children[0] = _of_first(children[0], words)
+        if tree.phrase.kind is not PhraseKind.NOUN:
+            return replace(tree, children=tuple(children))
+        words, children = self.moved(children)
+        phrase, own = self.own_room(tree.phrase)
+        return _with_words(ParseTree(phrase, tuple(children)), (*own, *words))
+
+    def moved(
+        self, children: Sequence[ParseTree], *, within: Collection[str] = within_words()
+    ) -> tuple[list[str], list[ParseTree]]:
+        """The words for the rooms that places name, and what is left: what was said of the room is of the thing."""
+        words: list[str] = []
+        left: list[ParseTree] = []
+        for child in children:
+            name = child.phrase.words[0] if child.phrase.words else ""
+            plain = name.removeprefix(NOT_)
+            place = child.phrase.kind is PhraseKind.PREPOSITION and len(child.children) == 1
+            word = self.word(child.children[0].phrase) if place and plain in within else None
+            if word is None:
+                left.append(child)
+            else:
+                words.append(f"{NOT_}{word}" if name != plain else word)
+                left += child.children[0].children
+        return words, left
+
+    def word(self, room: Phrase) -> str | None:
+        """What says that something is in the room that a noun phrase names; None if it names none, or a thing."""
+        if room.kind is PhraseKind.NOUN and _is_value(room):
+            return next(filter(_is_room, room.words))
+        name = _room(room)
+        if name is None or not is_only_a_room(room.noun or "", self.types):
+            return None
+        if not self.values:
+            return f"{LIKELY_ROOM}{name}"
+        given = self.values.get(name)
+        if given is None:
+            return None
+        key = given[0].partition(OF_KEY)[0]
+        return f"{key}{OF_KEY}{'|'.join(one.partition(OF_KEY)[2] for one in given if one.startswith(key))}"
+
+    def own_room(self, phrase: Phrase) -> tuple[Phrase, list[str]]:
+        """ "The bedroom lamp" is a lamp in the bedroom, where no class has such a name."""
+        words = (phrase.noun or "").split(" ")
+        for k in range(len(words) - 1, 0, -1):
+            room, thing = replace(phrase, noun=" ".join(words[:k])), " ".join(words[k:])
+            if _room(room) is None or not names_one_of(thing, self.types):
+                continue
+            if any(word in normalise(type_).split(" ") for type_ in self.types for word in words[:k]):
+                continue
+            word = self.word(room)
+            return (phrase, []) if word is None else (replace(phrase, noun=thing), [word])
+        return phrase, []
+
+
+def _of_first(tree: ParseTree, words: Sequence[str]) -> ParseTree:
+    """A tree with words of its first noun phrase."""
+    if tree.phrase.kind is PhraseKind.NOUN or not tree.children:
+        return _with_words(tree, words)
+    return replace(tree, children=(_of_first(tree.children[0], words), *tree.children[1:]))
+
+
+def _with_words(tree: ParseTree, words: Iterable[str]) -> ParseTree:
+    return replace(tree, phrase=replace(tree.phrase, words=tuple(dict.fromkeys((*tree.phrase.words, *words)))))
+
+
+def with_rooms(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
+    """The world whose things are told to be in the rooms that trees speak of or not, as far as that can be told."""
+    words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
+    rooms = sorted(word.removeprefix(LIKELY_ROOM) for word in words if word.startswith(LIKELY_ROOM))
+    if not rooms:
+        return world
+    seen = [o for o in world.objects if not o.hypothetical]
+    likely = {room: in_room(seen, room) for room in rooms}
+    told = {o.id: {room: share[o.id] for room, share in likely.items() if o.id in share} for o in seen}
+    return replace(world, objects=tuple(_in_rooms(o, told.get(o.id, {})) for o in world.objects))
+
+
+def _in_rooms(thing: Object, shares: dict[str, float]) -> Object:
+    own = {a for a in thing.attributes if not a.startswith(LIKELY_ROOM)}
+    own |= {f"{LIKELY_ROOM}{room}" for room, share in shares.items() if share >= _IN}
+    own |= {_ELSE} if any(share < _ELSEWHERE for share in shares.values()) else set()
+    return thing if own == thing.attributes else replace(thing, attributes=frozenset(own))
