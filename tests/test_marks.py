@@ -305,3 +305,12 @@ def test_no_mark_of_a_text_is_dropped(model: GroundingModel) -> None:
 @pytest.mark.parametrize("mark", ["7Up", "3M", "Route 66", "4K"])
 def test_names_with_numbers_in_them(model: GroundingModel, mark: str) -> None:
     assert _meant(model, _board([mark, "Shell", "BMW", "UPS"], "brand", f"take the {mark} block"))[0] == {mark}
+
+
+@pytest.mark.parametrize(("type_", "word"), [("piece", "letter: x"), ("block", None)])
+def test_letters_of_pieces_are_their_shapes(type_: str, word: str | None) -> None:
+    """A piece with the letter X is a plus; on a block it is no more than a letter."""
+    marks = marks_of((type_, frozenset({f"letter: {letter}"})) for letter in "XWL")
+    assert marks is not None
+    found = marks.named(["plus"])
+    assert (found.word if found is not None else None) == word

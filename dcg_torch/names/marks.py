@@ -28,6 +28,7 @@ _PART = 3  # letters of a part of a mark
 _BOARD = 3  # classes at least that are told apart by marks
 _MOST, _SOME = 0.8, 0.3  # share of them that have a word in common, or of those that are no words but names
 _SHAPE = "shape"
+_SHAPED = frozenset({"piece", "shape", "pentomino", "tetromino"})  # whose letters tell how they are shaped
 _SAME = frozenset({"kind: everyday", "kind: same"})
 
 
@@ -173,7 +174,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
             for word in words:
                 if len(word) >= _PART and word not in mark_words()["common"] and singular(word) not in heads:
                     parts.setdefault(solid_name([word]), set()).add(one)
-    for solid, meant in _shapes(names).items():
+    for solid, meant in _shapes(names, heads).items():
         whole.setdefault(solid, meant)
     if not names:
         return None
@@ -233,16 +234,18 @@ def is_strange(word: str) -> bool:
     return word.isdecimal() or unheard_of(word)
 
 
-def _may_be_shape(key: str) -> bool:
-    """Shapes are values of a key that says so, or parts of the names of classes: "T piece"."""
-    return not key or _SHAPE in key.split(" ")
+def _may_be_shape(key: str, heads: Collection[str]) -> bool:
+    """Shapes are values of a key that says so, parts of the names of classes, "T piece", or letters of such pieces."""
+    return not key or _SHAPE in key.split(" ") or (key == "letter" and not _SHAPED.isdisjoint(heads))
 
 
-def _shapes(names: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> dict[str, set[tuple[str, str]]]:
+def _shapes(
+    names: Sequence[tuple[tuple[str, str], Sequence[str]]], heads: Collection[str]
+) -> dict[str, set[tuple[str, str]]]:
     """Other names of the shapes that are there, as people call them."""
     found: dict[str, set[tuple[str, str]]] = {}
     for group in mark_words()["shapes"]:
-        meant = {one for one, words in names if _may_be_shape(one[0]) and " ".join(words) in group}
+        meant = {one for one, words in names if _may_be_shape(one[0], heads) and " ".join(words) in group}
         for name in group if meant else ():
             found.setdefault(solid_name(str(name).split()), set()).update(meant)
     return found
