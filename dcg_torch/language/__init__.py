@@ -2,7 +2,7 @@
 
     text -> tokens (one spelling, misspelt words mended)
          -> tagging (the likeliest paths through what each word may be: a weighted grammar)
-         -> phrases (verbs, prepositions, noun phrases)
+         -> phrases (verbs, prepositions, noun phrases) -> repairs (what is taken back)
          -> clauses, attachment, places (what belongs to what) -> target (the tree of the object meant)
          or refusals (why it is no order about a thing)
 
@@ -36,6 +36,7 @@ How a noun phrase is written down, beside its noun, colour and number:
     sets                "all", "every", "each", "both" (count 2), "any", "one of" (count 1) are words; "the two cubes"
                         has the count 2. What is left out is below the preposition "except": "everything but the cone"
     names               "cube 3" and "cube number 3" are the noun cube with the word "3"
+    lines               "row 3" is the noun row with the word "third"; "row 3, column 2" has the column below the row
     isolation           "by itself", "isolated", "on its own" behind a noun phrase are the word "alone"
     each other          "the cubes next to each other": the landmark is another such cube, with the word "each other"
 """

@@ -96,16 +96,12 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if verbs:  # "it is on the left and is touching the cone"
         first = clause[: clause.index(verbs[0])]
         return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
-    named = k + 1 < len(items) and items[k + 1].noun is not None and not (_of_one(clause) and is_state(items[k + 1]))
+    after, one = (*items[k + 1 :], END)[0], next((item for item in clause if item.kind is Kind.NOUN), END)
+    state = one.pronoun and " " in one.text and is_state(after)  # "the middle one is sick"
+    named = after.noun is not None and not state
     # "It is the lower of the two cubes", "the red mug was a present".
     told = k and (items[k - 1].text in SETS["stands_for"] or (items[k - 1].noun and items[k].text in SETS["past"]))
     return (told or not named) and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
-
-
-def _of_one(clause: Sequence[Item]) -> bool:
-    """ "The middle one (is sick)"."""
-    first = next((item for item in clause if item.kind is Kind.NOUN), END)
-    return first.pronoun and " " in first.text
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:

@@ -16,7 +16,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        there = exists(clause) or tells_of_neighbour(clause)
+        there = exists(clause)
         if clause is own or not clause.objects or not (clause.verb is None or there):
             continue
         more = clause.objects[0]
@@ -54,14 +54,12 @@ def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
 def list_places(clauses: Sequence[Clause]) -> None:
     """ "Dirty plate. Dining table.": names without articles, of which the first is by the others."""
     bare = [clause.objects[0] for clause in clauses if len(clause.objects) == 1 and not (clause.verb or clause.places)]
-    if len(bare) < max(2, len(clauses)) or any(noun.determined or noun.plural or noun.pronoun for noun in bare):
-        return
-    if len({noun.noun for noun in bare}) < len(bare) or not all(noun.is_a("named") for noun in bare):
-        return
-    bare.sort(key=lambda noun: room_named(noun.noun or "") is not None)  # "kitchen, mug": a mug
-    bare[0].children += [noun.behind("near") for noun in bare[1:]]
-    for clause in clauses:
-        clause.objects = [noun for noun in clause.objects if noun is bare[0]]
+    names = {noun.noun for noun in bare if noun.is_a("listed")}
+    if len(names) == len(clauses) > 1:
+        bare.sort(key=lambda noun: room_named(noun.noun or "") is not None)  # "kitchen, mug": a mug
+        bare[0].children += [noun.behind("near") for noun in bare[1:]]
+        for clause in clauses:
+            clause.objects = [noun for noun in clause.objects if noun is bare[0]]
 
 
 def hang_fragments(clauses: Sequence[Clause]) -> None:
@@ -97,22 +95,16 @@ def tells_of_neighbour(clause: Clause) -> bool:
 
 
 def exists(clause: Clause) -> bool:
-    """ "There is a cone by the door": a clause that says what is there."""
-    return clause.action in SETS["be"] and not clause.statement
+    """A clause that says what is there: "There is a cone by the door", "beside it is a stand"."""
+    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else END
+    beside = thing.determined and not (thing.definite or thing.pronoun) and about_it(thing)
+    return beside or (clause.action in SETS["be"] and not clause.statement)
 
 
 def about_it(noun: Item) -> bool:
     """ "(There is) a blue pillow next to it"."""
     words = SETS["stands_for"] | SETS["owners"]  # "(a bin) to its left"
     return any(below.text.split(" ")[0] in words for child in noun.children for below in child.children)
-
-
-def is_context(noun: Item, own: Clause, before: Sequence[Clause]) -> bool:
-    """ "(The mirror above the sink,) there are other mirrors": more things of a name that one has been told of by."""
-    if not (exists(own) and noun.plural and noun.noun):
-        return False
-    named = (other for clause in before for other in _mentions([clause]))
-    return any(other.noun == noun.noun and not other.plural and other.definite for other in named)
 
 
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:

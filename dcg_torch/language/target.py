@@ -33,9 +33,7 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         taken_back = target is not None and references.denied_later(target, clauses[n + 1 :])
         penalty = TARGETS["negated"] if clause.negated or taken_back else 0.0
         if target is not None:
-            score = _object_score(target, clause, clauses, found)
-            score = TARGETS["context"] if references.is_context(target, clause, clauses[:n]) else score
-            found.append(Mention(target, clause, score + penalty))
+            found.append(Mention(target, clause, _object_score(target, clause, clauses, found) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
                 continue
         for place in clause.places:
@@ -59,8 +57,9 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
             return TARGETS["identified"]
         if clause.verb is None and clause is clauses[-1] and clause.sentence > clauses[0].sentence:
             return TARGETS["named_last"]
-    another = again or references.tells_of_neighbour(clause)
-    another = another or (told and ("other" in target.words or references.about_it(target)))
+    # "The mirror above the sink, there are other mirrors", "there is another one", "beside it is a stand".
+    more = any(m.noun.noun == target.noun and m.noun.definite > m.noun.plural for m in found) and target.plural
+    another = again or (told and (more or "other" in target.words or references.about_it(target)))
     return TARGETS["another" if another else "statement"]
 
 
@@ -93,10 +92,8 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     # "Facing the bed, take the lamp on your left".
     children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
     references.describe_later(chosen.noun, chosen.clause, clauses)
-    references.one_of_several(chosen.noun, clauses)
-    for below in [node for child in chosen.noun.children for node in child.walk()]:
-        if below.is_a("unnamed"):
-            references.one_of_several(below, clauses)
+    for one in [node for node in chosen.noun.walk() if node is chosen.noun or node.is_a("unnamed")]:
+        references.one_of_several(one, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
