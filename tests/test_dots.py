@@ -159,3 +159,24 @@ def test_what_should_go_somewhere_is_meant(text: str) -> None:
     command = heard(default_parser().parse, text, (), percepts)
     world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
     assert [o.id for o in _model().ground(command, world).objects] == ["7"]
+
+
+def test_of_several_of_one_color_all_are_denied() -> None:
+    grays = np.array([[v] * 3 for v in (12, 14, 16, 18, 140)], dtype=np.float64)
+    scores = color_scores(("not", "black"), grays)
+    assert scores[4] > scores[:4].max() + 2.0
+
+
+@pytest.mark.parametrize(
+    ("text", "number"),
+    [
+        ("the gray one that is not small", "6"),
+        ("the black dot which isn't small", "0"),
+        ("not black, not small, lowest", "1"),
+    ],
+)
+def test_sizes_that_are_denied(text: str, number: str) -> None:
+    percepts = [
+        Percept(str(k), "dot", gray, (x, y, 0.0), size=(size,) * 3) for k, (x, y, size, gray) in enumerate(DOTS)
+    ]
+    assert _meant(text, percepts) == {number}

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from dcg_torch.grounding.describing import contradicted
+from dcg_torch.grounding.contrary import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.plain_words import in_group

@@ -10,18 +10,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
-from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shades_among, so_many
-from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, says_size, size_side
+from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import RANKING, SIDED, TOGETHER, WITHIN, WORKED_OUT, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, RANKING, SIDED, TOGETHER, WITHIN, counted
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.types import NOT, Correspondence, Object, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -33,8 +33,9 @@ _BEHIND = 6.0
 """A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
 just the name and of another colour is still described well, but not where one of the colour is there."""
 
-_NEAR = 4.5
-"""The same of what its name and its colour alone say: brown is near orange, and no orange."""
+_NEAR = 4.4
+"""The same of what its name and its colour alone say: brown is near orange, and no orange; light gray is no gray where
+something is called gray."""
 
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
@@ -44,11 +45,6 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
-_UNMARKED = 2.0
-"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
-_AGAIN = 2.0
-"""Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
-counts, and one that nobody fits does not make all alike."""
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
@@ -198,23 +194,53 @@ def comparison_set(
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    log_size = _contradictions(told, encoder)
-    fit, odds = fit + log_size, odds + log_size
-    sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
-    if sizes:
-        off = _off_size(tuple(sizes.values()), encoder, _described(fit, odds), named, _of_kind(phrase, encoder, tables))
-        if off is not None:
-            phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
-            log_size = log_size - _SIZED * off**2
-            fit, odds = (np.where(off > _OFF, v - _BEHIND - 1.0, v) for v in (fit, odds))
+    again = of_contradictions(told, encoder)
+    phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
+    log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
     among = so_many(several, own if close else fit, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
         log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
-    described = _described(fit, odds, _GROUP_IN_THE_SET if in_group(phrase) else _IN_THE_SET)
+    described = _described(fit, odds, _GROUP_IN_THE_SET if phrase.noun in GROUP_WORDS else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
+
+
+def _sized(
+    phrase: Phrase,
+    told: Sequence[str],
+    described: tuple[Floats, Floats],
+    named: Bools,
+    encoder: WorldEncoder,
+    tables: Tables,
+) -> tuple[Phrase, Floats, Floats]:
+    """What the sizes say that a phrase states or denies.
+
+    Returns:
+        The phrase without the sizes that are taken up, the log-factor of each thing, and what takes things of other
+        sizes out of those that are compared.
+    """
+    log_size, out = np.zeros(len(named)), np.zeros(len(named))
+    sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
+    denied = _denied_sizes(phrase.words)
+    kind = _of_kind(phrase, encoder, tables) if sizes or denied else named
+    off = _off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
+    if off is not None:
+        phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
+        log_size, out = -_SIZED * off**2, np.where(off > _OFF, -_BEHIND - 1.0, 0.0)
+    for side in denied:
+        off = _off_size((side,), encoder, named, kind)
+        if off is not None:
+            log_size = log_size - _SIZED * (1.0 - off) ** 2
+            out = np.where(off < _OFF, -_BEHIND - 1.0, out)
+    return phrase, log_size, out
+
+
+def _denied_sizes(words: Sequence[str]) -> list[int]:
+    """The sizes that words such as "not small" rule out."""
+    sides = (size_side(word.removeprefix(f"{NOT} ")) for word in words if word.startswith(f"{NOT} "))
+    return [side for side in sides if side is not None]
 
 
 def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
@@ -223,13 +249,6 @@ def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
-
-
-def _contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
-    """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
-    if len(told) < 2:
-        return np.zeros(len(encoder.all))
-    return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
 
 
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
@@ -272,15 +291,6 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
     """Those of a noun phrase's words that say something of an attribute: "the biggest metal cube"."""
     told = {word: set(attribute_evidence((word,), encoder.given)) for word in words}
     return tuple(w for w in words if told[w] - {"attribute: silent"} or OF_KEY in w or w.startswith(f"{NOT} "))
-
-
-def contradicted(words: Sequence[str], thing: Object) -> float:
-    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
-    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
-    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
-    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
-    others = sum(_UNMARKED if OF_KEY in word else 1.0 for word, found in told if "attribute: contrary" in found)
-    return others + _UNMARKED * marks
 
 
 def ranks(tree: ParseTree) -> bool:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import ORDINALS, PLACE_WORDS
+from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS
 from dcg_torch.types import ParseTree, PhraseKind
 
 
@@ -18,6 +19,17 @@ def from_the_ground(tree: ParseTree) -> ParseTree:
         return tree
     kept = tuple(c for c in tree.children if c is not ground)
     return ParseTree(replace(phrase, words=(*phrase.words, "from the bottom")), (*kept, *ground.children[0].children))
+
+
+def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tuple[str, ...]:
+    """The words of a noun phrase whose object is in a stack: the bottom one is the lowest, and not the nearest."""
+    if "bottom" not in words:
+        return tuple(words)
+    places = (c for c in children if c.phrase.words[:1] and c.phrase.words[0] in INSIDE and len(c.children) == 1)
+    named = (w for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words))
+    if not any(GROUP_WORDS.get(word, ())[:1] == ("stack",) for word in named):
+        return tuple(words)
+    return tuple("lowest" if word == "bottom" else word for word in words)
 
 
 def _is_ground(place: ParseTree) -> bool:

@@ -143,7 +143,8 @@ class _Builder(NounPhrases):
             if self.joined and self.copula:  # "it is on the left and is touching the cone"
                 self.nouns += self.clause.objects[:1]
             self.copula = self.forced = True
-            self.clause.statement |= self.clause.verb is None and not self.relative
+            if self.clause.verb is None and not self.relative:
+                self.clause.statement = item
         elif name in VERBS["hold"] and self.nouns and not direct:
             item.said = True
             self.say(last_thing(self.nouns), ("held",))  # "the block you are holding"

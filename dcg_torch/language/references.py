@@ -174,21 +174,32 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
             nodes += [(below, meant.start) for child in node.children for below in child.walk()]
 
 
-def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
-    """ "Walk to the sink. Pick up the cup.": what is handled is where the way leads, if nothing says where it is."""
+def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> list[Item]:
+    """ "Walk to the sink. Pick up the cup.": what is handled is where the way leads, if nothing says where it is.
+
+    "Turn to the sofa and take the plant on your left": what is faced is returned, for sides are as seen then.
+    """
     apart = SETS["directions"] | SETS["someone"]
-    placed = any(below.noun not in SETS["places"] | apart for child in target.children for below in child.children)
-    if placed or own.action not in VERBS["take"]:
-        return
+    below = [node for child in target.children for node in child.children]
+    sides = [node for node in below if node.is_a("left_right") and "my" not in node.words]
     goal: Item | None = None
-    for clause in clauses[: clauses.index(own)]:
+    turned = False
+    for clause in clauses[: clauses.index(own)] if own.action in VERBS["take"] else ():
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
         led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
-        named = (noun for noun in (main_object(clause), *led) if noun is not None)
-        goal = next((noun for noun in named if noun.noun not in apart and noun.noun and not noun.plural), goal)
-    if goal is not None and decisions.choose("route", CHOICES["route"]) == "there":
+        named = [noun for noun in (main_object(clause), *led) if noun is not None and noun.noun not in apart]
+        goal = next((noun for noun in named if noun.noun and not noun.plural), goal)
+        turned = clause.action in VERBS["turn"] if goal in named else turned
+    if goal is None:
+        return []
+    facing = [goal.copy().behind("facing")] if turned and sides else []
+    for side in sides if turned else ():
+        side.words = tuple(word for word in side.words if word not in SETS["owned"])
+    placed = any(node.noun not in SETS["places"] | apart for node in below)
+    if not placed and decisions.choose("route", CHOICES["route"]) == "there":
         target.children.append(goal.copy().behind("near"))
+    return facing
 
 
 def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:

@@ -19,6 +19,7 @@ FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "comp
 WEIGHTS: Final = (1.0, 1.0, 0.5, 1.0, 1.0, 1.0)
 """The shipped weight of each; they can be learned from use."""
 _VIVID = 60.0  # chroma of a vivid colour
+_ONE_COLOR = 10.0  # distance up to which several things are of one colour
 _GRAYISH = 7.0  # chroma up to which the mean of a region is gray
 _TYPICAL = 15.0  # differences of lightness or chroma between patches are measured in this
 
@@ -146,7 +147,9 @@ def _of_region(term: _Term, of: Region, colors: Array) -> Array:
         return density + _told_from_grays(of, colors)
     if term.feature == "not region":
         share = np.exp(density - density.max())
-        denied: Array = np.log1p(-0.95 * share / share.sum())
+        alike = np.linalg.norm(colors[:, None] - colors[None], axis=2) < _ONE_COLOR
+        whole = (share / alike.sum(axis=1)).sum()  # several of one colour are denied as one is
+        denied: Array = np.log1p(-0.95 * np.minimum(1.0, share / whole))
         return denied
     hue = np.array([0.0, *of.mean[1:]])
     length = float(np.linalg.norm(hue))

@@ -20,13 +20,15 @@ from dcg_torch.names.evidence import evidence, unheard_of
 from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 
-_WORD: Final = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+WORD: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+"""A word of a text or of a name: letters, or a number with its unit."""
 MARK_WORDS: Final = 4  # words at most of a text that are one mark
 _SPELT, _LONG = 5, 8  # letters from which one slip, and two, may be in a name
 _PART = 3  # letters of a part of a mark
 _BOARD = 3  # classes at least that are told apart by marks
 _MOST, _SOME = 0.8, 0.3  # share of them that have a word in common, or of those that are no words but names
 _SHAPE = "shape"
+_SHAPED = frozenset({"piece", "shape", "pentomino", "tetromino"})  # whose letters tell how they are shaped
 _SAME = frozenset({"kind: everyday", "kind: same"})
 
 
@@ -127,9 +129,10 @@ def misspells(word: str, name: str) -> bool:
 
 
 def solid_name(words: Sequence[str]) -> str:
-    """Words as one, numbers as digits: by this they are compared."""
+    """Words as one, numbers as digits, "007" as 7: by this they are compared."""
     numbers = mark_words()["numbers"]
-    told = [str(numbers[word]) if word in numbers else word.replace("'", "") for word in words]
+    told = [str(numbers.get(word, word)).replace("'", "") for word in words]
+    told = [str(int(word)) if word.isdecimal() else word for word in told]
     if len(words) == 2 and words[0] in numbers and words[1] in numbers:
         tens, ones = numbers[words[0]], numbers[words[1]]
         told = [str(tens + ones)] if tens >= 20 and 0 < ones < 10 else told  # "twenty one"
@@ -138,8 +141,8 @@ def solid_name(words: Sequence[str]) -> str:
 
 
 def words_of(name: str) -> list[str]:
-    """The words of a name in small letters, numbers apart: "block_7" is block and 7."""
-    return [word.lower() for word in _WORD.findall(name)]
+    """The words of a name or a text in small letters, numbers behind letters apart: "block_7" is block and 7."""
+    return [word.lower() for word in WORD.findall(name)]
 
 
 def marks_of(things: Iterable[tuple[str | None, frozenset[str]]]) -> Marks | None:
@@ -171,7 +174,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
             for word in words:
                 if len(word) >= _PART and word not in mark_words()["common"] and singular(word) not in heads:
                     parts.setdefault(solid_name([word]), set()).add(one)
-    for solid, meant in _shapes(names).items():
+    for solid, meant in _shapes(names, heads).items():
         whole.setdefault(solid, meant)
     if not names:
         return None
@@ -231,16 +234,18 @@ def is_strange(word: str) -> bool:
     return word.isdecimal() or unheard_of(word)
 
 
-def _may_be_shape(key: str) -> bool:
-    """Shapes are values of a key that says so, or parts of the names of classes: "T piece"."""
-    return not key or _SHAPE in key.split(" ")
+def _may_be_shape(key: str, heads: Collection[str]) -> bool:
+    """Shapes are values of a key that says so, parts of the names of classes, "T piece", or letters of such pieces."""
+    return not key or _SHAPE in key.split(" ") or (key == "letter" and not _SHAPED.isdisjoint(heads))
 
 
-def _shapes(names: Sequence[tuple[tuple[str, str], Sequence[str]]]) -> dict[str, set[tuple[str, str]]]:
+def _shapes(
+    names: Sequence[tuple[tuple[str, str], Sequence[str]]], heads: Collection[str]
+) -> dict[str, set[tuple[str, str]]]:
     """Other names of the shapes that are there, as people call them."""
     found: dict[str, set[tuple[str, str]]] = {}
     for group in mark_words()["shapes"]:
-        meant = {one for one, words in names if _may_be_shape(one[0]) and " ".join(words) in group}
+        meant = {one for one, words in names if _may_be_shape(one[0], heads) and " ".join(words) in group}
         for name in group if meant else ():
             found.setdefault(solid_name(str(name).split()), set()).update(meant)
     return found

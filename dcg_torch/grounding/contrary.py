@@ -1,0 +1,47 @@
+"""Words that contradict what is told of a thing: "with a hat" of who wears none."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, states_value
+from dcg_torch.names.vocabulary import WORKED_OUT
+from dcg_torch.types import Object
+
+Floats = NDArray[np.float64]
+
+_UNMARKED = 2.0
+"""As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_JUDGED, _BY_EYE = 0.7, frozenset({"orientation", "age", "size"})
+"""The same of a word for what people judge by eye, and judge in many ways."""
+_AGAIN = 2.0
+"""Nats that a thing loses for each word that its attributes contradict beside the first: each part of a description
+counts, and one that nobody fits does not make all alike."""
+
+
+def contradicted(words: Sequence[str], thing: Object) -> float:
+    """How many words the attributes of a thing contradict; marks that it does not bear count more."""
+    heard = [word for word in words if not word.removeprefix(NOT_).startswith(WORKED_OUT)]
+    told = [(word, attribute_evidence((word,), thing.attributes)) for word in heard]
+    marks = sum(OF_KEY in word and found == ("attribute: silent",) for word, found in told)
+    others = sum(_weight(word) for word, found in told if "attribute: contrary" in found)
+    return others + _UNMARKED * marks
+
+
+@functools.lru_cache(maxsize=4096)
+def _weight(word: str) -> float:
+    if OF_KEY in word:
+        return _UNMARKED
+    return _JUDGED if states_value(word.removeprefix(NOT_), _BY_EYE) else 1.0
+
+
+def of_contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of the words that contradict a thing's attributes, beside the first of them."""
+    if len(told) < 2:
+        return np.zeros(len(encoder.all))
+    return np.array([-_AGAIN * max(0.0, contradicted(told, o) - 1.0) for o in encoder.all])
