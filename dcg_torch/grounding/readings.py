@@ -23,10 +23,10 @@ from dcg_torch.grounding.factor_tree import (
     speaks_of_lines,
 )
 from dcg_torch.grounding.frames import from_the_other_side
-from dcg_torch.grounding.grids import by_cells
+from dcg_torch.grounding.grids import by_cells, with_cells
 from dcg_torch.grounding.looking import Looks, told_by_looking
-from dcg_torch.grounding.room_parts import by_corners, by_heights
-from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there
+from dcg_torch.grounding.room_parts import by_corners, by_heights, with_corners
+from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
@@ -82,6 +82,12 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     ]
     placed = by_cells([tree for tree, _, _ in told], world)
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
+
+
+def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
+    """The world whose things are told the cells, rooms and corners that readings speak of."""
+    trees = [reading.tree for reading in readings]
+    return with_corners(with_rooms(with_cells(world, trees), trees), trees)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

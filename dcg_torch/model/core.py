@@ -19,12 +19,9 @@ from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.grids import with_cells
 from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, worth_grounding
-from dcg_torch.grounding.room_parts import with_corners
-from dcg_torch.grounding.rooms import with_rooms
+from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, told_where, worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
@@ -172,8 +169,7 @@ class GroundingModel:
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
-        for told in (with_cells, with_rooms, with_corners):
-            world = told(world, [reading.tree for reading in readings])
+        world = told_where(world, readings)
         frames = self.learner.frames if self.variant.related else None
         facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)

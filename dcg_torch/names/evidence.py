@@ -7,6 +7,7 @@ Meanings come from the table of WordNet and from `data/everyday.yaml`.
 from __future__ import annotations
 
 import functools
+import re
 from dataclasses import dataclass
 from typing import Final
 
@@ -168,18 +169,12 @@ def _is_for(base: str, name: str) -> bool:
     table, own = nouns(), {name, _name(name).head}
     senses = table.senses(name, _MAIN) or table.senses(_name(name).head, _MAIN)
     kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
-    if any(_share_a_name(one, part) or one == part for one in listed for part in own):
-        return True
-    if any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
+    same = any(_share_a_name(one, part) or one == part for one in listed for part in own)
+    if same or any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
         return True
     above = {kind for sense in senses for kind in table.ancestors(sense, _UP - 2)}
     told = {part for kind in above for lemma in table.names(kind) for part in lemma.split(" ")} | {*name.split(" ")}
-    doubled = base + base[-1]
-    return any(part in {base, base + "e"} or part.startswith((f"{base}ing", f"{base}er", f"{base}or", f"{doubled}ing",
-                                                              f"{doubled}er")) for part in told)  # fmt: skip
-
-
-_SHORTEST = 3
+    return any(re.match(rf"{base}(?:e?$|ing|er|or|{base[-1]}ing|{base[-1]}er)", part) for part in told)
 
 
 def _form(said: _Name, named: _Name) -> str:
@@ -287,7 +282,7 @@ def steps_apart(one: str, other: str) -> int:
     return least
 
 
-_MAIN, _UP = 2, 5
+_MAIN, _UP, _SHORTEST = 2, 5, 3
 FAR_APART = 12
 
 
