@@ -101,6 +101,7 @@ def _meant(text: str, things: tuple[dict[str, object], ...], type_: str) -> list
         ("he is the only one who looks straight at the camera", "2"),
         ("man, dark hair, no tie", "4"),
         ("redhead woman", "3"),
+        ("one in a suit, rightmost", "4"),
     ],
 )
 def test_who_is_described(text: str, number: str, type_: str) -> None:

@@ -23,7 +23,7 @@ from dcg_torch.names.attributes import (
 )
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.normal import normalise, singular
-from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS
+from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS, SIDED
 from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -229,7 +229,9 @@ class _Speaking:
 
 
 def _is_of_whole(word: str, key: str) -> bool:
-    """Does a word beside what somebody has say how he himself is: "a tie and bald", "a suit looking left"?"""
+    """Does a word beside what somebody has say how or where he himself is: "a tie and bald", "a suit looking left"?"""
+    if word.endswith("most") or word in SIDED:
+        return True
     return states_value(word, _OF_WHOLE - {key}) or (says_whether(word) and not states_value(word, frozenset({key})))
 
 

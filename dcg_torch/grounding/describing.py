@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
+from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
@@ -201,7 +202,8 @@ def comparison_set(
     if among is not None:
         log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
-    described = _described(fit, odds, _GROUP_IN_THE_SET if phrase.noun in GROUP_WORDS else _IN_THE_SET)
+    groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
+    described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     return Comparison(described, log_size, phrase)
