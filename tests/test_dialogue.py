@@ -270,3 +270,26 @@ def test_a_world_and_a_model_are_saved_and_loaded(laboratory: Session, tmp_path:
 def test_a_conversation_in_plain_text(laboratory: Session) -> None:
     laboratory.say("this is a box", pointing_at="crate")
     assert spoken(laboratory.click("crate"))[-1] == "It is a brown box."
+
+
+@pytest.mark.parametrize(
+    ("text", "id_", "says"),
+    [
+        ("where is pepsi?", "pepsi block", "the pepsi is"),
+        ("what colour is the bmw?", "bmw block", "the bmw is blue"),
+        ("is there a starbucks?", "starbucks block", "yes"),
+        ("is there a heineken block?", None, "no, there is no heineken block"),
+    ],
+)
+def test_questions_know_what_is_written_on_things(text: str, id_: str | None, says: str) -> None:
+    types = ("shell block", "pepsi block", "bmw block", "starbucks block")
+    things = [
+        {"id": type_, "type": type_, "color": "red" if k % 2 else "blue", "position": (2.0, 0.5 * k - 0.75)}
+        for k, type_ in enumerate(types)
+    ]
+    session = Session(World.model_validate({"name": "marks", "objects": things, "commands": []}), simulator="fake")
+    done = session.say(text)
+    session.close()
+    assert isinstance(done[-1], Done)
+    assert done[-1].object == id_
+    assert says in " ".join(spoken(done)).lower()

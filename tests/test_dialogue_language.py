@@ -80,3 +80,47 @@ def test_a_coloured_part_gives_the_colour() -> None:
     assert parse_command("screwdriver, red handle").color == "red"
     assert parse_command("the pot with a blue lid").color == "blue"
     assert parse_command("the cube with a blue ball").color is None
+
+
+@pytest.mark.parametrize(
+    ("text", "verb", "noun"),
+    [
+        ("My grandmother gave us that painting. Could you bring it?", "bring", "painting"),
+        ("Our neighbour sold me the red lamp, take it upstairs.", "take", "lamp"),
+        ("I was reading; hand me the book.", "hand", "book"),
+        ("We bought a new lamp yesterday. Take it to the bedroom.", "take", "lamp"),
+        ("The red mug was a present. Bring it here.", "bring", "mug"),
+        ("She dropped her keys, fetch them.", "fetch", "key"),
+        ("There is a cup on the shelf. Take it.", "take", "cup"),
+        ("The vase that held the flowers, bring it.", "bring", "vase"),
+        ("Take the cup placed on the table.", "take", "cup"),
+        ("Take the piece shaped like a letter.", "take", "piece"),
+    ],
+)
+def test_what_was_done_is_no_order_and_names_what_the_order_is_about(text: str, verb: str, noun: str) -> None:
+    (reading, *_) = parse_command(text).readings
+    assert (reading.tree.phrase.words[0], parse_command(text).noun) == (verb, noun)
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "relations"),
+    [
+        ("Go to the kitchen table and pick up the cup that's on it.", "cup", [("on", "kitchen table")]),
+        ("Take what's on the table.", None, [("on", "table")]),
+        ("Whatever is standing between the lamp and the bed.", None, [("between", "lamp"), ("between", "bed")]),
+    ],
+)
+def test_what_is_told_by_where_it_is(text: str, noun: str | None, relations: Relations) -> None:
+    found = described(text)
+    assert found[0] == noun
+    assert found[-1] == relations
+
+
+def test_where_one_turns_to_says_how_sides_are_seen() -> None:
+    tree = parse_command("Turn to the sofa and take the plant on your left.").readings[0].tree
+    assert [(child.phrase.words, child.phrase.noun) for child in tree.children][-1] == (("facing",), None)
+    assert tree.children[-1].children[0].phrase.noun == "sofa"
+
+
+def test_a_question_what_stands_somewhere_stays_a_question() -> None:
+    assert parse_command("What's standing between the lamp and the bed?").refused == "it is a question"

@@ -88,6 +88,8 @@ def test_cells_where_some_are_empty(model: GroundingModel, text: str, meant: str
     ("text", "meant"),
     [
         ("my keys are in the red drawer", "23"),
+        ("the scissors are in the red drawer", "23"),
+        ("the scissors are in the last drawer of the first row", "15"),
         ("I keep my socks in the last drawer of the first row", "15"),
         ("put this letter into the red drawer", "23"),
         ("open the drawer red", "23"),
@@ -99,6 +101,7 @@ def test_what_holds_what_is_not_there(model: GroundingModel, text: str, meant: s
 
 def test_what_is_not_there_stays_absent(model: GroundingModel) -> None:
     assert _meant(model, _rack("bring me the apple in the red drawer")) == set()
+    assert _meant(model, _rack("the apple in the red drawer")) == set()
 
 
 PAGE = {"a": (0.5, 1.1, "red"), "b": (-0.4, 1.0, "blue"), "c": (0.1, 0.7, "red"), "d": (-0.2, 0.3, "blue"),

@@ -72,6 +72,9 @@ def meant(
         ("there is a trash can in the bedroom, take it", "bin in bedroom"),
         ("the towel that is not in the bathroom", "towel in kitchen"),
         ("in the bedroom there is a lamp. switch it on", "lamp in bedroom"),
+        ("the bin in the room with the bathtub", "bin in bathroom"),
+        ("entering the kitchen, the towel", "towel in kitchen"),
+        ("kitchen. towel.", "towel in kitchen"),
     ],
 )
 def test_rooms_follow_from_what_stands_in_them(model: GroundingModel, text: str, id_: str) -> None:

@@ -264,6 +264,49 @@ def test_a_parser_of_ones_own_need_not_give_dataclasses() -> None:
     assert asked[-1] == "take the shell block"
 
 
+NAMES = ("Shell", "Target", "Pepsi", "BMW", "Mark", "Will")
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("mark the pepsi block", "Pepsi"),
+        ("please mark pepsi", "Pepsi"),
+        ("I want you to mark the BMW block", "BMW"),
+        ("target the shell block", "Shell"),
+        ("will you move shell to the left", "Shell"),
+        ("Shell. Mark the BMW block.", "BMW"),
+        ("Target to the left of Shell", "Target"),
+        ("Mark goes above BMW", "Mark"),
+        ("put target next to mark", "Target"),
+        ("take the mark block", "Mark"),
+        ("Will should be left of BMW", "Will"),
+    ],
+)
+def test_a_mark_that_is_a_verb_as_well_is_the_verb_where_the_verb_stands(
+    model: GroundingModel, text: str, meant: str
+) -> None:
+    assert meant in _meant(model, _board(list(NAMES), "brand", text))[0]
+
+
+@pytest.mark.parametrize("text", ["block 7", "block 007", "take 07", "the block number seven"])
+@pytest.mark.parametrize("digits", [1, 3])
+def test_a_number_is_the_same_with_zeros_before_it(model: GroundingModel, text: str, digits: int) -> None:
+    marks = [f"{k:0{digits}}" for k in range(1, 10)]
+    assert _meant(model, _board(marks, "digit", text))[0] == {marks[6]}
+
+
+def test_no_mark_of_a_text_is_dropped(model: GroundingModel) -> None:
+    marks = [str(k) for k in range(1, 41)]
+    text = f"take the blocks {', '.join(marks[:-2])} and {marks[-2]}"
+    assert _meant(model, _board(marks, "digit", text))[0] == set(marks[:-1])
+
+
+@pytest.mark.parametrize("mark", ["7Up", "3M", "Route 66", "4K"])
+def test_names_with_numbers_in_them(model: GroundingModel, mark: str) -> None:
+    assert _meant(model, _board([mark, "Shell", "BMW", "UPS"], "brand", f"take the {mark} block"))[0] == {mark}
+
+
 @pytest.mark.parametrize(("type_", "word"), [("piece", "letter: x"), ("block", None)])
 def test_letters_of_pieces_are_their_shapes(type_: str, word: str | None) -> None:
     """A piece with the letter X is a plus; on a block it is no more than a letter."""

@@ -15,6 +15,7 @@ from dcg_torch.grounding.reduction import reduce
 from dcg_torch.learning.assignment import propagate
 from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.scene import groups
+from dcg_torch.scene.clusters import clusters
 from dcg_torch.types import Object, Symbol
 
 
@@ -90,15 +91,15 @@ def test_propagation_ends_where_many_more_sweeps_end(scale: float, repeat: float
 
 @pytest.mark.parametrize("grid", [False, True])
 def test_few_points_come_together_as_many_do(grid: bool, monkeypatch: pytest.MonkeyPatch) -> None:
-    module = sys.modules[groups.__module__]
+    module = sys.modules[clusters.__module__]
     rng = np.random.default_rng(1)
     for _ in range(30):
         points = rng.integers(-3, 4, (12, 3)).astype(float) if grid else rng.uniform(-3.0, 3.0, (12, 3))
         one = np.zeros(len(points), dtype=np.int64)
-        few = sorted(map(sorted, module._clusters(points, one)))
+        few = sorted(map(sorted, clusters(points, one)))
         with monkeypatch.context() as patch:
             patch.setattr(module, "_FEW", 0)
-            assert few == sorted(map(sorted, module._clusters(points, one)))
+            assert few == sorted(map(sorted, clusters(points, one)))
 
 
 def test_groups_of_all_classes_together_are_those_of_each(monkeypatch: pytest.MonkeyPatch) -> None:

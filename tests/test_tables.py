@@ -9,7 +9,7 @@ import pytest
 import torch
 from making import command_tree, saw
 
-from dcg_torch.grounding.patterns import Patterns, spread
+from dcg_torch.grounding.patterns import Patterns
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Child, Correspondence, Grounding, GroundingKind, Object
@@ -62,7 +62,8 @@ def test_patterns_tell_what_a_child_is_about(kinds: int) -> None:
         for about in ([(0,), (2,)] if kinds == 1 else [(0, 1), (2, 2)])
     ]
     patterns = Patterns({thing.id: j for j, thing in enumerate(things)})
-    which, code = spread([patterns.of(own) for own in children], 3)
+    keys, which, code = patterns.spread(children, 3)
+    assert [set(key) for key in keys] == [set(row) for row in which.tolist()]
     known = list(patterns.known)
     for row, own in zip(which, children, strict=True):
         for thing, number in zip(things, row.tolist(), strict=True):

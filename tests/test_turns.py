@@ -52,6 +52,14 @@ def model() -> GroundingModel:
         ("I want something I can cut with", {"knife"}),
         ("all the fruits please", {"one pear", "other pear"}),
         ("the plate next of the salt", {"small plate"}),
+        ("where is the pear? ah, on the small plate. bring it", {"other pear"}),
+        ("is the mug clean? then I'll take that one", {"mug"}),
+        ("this is a purple plate. the plate has a pear on it", {"large plate"}),
+        ("go to the mug. Next to it there is a glass, I want that", {"tall glass"}),
+        ("there is a small plate. on it there is a pear. to its left there is a salt shaker", {"small plate"}),
+        ("the taller glass of the two beyond the plates", {"tall glass"}),
+        ("the pear on the small plate and not on the large one", {"other pear"}),
+        ("My sister bought that mug, hand it to me", {"mug"}),
     ],
 )
 def test_the_last_word_counts(model: GroundingModel, text: str, ids: set[str]) -> None:

@@ -9,8 +9,9 @@ from dcg_torch.dialogue.acts import replies
 from dcg_torch.dialogue.events import Done, Understood
 from dcg_torch.dialogue.situation import Errand, Situation
 from dcg_torch.grounding.explanation import explain, rivalry
+from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.language import parse_command
+from dcg_torch.language import Parse, parse_command
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.speech_acts.requests import Question
 from dcg_torch.types import Percept
@@ -47,7 +48,7 @@ def answer_at_once(s: Situation, question: Question) -> str | None:
 def _about_things(s: Situation, kind: str, about: str) -> Done:
     """Whether there are such things, where, of what colour, how many."""
     bare = about.removeprefix("the ").removeprefix("my ").removeprefix("your ")
-    said = parse_command(f"go to the {bare}", s.model.symbols.keys())
+    said = _read(s, f"go to the {bare}")
     if said.tree is None:
         s.emit(Understood("question", f"I do not know what you ask for: {said.problem}."))
         return Done(s.robot.pose, "done")
@@ -71,6 +72,12 @@ def _about_things(s: Situation, kind: str, about: str) -> Done:
     else:
         s.emit(Understood("question", text, id_))
     return Done(s.robot.pose, "done" if id_ else "absent", id_)
+
+
+def _read(s: Situation, text: str) -> Parse:
+    """What a command says here, where things may be called by their marks."""
+    s.look()
+    return heard(parse_command, text, s.model.symbols.keys(), s.seen)
 
 
 def _found(s: Situation, errand: Errand, kind: str) -> tuple[str, str | None]:
@@ -114,7 +121,7 @@ def _count(s: Situation, errand: Errand) -> tuple[str, str | None]:
 def _identify(s: Situation, about: str, pointing_at: str | None) -> Done:
     """What stands somewhere, or what is pointed at."""
     if about:
-        said = parse_command(f"go to the thing {about}", s.model.symbols.keys())
+        said = _read(s, f"go to the thing {about}")
         moved = False
 
         def first(solution: Solution, moves: bool) -> None:

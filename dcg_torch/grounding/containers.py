@@ -38,7 +38,8 @@ def _in_what_holds_it(tree: ParseTree, types: frozenset[str]) -> ParseTree:
 
 def _holder(tree: ParseTree, types: Collection[str]) -> ParseTree:
     held = next((child for child in tree.children if child.phrase.kind is PhraseKind.NOUN), None)
-    if tree.phrase.kind is PhraseKind.NOUN or held is None or not _is_elsewhere(held.phrase, types):
+    told = bool(tree.phrase.text) and not tree.phrase.words  # "the scissors are in the top drawer"
+    if tree.phrase.kind is PhraseKind.NOUN or held is None or not _is_elsewhere(held.phrase, types, told):
         return tree
     places = [c for c in (*held.children, *tree.children) if _is_inside(c) and _is_there(c.children[0].phrase, types)]
     if not places:
@@ -53,10 +54,10 @@ def _is_inside(place: ParseTree) -> bool:
     return inside and len(place.children) == 1
 
 
-def _is_elsewhere(phrase: Phrase, types: Collection[str]) -> bool:
-    """Is a thing named that is none of those there, and that the speaker has?"""
+def _is_elsewhere(phrase: Phrase, types: Collection[str], told: bool) -> bool:
+    """Is a thing named that is none of those there, and that the speaker has or tells of?"""
     first = phrase.text.split(" ")[0]
-    owned = first in _OWN or not _OWN.isdisjoint(phrase.words) or not phrase.text
+    owned = told or first in _OWN or not _OWN.isdisjoint(phrase.words) or not phrase.text
     if phrase.noun is None:  # "it is in the box" where all are boxes
         return owned and phrase.color is None and not phrase.words
     return owned and not names_one_of(phrase.noun, types)

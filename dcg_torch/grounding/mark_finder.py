@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from typing import Final
 
-from dcg_torch.names.marks import MARK_WORDS, Mark, Marks, mark_words
+from dcg_torch.english.forms import parts
+from dcg_torch.names.marks import MARK_WORDS, WORD, Mark, Marks, mark_words
 from dcg_torch.names.normal import singular
 
-_TOKEN: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 _SHORTENED: Final = ("no", "nr", "num")
 
 
@@ -25,11 +24,6 @@ class FoundMark:
     plural: bool
 
 
-def text_words(text: str) -> list[str]:
-    """The words and numbers of a text."""
-    return _TOKEN.findall(text)
-
-
 def find_marks(text: str, marks: Marks) -> list[FoundMark]:
     """The marks that a text names, from left to right, each with the words that belong to it."""
     return _Finder(text, marks).found()
@@ -40,7 +34,7 @@ class _Finder:
 
     def __init__(self, text: str, marks: Marks) -> None:
         self.marks = marks
-        self.tokens = list(_TOKEN.finditer(text))
+        self.tokens = list(WORD.finditer(text))
         self.raw = [match.group() for match in self.tokens]
         self.words = [word.lower() for word in self.raw]
         self.text = text
@@ -79,7 +73,8 @@ class _Finder:
             mark = self.marks.named(self.words[i : i + n])
             if mark is None and owned:
                 mark = self.marks.named([*self.words[i : i + n - 1], self.words[i + n - 1][:-2]])
-            if mark is not None and not self._is_place(i, n) and (not mark.short or self._is_name(i, i + n)):
+            other = self._is_place(i, n) or self._is_verb(i, n)
+            if mark is not None and not other and (not mark.short or self._is_name(i, i + n)):
                 return self._extended(i, i + n, mark, owned)
         return None
 
@@ -89,6 +84,15 @@ class _Finder:
         if n > 1 or self.words[i] not in lists["places"]:
             return False
         return before in lists["sides"] or (before == "the" and self.word(i - 2) in lists["before_place"])
+
+    def _is_verb(self, i: int, n: int) -> bool:
+        """Is it the verb of an order: "mark the pepsi block", "will you ..."; not in "Target to the left"?"""
+        lists, before, after = mark_words(), self.word(i - 1), self.word(i + n)
+        stops = set(self.text[self.tokens[i - 1].end() : self.tokens[i].start()]) if i else set(".")
+        begins = not stops.isdisjoint(".,;:!?") or before in lists["before_verb"]
+        begins = begins or (before == "to" and self.word(i - 2) in lists["before_infinitive"])
+        followed = after in lists["before_noun"] or (bool(after) and self.marks.named([after]) is not None)
+        return n == 1 and begins and followed and self._joined(i, i + 2) and "v" in parts(self.words[i])
 
     def _joined(self, start: int, stop: int) -> bool:
         """Are words apart by spaces or hyphens alone?"""

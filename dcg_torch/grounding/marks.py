@@ -15,18 +15,19 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Final, TypeVar
 
-from dcg_torch.grounding.mark_finder import FoundMark, find_marks, text_words
+from dcg_torch.grounding.mark_finder import FoundMark, find_marks
 from dcg_torch.grounding.spoken import ParsedCommand
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.marks import Marks, is_strange, mark_words, marks_of
+from dcg_torch.names.marks import Marks, is_strange, mark_words, marks_of, words_of
 from dcg_torch.names.normal import singular
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 
 _Parsed = TypeVar("_Parsed", bound=ParsedCommand)
 _LONGEST: Final = 1000  # characters of a text whose marks are looked for; longer ones are no commands
 _STAND_IN: Final = "quorb"
-_STAND_INS: Final = tuple(f"{_STAND_IN}{letter}" for letter in "abcdefghijklmnopqrstuvwxyz")
+_STAND_INS: Final = tuple(f"{_STAND_IN}{one}{two}" for two in "bcdfgklmnpqrtvw" for one in "abcdefghijklmnopqrstuvwxyz")
+"""More than a command has words; with another letter at their ends they might be plurals of one another."""
 _OF_CLASS = "class"
 """The key of marks that are parts of the names of classes."""
 _BEARING = frozenset({"with", "of", "have"})
@@ -67,7 +68,7 @@ def _replaced(text: str, stood: dict[str, FoundMark]) -> str:
     parts, at = [], 0
     for stand_in, one in stood.items():
         before = text[at : one.start]
-        words = text_words(before.lower())
+        words = words_of(before)
         bare = not words or re.search(r"[.,;:!?]\s*$", before) or words[-1] in mark_words()["before_one"]
         parts += [before, "the " if bare and not one.plural else "", stand_in, "s" if one.plural else ""]
         at = one.stop
@@ -80,7 +81,7 @@ def _patterns(name: str, heads: frozenset[str] = frozenset()) -> tuple[tuple[re.
     rows = mark_words()["patterns"][name]
     rows = [[rows, ""]] if isinstance(rows, str) else rows
     bearers = "|".join(("one", "thing", *sorted(heads | mark_words()["carriers"])))
-    filled = [(old.replace("<M>", rf"{_STAND_IN}\w").replace("<HEADS>", bearers), new) for old, new in rows]
+    filled = [(old.replace("<M>", rf"{_STAND_IN}\w\w").replace("<HEADS>", bearers), new) for old, new in rows]
     return tuple((re.compile(old, re.IGNORECASE), new) for old, new in filled)
 
 

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.tables import Pattern
 from dcg_torch.types import Child
 
-_Kinds = tuple[tuple[str, int], ...]
+Key = tuple[int, ...]
+"""The number of the pattern of all that no child is about, then those of what some child is about."""
 
 
 @dataclass
@@ -26,21 +27,48 @@ class Patterns:
     number: Mapping[str, int]
     known: dict[Pattern, tuple[Child, ...]] = field(default_factory=dict)
     _index: dict[Pattern, int] = field(default_factory=dict)
-    _single: dict[_Kinds, tuple[int, int]] = field(default_factory=dict)
+    _single: dict[tuple[str, int], Key] = field(default_factory=dict)
 
-    def of(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
+    def spread(
+        self, choices: Sequence[tuple[Child, ...]], groundings: int
+    ) -> tuple[list[Key], NDArray[np.int64], NDArray[np.int64]]:
+        """The patterns under several choices of children.
+
+        Returns:
+            The patterns that each choice has; (choices, groundings) the numbers of the patterns; and (groundings,) 0
+            for what no child is about, else a number of its own.
+        """
+        if all(len(children) == 1 for children in choices):  # as nearly all have
+            about, rows = [self.number[c.grounding.object.id] for (c,) in choices], list(range(len(choices)))
+            keys = [self._of_one(children) for children in choices]
+            special = [same for _, same in keys]
+        else:
+            found = [self._of_several(children) for children in choices]
+            about, rows = [j for _, of in found for j in of], [row for row, (_, of) in enumerate(found) for _ in of]
+            special = [number for _, of in found for number in of.values()]
+            keys = [(rest, *of.values()) for rest, of in found]
+        which = np.empty((len(choices), groundings), dtype=np.int64)
+        which[:] = np.array([key[0] for key in keys])[:, None]
+        columns = np.array(about, dtype=np.int64)
+        which[np.array(rows, dtype=np.int64), columns] = special
+        code = np.zeros(groundings, dtype=np.int64)
+        code[columns] = columns + 1
+        return keys, which, code
+
+    def _of_one(self, children: tuple[Child, ...]) -> Key:
+        kind = children[0].grounding.kind._value_, children[0].correspondence._value_  # hashed quickly
+        found = self._single.get(kind)
+        if found is None:
+            rest, same = (self._of(children, ((kind,), (about,))) for about in (False, True))
+            found = self._single[kind] = (rest, same)
+        return found
+
+    def _of_several(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
         """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
-        kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])  # hashed quickly
+        kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])
         about = [self.number[c.grounding.object.id] for c in children]
-        if len(children) == 1:  # as nearly all have
-            other, same = self._single.get(kinds) or self._of_one(children, kinds)
-            return other, {about[0]: same}
         special = {j: self._of(children, (kinds, tuple([j == a for a in about]))) for j in about}
         return self._of(children, (kinds, (False,) * len(about))), special
-
-    def _of_one(self, children: tuple[Child, ...], kinds: _Kinds) -> tuple[int, int]:
-        found = self._single[kinds] = self._of(children, (kinds, (False,))), self._of(children, (kinds, (True,)))
-        return found
 
     def _of(self, children: tuple[Child, ...], pattern: Pattern) -> int:
         number = self._index.get(pattern)
@@ -48,20 +76,3 @@ class Patterns:
             number = self._index[pattern] = len(self.known)
             self.known[pattern] = children
         return number
-
-
-def spread(found: Sequence[tuple[int, dict[int, int]]], groundings: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """What `Patterns.of` found of several choices of children, as arrays.
-
-    Returns:
-        (choices, groundings) the numbers of the patterns, and (groundings,) 0 for what no child is about, else a number
-        of its own.
-    """
-    which = np.empty((len(found), groundings), dtype=np.int64)
-    which[:] = np.array([rest for rest, _ in found])[:, None]
-    code = np.zeros(groundings, dtype=np.int64)
-    rows = [row for row, (_, special) in enumerate(found) for _ in special]
-    columns = [j for _, special in found for j in special]
-    which[rows, columns] = [number for _, special in found for number in special.values()]
-    code[columns] = [j + 1 for j in columns]
-    return which, code

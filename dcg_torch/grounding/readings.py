@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import functools
 import math
-import operator
-import re
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -27,17 +24,15 @@ from dcg_torch.grounding.factor_tree import (
 )
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.grids import by_cells
+from dcg_torch.grounding.looking import Looks, told_by_looking
 from dcg_torch.grounding.room_parts import by_corners, by_heights
-from dcg_torch.grounding.rooms import by_rooms, is_only_a_room, led_into_rooms
+from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there
 from dcg_torch.grounding.search import Search
-from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.solution import Solution, several_there
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.names.attributes import stated_values
-from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.workspace import with_groups
-from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import OPAQUE, ParseTree, WorldModel
 
 _NEGLIGIBLE = 3.0
 """Readings whose log-weight is so far below the best one's are not grounded."""
@@ -66,7 +61,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     """
     weighed = [(r, log_weight(r, learned)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
-    strange = [_speaks_of_what_is_not_there(r.tree, world) for r, _ in weighed]
+    types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
+    strange = [speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
     least = weighed[0][1] - _NEGLIGIBLE if weighed else 0.0
     kept = [
         (r, weight)
@@ -79,18 +75,13 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
         for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)
     ]
-    looks = _Looks.of(world)
-    told = [(by_attributes(_looking(tree, command.text, looks), world), weight, rules) for tree, weight, rules in trees]
+    looks = Looks.of(world)
+    told = [
+        (by_attributes(told_by_looking(tree, command.text, looks), world), weight, rules)
+        for tree, weight, rules in trees
+    ]
     placed = by_cells([tree for tree, _, _ in told], world)
     return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
-
-
-def _speaks_of_what_is_not_there(tree: ParseTree, world: WorldModel) -> bool:
-    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
-    types = [t for t in world.classes if not t.startswith(OPAQUE)]
-    if noun is None or not types:
-        return False
-    return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -185,25 +176,13 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
     for search, _ in searches if brief else ():
         solution = search.with_runner_up(solution)
-    solution = _several_there(solution)
+    solution = several_there(solution)
     if len(searches) == 1:
         return solution
     told = [
         np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
     ]
     return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
-
-
-def _several_there(solution: Solution) -> Solution:
-    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
-    best, other = solution.best, solution.runner_up
-    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
-        return solution
-    noun = solution.noun
-    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
-    if noun is None or not noun.plural or unseen >= 0.5:
-        return solution
-    return replace(solution, best=other, runner_up=best)
 
 
 def _fit(solution: Solution) -> float:
@@ -246,84 +225,3 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
 def sense(solution: Solution) -> float:
     """Logarithm of how well a reading names something that is there."""
     return _SENSELESS if solution.best is None else max(_SENSELESS, math.log(max(solution.named, 1e-300)))
-
-
-@dataclass(frozen=True)
-class _Looks:
-    """What may be told by looking in a world.
-
-    Attributes:
-        shown, named: do things show their colours, or are these but named?
-        valued: have things attributes with values?
-        classes: the types that may be there, where colours are shown.
-    """
-
-    shown: bool
-    named: bool
-    valued: bool
-    classes: frozenset[str]
-
-    @classmethod
-    def of(cls, world: WorldModel) -> _Looks:
-        """Of a world."""
-        shown = any(o.rgb is not None for o in world.objects)
-        named = not shown and any(o.color is not None for o in world.objects)
-        valued = any(":" in a for o in world.objects if o.attributes for a in o.attributes)
-        return cls(shown, named, valued, world.classes if shown else frozenset())
-
-
-@functools.lru_cache(maxsize=1024)
-def _looking(tree: ParseTree, text: str, looks: _Looks) -> ParseTree:
-    """The tree whose noun phrases are also told of the command's words what is to be judged by looking.
-
-    Where things show their colours the first noun phrase is told of all words, but of its own alone if the command
-    speaks of other things too. Where their colours are but named each is told of those of its words that compare
-    ("darkest"). The first is told of what may be the value of an attribute where things have such.
-    """
-    if not looks.shown and not looks.named and not looks.valued:
-        return tree
-    words = _words(text)
-    several = looks.shown and _speaks_of_others(tree, looks.classes)
-    values = stated_values(words) if looks.valued else ()
-    if looks.named or several:
-        tree = _each_told(tree, compared=looks.named)
-        words = ()
-    return _told(tree, words if looks.shown else (), values)
-
-
-def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
-    """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
-    _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
-    return any(names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") for noun in others)
-
-
-def _words(text: str) -> tuple[str, ...]:
-    return tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
-
-
-def _each_told(tree: ParseTree, *, compared: bool) -> ParseTree:
-    """The tree whose noun phrases are each told of their own words; of those that compare colours alone if so asked."""
-    children = tuple([_each_told(child, compared=compared) for child in tree.children])
-    phrase = tree.phrase
-    if phrase.kind is PhraseKind.NOUN and not (compared and not phrase.words and not phrase.look):
-        own = _words(phrase.text)
-        look = comparing_words([w for w in own if w in phrase.words]) if compared else own
-        phrase = phrase if look == phrase.look else replace(phrase, look=look)
-    return _tree(tree, phrase, children)
-
-
-def _tree(before: ParseTree, phrase: Phrase, children: tuple[ParseTree, ...]) -> ParseTree:
-    """The tree of a phrase and children: the one before, where nothing has changed."""
-    if phrase is before.phrase and all(map(operator.is_, children, before.children)):
-        return before
-    return ParseTree(phrase, children)
-
-
-def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> ParseTree:
-    phrase = tree.phrase
-    if phrase.kind is PhraseKind.NOUN:
-        words = tuple(dict.fromkeys((*phrase.words, *values)))
-        if words == phrase.words and not look:
-            return tree
-        return ParseTree(replace(phrase, look=look or phrase.look, words=words), tree.children)
-    return _tree(tree, phrase, (*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))

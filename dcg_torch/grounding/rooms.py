@@ -12,15 +12,18 @@ from dataclasses import replace
 
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
-from dcg_torch.names.rooms import room_named, within_words
+from dcg_torch.names.rooms import room_named, told_rooms, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM
 from dcg_torch.names.weights import log_odds, names_one_of
+from dcg_torch.names.wordnet import nouns
 from dcg_torch.scene.rooms import in_room
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _IN, _ELSEWHERE = 0.45, 0.15
 """Probabilities from which a thing is taken to be in a room, and below which it is taken not to be."""
 _ELSE = f"{LIKELY_ROOM}another"
+_TELLING = 0.8
+"""From which a thing tells its room by itself."""
 _ABOUT = frozenset({"in", "inside", "at"})
 _NAMED = 4.0
 """Log-odds from which a noun is rather a class that is there than a room."""
@@ -28,10 +31,10 @@ _NAMED = 4.0
 
 def by_rooms(tree: ParseTree, world: WorldModel) -> ParseTree:
     """A tree in which rooms that something is in are words of what is in them."""
-    if not any(_may_name_room(node.phrase) for node in tree.walk()):
+    if not any(_may_name_room(node.phrase) or node.phrase.noun == "room" for node in tree.walk()):
         return tree
     types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
-    return _Speaking(_values(world), types).node(tree)
+    return _Speaking(_values(world), types, world.objects).node(tree)
 
 
 def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[ParseTree, bool]]:
@@ -48,7 +51,7 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
     rooms = [_room(noun) if noun and is_only_a_room(noun.noun or "", types) else None for noun in nouns]
     if all(room is None for room in rooms) or all(rooms):
         return [(tree, False) for tree in trees]
-    speaking = _Speaking(_values(world), types)
+    speaking = _Speaking(_values(world), types, world.objects)
     word = next(speaking.word(noun) for noun, room in zip(nouns, rooms, strict=True) if noun and room)
     found = []
     for tree, room in zip(trees, rooms, strict=True):
@@ -56,6 +59,18 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
         told = () if room or word is None or placed else (word,)
         found.append((_of_first(tree, told), room is not None))
     return found
+
+
+def speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
+    """Does the first noun phrase of a reading name nothing that is there, or but a room?
+
+    Args:
+        types: the classes that are there, without opaque ones.
+    """
+    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    if noun is None or not types:
+        return False
+    return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
 def _first_noun(tree: ParseTree) -> Phrase | None:
@@ -103,8 +118,8 @@ class _Speaking:
         values: room -> the attributes that say that something is in it.
     """
 
-    def __init__(self, values: dict[str, list[str]], types: Collection[str]) -> None:
-        self.values, self.types = values, types
+    def __init__(self, values: dict[str, list[str]], types: Collection[str], things: Sequence[Object]) -> None:
+        self.values, self.types, self.things = values, types, things
 
     def node(self, tree: ParseTree) -> ParseTree:
         """A phrase and all below it."""
@@ -114,7 +129,7 @@ class _Speaking:
             children[0] = _of_first(children[0], words)
         if tree.phrase.kind is not PhraseKind.NOUN:
             return replace(tree, children=tuple(children))
-        words, children = self.moved(children)
+        words, children = self.moved(self.rooms_with(children))
         phrase, own = self.own_room(tree.phrase)
         return _with_words(ParseTree(phrase, tuple(children)), (*own, *words))
 
@@ -136,6 +151,27 @@ class _Speaking:
                 left += child.children[0].children
         return words, left
 
+    def rooms_with(self, children: Sequence[ParseTree]) -> list[ParseTree]:
+        """Places in which "(in) the room with the piano" is what such a room is called."""
+        inside = next((c for c in children if _is_in(c) and c.children[0].phrase.noun == "room"), None)
+        if inside is None:
+            return list(children)
+        below = [*inside.children[0].children, *children]
+        holder = next((c for c in below if c.phrase.words == ("with",) and len(c.children) == 1), None)
+        name = None if holder is None else self.room_of(holder.children[0].phrase.noun or "")
+        if name is None:
+            return list(children)
+        room = ParseTree(Phrase(PhraseKind.NOUN, name, noun=name))
+        return [replace(inside, children=(room,)), *(c for c in children if c is not inside and c is not holder)]
+
+    def room_of(self, noun: str) -> str | None:
+        """The room that a thing of some name is in: where it is said to be, or where such things mostly are."""
+        meant = [o for o in self.things if o.type in self.types and log_odds(noun, o.type or "") > _NAMED]
+        given = {room for room, told in self.values.items() for o in meant if not o.attributes.isdisjoint(told)}
+        likely = {room for o in meant for room, weight in told_rooms(o.type or "") if weight >= _TELLING}
+        found = given or likely
+        return found.pop() if len(found) == 1 else None
+
     def word(self, room: Phrase) -> str | None:
         """What says that something is in the room that a noun phrase names; None if it names none, or a thing."""
         if room.kind is PhraseKind.NOUN and _is_value(room):
@@ -154,6 +190,8 @@ class _Speaking:
     def own_room(self, phrase: Phrase) -> tuple[Phrase, list[str]]:
         """ "The bedroom lamp" is a lamp in the bedroom, where no class has such a name."""
         words = (phrase.noun or "").split(" ")
+        if phrase.noun in nouns():  # a kitchen table is a kind of table
+            return phrase, []
         for k in range(len(words) - 1, 0, -1):
             room, thing = replace(phrase, noun=" ".join(words[:k])), " ".join(words[k:])
             if _room(room) is None or not names_one_of(thing, self.types):
@@ -163,6 +201,14 @@ class _Speaking:
             word = self.word(room)
             return (phrase, []) if word is None else (replace(phrase, noun=thing), [word])
         return phrase, []
+
+
+def _is_in(place: ParseTree) -> bool:
+    return (
+        place.phrase.kind is PhraseKind.PREPOSITION
+        and place.phrase.words[0] in within_words()
+        and len(place.children) == 1
+    )
 
 
 def _of_first(tree: ParseTree, words: Sequence[str]) -> ParseTree:

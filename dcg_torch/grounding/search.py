@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from dcg_torch.grounding.describing import (
 )
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.patterns import Patterns, spread
+from dcg_torch.grounding.patterns import Key, Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
@@ -43,6 +43,14 @@ _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
 
 
+@dataclass
+class _Found:
+    """What was found of a phrase: its scores, and its best hypotheses once they have been asked for."""
+
+    scored: Scored
+    beam: list[Hypothesis] | None = None
+
+
 class Search:
     """Leaf-to-root inference in one world. What several trees have in common is scored once.
 
@@ -56,8 +64,7 @@ class Search:
         self.encoder = encoder
         self._tables = tables
         self._beam = beam
-        self._nouns: dict[tuple[ParseTree, bool], Scored] = {}
-        self._beams: dict[tuple[ParseTree, bool], list[Hypothesis]] = {}
+        self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
 
@@ -81,7 +88,11 @@ class Search:
             return {} if values is None else dict(zip(ids, values.tolist(), strict=True))
 
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
-        odds = None if noun is None or noun.log_odds is None else np.exp(np.clip(noun.log_odds, -700.0, 700.0))
+        odds = (
+            None
+            if noun is None or noun.log_odds is None
+            else np.exp(np.minimum(np.maximum(noun.log_odds, -700.0), 700.0))
+        )
         return Solution(
             tree,
             world,
@@ -134,27 +145,30 @@ class Search:
         Args:
             landmark: is it one of a modifier? It alone may be a place: what a command is about is an object.
         """
-        key = (tree, landmark)
-        found = self._nouns.get(key)
-        if found is None:
-            below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
-            combos = list(itertools.product(*(self._beam_of(child, landmark=False) for child in below)))
-            is_noun = tree.phrase.kind is PhraseKind.NOUN
-            found = self._noun(tree, combos) if is_noun else self._above(tree, combos)
-            if landmark:
-                found = self._no_group(tree, found) if is_noun else found
-            else:
-                found = self._only_objects(tree, found)
-                found = self._or_absent(tree, found) if is_noun else found
-            self._nouns[key] = found
-        return found
+        return self._found_of(tree, landmark).scored
 
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
+        found = self._found_of(tree, landmark)
+        if found.beam is None:
+            found.beam = self._best(found.scored, self._beam)
+        return found.beam
+
+    def _found_of(self, tree: ParseTree, landmark: bool) -> _Found:
         key = (tree, landmark)
-        found = self._beams.get(key)
-        if found is None:
-            found = self._beams[key] = self._best(self._picked(tree, landmark=landmark), self._beam)
-        return found
+        kept = self._found.get(key)
+        if kept is not None:
+            return kept
+        below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
+        combos = list(itertools.product(*[self._beam_of(child, landmark=False) for child in below]))
+        is_noun = tree.phrase.kind is PhraseKind.NOUN
+        scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
+        if landmark:
+            scored = self._no_group(tree, scored) if is_noun else scored
+        else:
+            scored = self._only_objects(tree, scored)
+            scored = self._or_absent(tree, scored) if is_noun else scored
+        kept = self._found[key] = _Found(scored)
+        return kept
 
     def _modifier(self, tree: ParseTree, compared: Bools | None = None) -> ModifierFactor:
         """The factor of a modifier; what it ranks, it ranks among `compared`."""
@@ -208,23 +222,23 @@ class Search:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
         patterns = Patterns(self.encoder.number)
-        found = [patterns.of(tuple([h.child for h in combo])) for combo in combos]
+        choices = [tuple([h.child for h in combo]) for combo in combos]
+        keys, which, code = patterns.spread(choices, len(self.encoder.world.meanable))
         table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
         inactive = table[correspondences.index(Correspondence.INACTIVE)]
-        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, found)
+        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, keys)
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        which, code = spread(found, len(self.encoder.world.meanable))
         return Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
 
-    def _sums(self, values: Floats, found: Sequence[tuple[int, dict[int, int]]]) -> list[float]:
+    def _sums(self, values: Floats, keys: Sequence[Key]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
-        known: dict[tuple[int, ...], float] = {}
         n, own = len(self.encoder.world.meanable), values.tolist()
-        keys = [(rest, *special.values()) for rest, special in found]
-        for key in dict.fromkeys(keys):
-            known[key] = exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
+        known = {
+            key: exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
+            for key in dict.fromkeys(keys)
+        }
         return [known[key] for key in keys]
 
     def _no_group(self, tree: ParseTree, found: Scored) -> Scored:

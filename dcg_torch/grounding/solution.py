@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -232,3 +232,15 @@ class Solution:
 def target_of(tree: ParseTree) -> ParseTree | None:
     """The noun phrase of the object meant: the first of the tree, from the root; None if there is none."""
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+
+
+def several_there(solution: Solution) -> Solution:
+    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
+    best, other = solution.best, solution.runner_up
+    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
+        return solution
+    noun = solution.noun
+    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
+    if noun is None or not noun.plural or unseen >= 0.5:
+        return solution
+    return replace(solution, best=other, runner_up=best)

@@ -104,7 +104,8 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Cl
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside
         before, found = found, (_distinct(rows), _distinct(columns))
-        if found in (before, (len(rows), len(columns))):
+        apart = before[0] == len(rows)  # all rows were: no column can be told further from others
+        if apart or found in (before, (len(rows), len(columns))):
             break
     row_first, row_class, row_size = _numbered(rows)
     column_first, column_class, column_size = _numbered(columns)

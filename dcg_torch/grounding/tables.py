@@ -113,8 +113,8 @@ class Tables:
         step = max(1, _ENTRIES // (n * 16))
         for start in range(0, len(first), step):
             part = [(j,) for j in first[start : start + step]]
-            found = np.array(encoder.relations(part, counted.among, members), dtype=np.int64)
-            flat = found.reshape(-1, found.shape[2]).T
+            relations = encoder.relations(part, counted.among, members)
+            flat = np.concatenate([one.T for one in relations], axis=1, dtype=np.int64)  # (families, part * n)
             total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
             for table in (own,) if few is None else (own, side[:, few]):
                 _add(total, table, flat)

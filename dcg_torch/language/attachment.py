@@ -86,10 +86,13 @@ class _Builder(NounPhrases):
         if extreme and item.words[0] in PLACING["of_extremes"]:  # "the closest cone to you"
             self.last.words = tuple(word for word in self.last.words if word != extreme)
             item.words, forced = (f"{extreme} {item.words[0]}",), True
+        nouns = list(self.nouns)
         if self.denied:
             item.words, self.denied = (f"not {item.words[0]}",), False
+            if self.joined and self.pending and len(nouns) > 1:
+                nouns.pop()  # "on the sofa and not on the bed"
         self.preposition = item
-        self.pending.append(Pending(item, list(self.nouns), forced, self.joined))
+        self.pending.append(Pending(item, nouns, forced, self.joined))
         self.forced = self.joined = False
 
     def adverb(self, item: Item, after: Item) -> None:
@@ -140,7 +143,8 @@ class _Builder(NounPhrases):
             if self.joined and self.copula:  # "it is on the left and is touching the cone"
                 self.nouns += self.clause.objects[:1]
             self.copula = self.forced = True
-            self.clause.statement |= self.clause.verb is None and not self.relative
+            if self.clause.verb is None and not self.relative:
+                self.clause.statement = item
         elif name in VERBS["hold"] and self.nouns and not direct:
             item.said = True
             self.say(last_thing(self.nouns), ("held",))  # "the block you are holding"

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import SETS
+from dcg_torch.language.lexicon import RELATION_VERBS, SETS
 from dcg_torch.language.predicates import is_state
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
@@ -26,7 +26,7 @@ class Clause:
     negated: bool = False
     objects: list[Item] = field(default_factory=list)
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
-    statement: bool = False
+    statement: Item | None = None  # its copula, if it says something of a noun phrase
     acting: bool = False  # the object does what is ordered: "the top box moves left"
     refused: str | None = None
     sentence: int = 0
@@ -61,6 +61,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             relative = False
         elif item.kind is Kind.VERB and _is_main(items, k, relative, clauses[-1]):
             relative = False
+            item.words = ("be",) if _tells(items, k) else item.words
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
@@ -96,14 +97,15 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
         first = clause[: clause.index(verbs[0])]
         return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
     named = k + 1 < len(items) and items[k + 1].noun is not None and not (_of_one(clause) and is_state(items[k + 1]))
-    named = named and not (k and items[k - 1].text in SETS["stands_for"])  # "it is the lower of the two cubes"
-    return not named and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
+    # "It is the lower of the two cubes", "the red mug was a present".
+    told = k and (items[k - 1].text in SETS["stands_for"] or (items[k - 1].noun and items[k].text in SETS["past"]))
+    return (told or not named) and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
 
 
 def _of_one(clause: Sequence[Item]) -> bool:
     """ "The middle one (is sick)"."""
     first = next((item for item in clause if item.kind is Kind.NOUN), END)
-    return first.pronoun and first.long
+    return first.pronoun and " " in first.text
 
 
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
@@ -130,6 +132,14 @@ def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
     return item.participle if before.kind is Kind.NEGATION else item.finite and item.words[0] in SETS["possessing"]
 
 
+def _tells(items: Sequence[Item], k: int) -> bool:
+    """ "My grandmother gave us that painting": a verb tells what somebody did, unlike "the cup placed on the table"."""
+    before, item, after = (END, *items, END)[k : k + 3]
+    past = item.participle and not item.text.endswith("ing") and item.words[0] not in RELATION_VERBS
+    done = item.stop == after.start and (after.determined or after.is_a("someone"))
+    return past and done and before.kind is after.kind is Kind.NOUN
+
+
 def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
     """Whether a clause begins with the verb at `k`."""
     item = items[k]
@@ -153,4 +163,5 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         since = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
         if any(other.kind is Kind.VERB for other in since):
             return False
-    return not (after_noun and (item.participle or item.finite or lemma == "have"))
+    said_of = (item.participle and not _tells(items, k)) or item.finite or lemma == "have"
+    return not (after_noun and said_of)

@@ -53,11 +53,6 @@ class Item:
             yield from child.walk()
 
     @property
-    def long(self) -> bool:
-        """Is it of several words?"""
-        return self.stop - self.start > 1
-
-    @property
     def definite(self) -> bool:
         """Has it a definite article?"""
         return self.text.partition(" ")[0] in SETS["definite"]

@@ -78,7 +78,6 @@ REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _P
 TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
 """Those of the refusals that hold for a clause after another as well."""
 MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
-GREETING: Final = re.compile(_PATTERNS["greeting"])
 
 
 def _first_of(rows: list[list[Any]]) -> re.Pattern[str]:
@@ -88,7 +87,6 @@ def _first_of(rows: list[list[Any]]) -> re.Pattern[str]:
 
 
 _TOKENS: Final = [(_first_of(rows), rows) for rows in (_PATTERNS["phrases"], _PATTERNS["prepositions"])]
-_AS_IS: Final = {"P": 0.0}
 
 
 def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...], dict[str, float]]]:
@@ -104,7 +102,7 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
             way = match.groupdict().get(f"w{number}") or ""
             way, raw = str(NUMBERS.get(way, NORMAL.get(way, way))), match.group()
             words = value.replace("=", raw).replace("<way>", way).replace("<nth>", NTH.get(way, way))
-            yield raw, tuple(words.split(";")), (*tags, _AS_IS)[0]
+            yield raw, tuple(words.split(";")), (*tags, {"P": 0.0})[0]
 
 
 @functools.cache

@@ -19,7 +19,7 @@ from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, VERBS
 from dcg_torch.language.phrases import items
-from dcg_torch.language.refusals import MOTION, NO_THING, greeted, refuse, talk
+from dcg_torch.language.refusals import MOTION, NO_THING, refuse, talk
 from dcg_torch.language.repairs import repair
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
@@ -154,13 +154,12 @@ class _Command:
         if len(self.mended) == len(self.kept) and self.mended != self.kept:
             mended = decisions.choose("spelling", CHOICES["spelling"]) == "mended"
         words = self.words = self.mended if mended else self.kept
-        begin = greeted(words)
         if mended not in self.tagged:
-            self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), [] if begin else talk(words)
+            self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), talk(words)
         tagged, self.parts = self.tagged[mended]
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
         path = tagged[decisions.choose("words", weights)]
-        self.items = items([token for token in path.tokens if token.start >= begin])
+        self.items = items(path.tokens)
         groups = split(repair(self.items), self.parts)
         last = _supplied(groups)
         self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, VERBS
+from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import Reader, Token
 
@@ -68,7 +68,7 @@ class _Phrases(Reader):
 
     def verb(self, i: int) -> int:
         token = self.tokens[i]
-        base = verb(token.text) if token.tag != "HAVE" else "have"
+        base = "have" if token.tag == "HAVE" else token.value[0] if " " in token.text else verb(token.text)
         item = self.add(Kind.VERB, i, i + 1, (base,))
         item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
@@ -76,11 +76,8 @@ class _Phrases(Reader):
         if base in PARTICLE_VERBS.get(after, ()):
             item.words, item.stop = (f"{base} {after}",), self.tokens[i + 1].stop
             item.text += f" {after}"
-        elif after == "for" and base in VERBS["head"]:
-            self.add(Kind.PREPOSITION, i + 1, i + 2, ("to",))
-        else:
-            return i + 1
-        return i + 2
+            return i + 2
+        return i + 1
 
     def adverb(self, i: int) -> int:
         value = self.tokens[i].value

@@ -42,7 +42,7 @@ def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: De
             place.item.children = [child.copy() for child in after.item.children]  # "above and touching the cone"
     full = [place for place in pending if place.item.children]
     target = main_object(clause)
-    goal = _goal(clause, full, target, supplied, decisions)
+    goal = _goal(clause, full, supplied, decisions)
     last: Item | None = None
     for place in pending:
         if not place.item.children:
@@ -103,12 +103,10 @@ def _compound(owner: Item, place: Pending, decisions: Decisions) -> bool:
     return True
 
 
-def _goal(
-    clause: Clause, full: list[Pending], target: Item | None, supplied: bool, decisions: Decisions
-) -> Pending | None:
+def _goal(clause: Clause, full: list[Pending], supplied: bool, decisions: Decisions) -> Pending | None:
     """The prepositional phrase that says where the object is to go, if any does."""
     supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
-    if target is None or supplied:
+    if main_object(clause) is None or supplied:
         return None
     if clause.acting:
         return next((place for place in full if place.item.start >= clause.verb.start), None) if clause.verb else None
@@ -143,10 +141,9 @@ def _unnamed(clause: Clause) -> None:
     """ "closest to me", "in the corner", "my left", "top left corner": of the thing only the place is said."""
     telling = PLACING["extremes"] | PLACING["between"]
     places = [p for p in clause.places if p.words[0] in telling or p.children[0].is_a("somewhere")]
-    sides = [(side, side.is_a("side")) for side in clause.objects]
-    told = [side for side, is_side in sides if is_side and side.is_a("told_side")]
+    told = [side for side in clause.objects if side.is_a("side") and side.is_a("told_side")]
     places += [side.behind("in" if side.is_a("middle") else "on") for side in told]
-    places += [spot.behind("in") for spot, is_side in sides if not is_side and spot.is_a("spot")]
+    places += [spot.behind("in") for spot in clause.objects if spot.is_a("spot") and not spot.is_a("side")]
     if places:
         first = places[0]
         clause.places = [place for place in clause.places if place not in places]
@@ -161,7 +158,9 @@ def _about_noun(place: Pending) -> bool:
 def _below(owner: Item, place: Item) -> None:
     child = place.children[0]
     if place.words == ("of",) and child.is_a("pronoun") and not owner.pronoun:
-        return  # "the bigger cube of the two"
+        owner.children += child.children  # "the bigger cube of the two (on the table)"
+        child.children = owner.children
+        return
     if place.words[0] in PLACING["sided"] and child.is_a("left_right"):
         place.words = ("on",)
     elif place.words == ("towards",) and child.is_a("place"):

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.names.rooms import room_named
 
 
 def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
@@ -23,11 +25,21 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
             landmark.take_up(more)
         elif there and about_it(more) and more.noun is not None and more.start > noun.start:
             noun.children.append(more.behind("with"))
+        elif _the_same(noun, more) and (clause.statement or there or clause.verb is None):
+            noun.take_up(more)
         elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
             same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
             one_of_them = noun.plural and not more.plural and more.text not in SETS["stands_for"]
             if same and not one_of_them and "other" not in more.words:
                 noun.take_up(more)
+
+
+def _the_same(one: Item, other: Item) -> bool:
+    """ "(This is) a brown desk. The desk (is against the wall)": a thing is told of, and then named again."""
+    first, then = sorted((one, other), key=lambda noun: noun.start)
+    named = one.noun == other.noun is not None and not (one.plural or other.plural)
+    alone = then.definite and not (then.words or then.color or about_it(then))
+    return named and alone and first.determined and not first.definite
 
 
 def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
@@ -46,14 +58,41 @@ def list_places(clauses: Sequence[Clause]) -> None:
         return
     if len({noun.noun for noun in bare}) < len(bare) or not all(noun.is_a("named") for noun in bare):
         return
+    bare.sort(key=lambda noun: room_named(noun.noun or "") is not None)  # "kitchen, mug": a mug
     bare[0].children += [noun.behind("near") for noun in bare[1:]]
-    for clause in clauses[1:]:
-        clause.objects = []
+    for clause in clauses:
+        clause.objects = [noun for noun in clause.objects if noun is bare[0]]
+
+
+def hang_fragments(clauses: Sequence[Clause]) -> None:
+    """ "The red car... is there one? Yes, by the bridge.": a place by itself is where what was named before it is."""
+    for k, clause in enumerate(clauses):
+        before = clauses[k - 1] if k else clause
+        parted = k > 0 and before.refused is not None and clause.refused is None
+        if not parted or clause.verb or clause.objects or not clause.places:
+            continue
+        named = [main_object(other) for other in clauses[:k] if other.refused is None and other.verb is None]
+        if named and (noun := named[-1]) is not None and noun.noun is not None:
+            noun.children += clause.places
+            clause.places = []
+        elif (asked := main_object(before)) is not None and asked.noun is not None:  # "Where is it? There."
+            clause.objects, clause.places = [replace(asked, children=clause.places)], []
+
+
+def take_what_was_asked_of(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
+    """ "Is the red mug clean? Then I'll take that one."."""
+    if noun.noun is not None or not (noun.pronoun and noun.is_a("empty")):
+        return
+    asked = (main_object(clause) for clause in reversed(clauses[: clauses.index(own)]) if clause.refused)
+    meant = next((one for one in asked if one is not None and one.noun is not None and not one.pronoun), None)
+    if meant is not None:
+        noun.noun, noun.pronoun = meant.noun, False
+        noun.take_up(meant)
 
 
 def tells_of_neighbour(clause: Clause) -> bool:
-    """ "Beside it is a stand": a clause that says what stands by what was named before."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else None
+    """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
+    thing = clause.objects[0] if len(clause.objects) == 1 and (clause.verb is None or exists(clause)) else None
     return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
 
 
@@ -64,7 +103,8 @@ def exists(clause: Clause) -> bool:
 
 def about_it(noun: Item) -> bool:
     """ "(There is) a blue pillow next to it"."""
-    return any(below.text in SETS["stands_for"] for child in noun.children for below in child.children)
+    words = SETS["stands_for"] | SETS["owners"]  # "(a bin) to its left"
+    return any(below.text.split(" ")[0] in words for child in noun.children for below in child.children)
 
 
 def is_context(noun: Item, own: Clause, before: Sequence[Clause]) -> bool:
@@ -134,21 +174,32 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
             nodes += [(below, meant.start) for child in node.children for below in child.walk()]
 
 
-def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
-    """ "Walk to the sink. Pick up the cup.": what is handled is where the way leads, if nothing says where it is."""
+def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> list[Item]:
+    """ "Walk to the sink. Pick up the cup.": what is handled is where the way leads, if nothing says where it is.
+
+    "Turn to the sofa and take the plant on your left": what is faced is returned, for sides are as seen then.
+    """
     apart = SETS["directions"] | SETS["someone"]
-    placed = any(below.noun not in SETS["places"] | apart for child in target.children for below in child.children)
-    if placed or own.action not in VERBS["take"]:
-        return
+    below = [node for child in target.children for node in child.children]
+    sides = [node for node in below if node.is_a("left_right") and "my" not in node.words]
     goal: Item | None = None
-    for clause in clauses[: clauses.index(own)]:
+    turned = False
+    for clause in clauses[: clauses.index(own)] if own.action in VERBS["take"] else ():
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
         led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
-        named = (noun for noun in (main_object(clause), *led) if noun is not None)
-        goal = next((noun for noun in named if noun.noun not in apart and noun.noun and not noun.plural), goal)
-    if goal is not None and decisions.choose("route", CHOICES["route"]) == "there":
+        named = [noun for noun in (main_object(clause), *led) if noun is not None and noun.noun not in apart]
+        goal = next((noun for noun in named if noun.noun and not noun.plural), goal)
+        turned = clause.action in VERBS["turn"] if goal in named else turned
+    if goal is None:
+        return []
+    facing = [goal.copy().behind("facing")] if turned and sides else []
+    for side in sides if turned else ():
+        side.words = tuple(word for word in side.words if word not in SETS["owned"])
+    placed = any(node.noun not in SETS["places"] | apart for node in below)
+    if not placed and decisions.choose("route", CHOICES["route"]) == "there":
         target.children.append(goal.copy().behind("near"))
+    return facing
 
 
 def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:

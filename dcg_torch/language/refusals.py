@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import GREETING, MEETING, REFUSALS, SETS, TALK, VERBS
+from dcg_torch.language.lexicon import MEETING, REFUSALS, SETS, TALK, VERBS
 
 _BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
 NO_THING = "it names no thing"
@@ -34,12 +34,6 @@ def sentences(words: Sequence[str]) -> list[tuple[int, int]]:
             out += [(said[0], said[-1] + 1)] if said else []
             start = i + 1
     return out
-
-
-def greeted(words: Sequence[str]) -> int:
-    """How many words greet somebody: "say hello to (the person)" is about the person."""
-    match = GREETING.match(" ".join(words))
-    return 0 if match is None else match.group().count(" ") + 1
 
 
 def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int, str]], words: Sequence[str]) -> None:

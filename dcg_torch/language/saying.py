@@ -55,7 +55,8 @@ class NounPhrases:
                 pending.nouns, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
             counts = item.pronoun and item.is_a("ordered")
-            self.merge(last_thing(self.nouns) if counts else self.last, item)  # "... on the left that is second"
+            one = self.last.plural and item.text.endswith(" one") and not item.plural  # "by the two cups, the big one"
+            self.merge(last_thing(self.nouns) if counts else self.nouns[0] if one else self.last, item)
         elif self.nouns and item.is_a("side") and not (self.and_joined and self.joined and self.last.is_a("side")):
             self.side(item)  # but "on the left and right"
         elif self.nouns and self.is_bare(item):

@@ -6,6 +6,7 @@ The best paths are found exactly, from left to right: of what may follow only a 
 
 from __future__ import annotations
 
+import itertools
 from collections import defaultdict
 from collections.abc import Collection, Mapping, Sequence
 from operator import itemgetter
@@ -55,7 +56,7 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
     # starts[i][tag]: beginnings that end before word i with a token of that tag.
     starts: list[defaultdict[str, list[_Start]]] = [defaultdict(list) for _ in range(len(words) + 1)]
     starts[0][START] = [(0.0, ())]
-    for i, edges in enumerate(_Lattice(words, vocabulary, names).edges()):
+    for i, edges in enumerate(map(_Lattice(words, vocabulary, names).at, range(len(words)))):
         best: dict[str, list[_Start]] = {}
         for token, weight in edges if starts[i] else ():
             if token.tag not in best:
@@ -96,15 +97,10 @@ class _Lattice:
         self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | lx.compounds()
         self.starts = {name[0] for name in self.compounds}
         self.joined = " ".join(words)
-        self.offsets = [0]
-        for word in words:
-            self.offsets.append(self.offsets[-1] + len(word) + 1)
+        self.offsets = [0, *itertools.accumulate(len(word) + 1 for word in words)]
 
-    def edges(self) -> list[list[tuple[Token, float]]]:
-        """For each word, the tokens that begin there with their log-weights."""
-        return [self._at(i) for i in range(len(self.words))]
-
-    def _at(self, i: int) -> list[tuple[Token, float]]:
+    def at(self, i: int) -> list[tuple[Token, float]]:
+        """The tokens that begin at a word, with their log-weights."""
         word = self.words[i]
         out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
         doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from dcg_torch.language import references
 from dcg_torch.language.clauses import Clause, main_object
@@ -14,8 +14,7 @@ from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 
-@dataclass(slots=True, eq=False)
-class Mention:
+class Mention(NamedTuple):
     """A noun phrase that may be the one meant, the clause it is in, and how surely the verb is about it."""
 
     noun: Item
@@ -78,10 +77,12 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     "it" stands for the noun phrase before, and "the middle one" for one of several that were named before.
     """
     references.list_places(clauses)
+    references.hang_fragments(clauses)
     found = choices(clauses)
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
+    references.take_what_was_asked_of(chosen.noun, chosen.clause, clauses)
     verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
@@ -97,9 +98,10 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         if below.is_a("unnamed"):
             references.one_of_several(below, clauses)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
-    references.arrive(chosen.noun, chosen.clause, clauses, decisions)
+    children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
-    phrase = Phrase(PhraseKind.VERB, verb.text if verb else "", words)
+    said = verb or chosen.clause.statement  # "are" of "the scissors are in the drawer" tells, and is no action
+    phrase = Phrase(PhraseKind.VERB, said.text if said else "", words)
     return ParseTree(phrase, tuple(freeze(child) for child in children))
 
 
@@ -111,7 +113,8 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            if name == "earlier_goal" and not any(other.clause is choice.clause for other in found[:k]):
+            leads = not references.about_it(found[first].noun)  # but "go to the table and take the cup on it"
+            if name == "earlier_goal" and leads and not any(other.clause is choice.clause for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
@@ -138,14 +141,21 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
         before = found[: found.index(chosen)]
         earlier = [choice for choice in before if not (choice.noun.pronoun and choice.noun.is_a("empty"))]
-        fronted = [c for c in earlier if c.clause.verb is None and c.clause.sentence == chosen.clause.sentence]
-        if fronted and fronted[-1].place is None and chosen.place is None:
-            return fronted[-1]  # "(Start at the church.) The tree closest to it, mark that."
+        last = earlier[-1] if earlier and chosen.place is None else chosen
+        # What begins the sentence: "Start at the church. The tree closest to it, mark that."
+        fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
-        if handled and chosen.place is None:
+        if handled and chosen.place is None and not fronted:
             return handled[-1]
+        if earlier and references.tells_of_neighbour(earlier[-1].clause):
+            return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
         if earlier:
-            return max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+            meant = last if fronted else max(earlier, key=lambda choice: (choice.score, found.index(choice)))
+            if meant.place or chosen.place or chosen.score <= TARGETS["shun"]:
+                return meant
+            objects = chosen.clause.objects  # "there was a cup. take it": it is to be taken
+            objects[objects.index(noun)] = meant.noun
+            return Mention(meant.noun, chosen.clause, chosen.score)
         later = [other for other in found[found.index(chosen) :] if not other.noun.pronoun]
         return next((other for other in later if other.clause.verb is None), chosen)  # "Bring it to me. The mug."
     return chosen

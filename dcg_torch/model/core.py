@@ -172,8 +172,8 @@ class GroundingModel:
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)
-        trees = [reading.tree for reading in readings]
-        world = with_corners(with_rooms(with_cells(world, trees), trees), trees)
+        for told in (with_cells, with_rooms, with_corners):
+            world = told(world, [reading.tree for reading in readings])
         frames = self.learner.frames if self.variant.related else None
         facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)

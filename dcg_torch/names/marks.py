@@ -20,7 +20,8 @@ from dcg_torch.names.evidence import evidence, unheard_of
 from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 
-_WORD: Final = re.compile(r"\d+(?:\.\d+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+WORD: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
+"""A word of a text or of a name: letters, or a number with its unit."""
 MARK_WORDS: Final = 4  # words at most of a text that are one mark
 _SPELT, _LONG = 5, 8  # letters from which one slip, and two, may be in a name
 _PART = 3  # letters of a part of a mark
@@ -128,9 +129,10 @@ def misspells(word: str, name: str) -> bool:
 
 
 def solid_name(words: Sequence[str]) -> str:
-    """Words as one, numbers as digits: by this they are compared."""
+    """Words as one, numbers as digits, "007" as 7: by this they are compared."""
     numbers = mark_words()["numbers"]
-    told = [str(numbers[word]) if word in numbers else word.replace("'", "") for word in words]
+    told = [str(numbers.get(word, word)).replace("'", "") for word in words]
+    told = [str(int(word)) if word.isdecimal() else word for word in told]
     if len(words) == 2 and words[0] in numbers and words[1] in numbers:
         tens, ones = numbers[words[0]], numbers[words[1]]
         told = [str(tens + ones)] if tens >= 20 and 0 < ones < 10 else told  # "twenty one"
@@ -139,8 +141,8 @@ def solid_name(words: Sequence[str]) -> str:
 
 
 def words_of(name: str) -> list[str]:
-    """The words of a name in small letters, numbers apart: "block_7" is block and 7."""
-    return [word.lower() for word in _WORD.findall(name)]
+    """The words of a name or a text in small letters, numbers behind letters apart: "block_7" is block and 7."""
+    return [word.lower() for word in WORD.findall(name)]
 
 
 def marks_of(things: Iterable[tuple[str | None, frozenset[str]]]) -> Marks | None:

@@ -61,10 +61,10 @@ def _numbered(values: Floats) -> Ints | None:
     gaps = order[1:] - order[:-1]
     if not len(gaps) or gaps.max() <= 0.0:
         return None
-    starts = np.concatenate([[0], np.flatnonzero(gaps > 0.5 * gaps.max()) + 1])
-    ends = np.append(starts[1:], len(order))
+    bounds = [0, *((gaps > 0.5 * gaps.max()).nonzero()[0] + 1).tolist(), len(order)]
+    starts, ends = np.array(bounds[:-1]), np.array(bounds[1:])
     middles = np.add.reduceat(order, starts) / (ends - starts)
-    steps = np.diff(middles)
+    steps = middles[1:] - middles[:-1]
     spread = (order[ends - 1] - order[starts]).max()
     if (len(steps) > 1 and steps.max() > _EVEN * steps.min()) or spread > _ASIDE * steps.min():
         return None

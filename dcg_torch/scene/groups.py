@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
+from dcg_torch.scene.clusters import clusters
 from dcg_torch.scene.layout import Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.scene.upright import laid_flat
@@ -33,16 +34,12 @@ _MOST = 12
 """Groups of one kind that are kept: the largest."""
 _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
-_SPREAD = 2.4
-"""The farthest neighbours in a group are at most so many times as far apart as the nearest."""
 _FEW = 40
-"""Things up to which all distances are sorted, and all classes are looked at together."""
+"""Things up to which all classes are looked at together."""
 _CHUNK = 1024
 """Steps that are looked at together."""
 _MANY, _NEIGHBOURS = 512, 33
 """Things from which near ones are found with a tree, and how many of them are looked at."""
-_APART = 1.25
-"""A group's nearest neighbour is at least so many times as far as its members are from one another."""
 
 
 def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
@@ -65,7 +62,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     for numbers, code in _compared(there):
         points = position[numbers]
         found[ROW].update(_numbers_of(_even_rows(points, code), numbers))
-        found[CLUSTER].update(_numbers_of(_clusters(points, code), numbers))
+        found[CLUSTER].update(_numbers_of(clusters(points, code), numbers))
     place = position.tolist()
     found[ROW].update(members for members in found[CLUSTER] if _in_line([place[j] for j in members]))
     return tuple(
@@ -127,15 +124,17 @@ def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[flo
     ids = tuple(o.id for o in members)
     types, colors = {o.type for o in members}, {o.color for o in members}
     one_type = next(iter(types)) if len(types) == 1 else None
-    deep, wide, _ = map(_extent, zip(*position, strict=True))
-    lies = {ACROSS if wide >= deep else ALONG} if kind == ROW else set()
+    attributes = {kind, f"of {len(members)}"}
+    if kind == ROW:
+        deep, wide, _ = map(_extent, zip(*position, strict=True))
+        attributes.add(ACROSS if wide >= deep else ALONG)
     return Object(
         id=f"{kind}: {' '.join(ids)}",
         type=one_type,
         known=one_type is not None and all(o.known for o in members),
         color=next(iter(colors)) if len(colors) == 1 else None,
         position=members[0].position,
-        attributes=frozenset({kind, f"of {len(members)}", *lies}),
+        attributes=frozenset(attributes),
         members=ids,
     )
 
@@ -206,51 +205,6 @@ def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tup
     return np.concatenate(found), np.concatenate(missed)
 
 
-def _clusters(points: Floats, code: Ints) -> Iterable[list[int]]:
-    """The clusters of single linkage, on at least `_LEAST` spots, that are closer together than to anything else.
-
-    Those of each class by itself.
-    """
-    n = len(points)
-    merges = _single_linkage(points[:, :2], code)
-    members: list[list[int]] = [[k] for k in range(n)]
-    spots = [1] * n  # how many places seen from above a cluster is at
-    first = [np.inf] * n  # the distance at which the first two of a cluster come together
-    ends = [np.inf] * (n + len(merges))  # the distance at which a cluster becomes part of a larger one
-    for one, other, distance in merges:
-        ends[one] = ends[other] = distance
-        first.append(min(first[one], first[other], max(distance, SAME_SPOT)))
-        spots.append(spots[one] + spots[other] - (distance < SAME_SPOT))
-        members.append(members[one] + members[other])
-    for k, (_, _, distance) in enumerate(merges, start=n):
-        last = max(distance, SAME_SPOT)
-        if last <= _SPREAD * first[k] and ends[k] >= _APART * last and spots[k] >= _LEAST:
-            yield members[k]
-
-
-def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
-    """Which two clusters come together at which distance, the n points being the first ones."""
-    n = len(points)
-    if code[-1] == 0 and n > _FEW:
-        from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
-
-        return [(int(one), int(other), distance) for one, other, distance, _ in linkage(points, "single").tolist()]
-    i, j = np.nonzero(np.triu(code[:, None] == code[None, :], 1))
-    x, y = (own[i] - own[j] for own in points.T)
-    apart = np.sqrt(x * x + y * y)
-    order = np.argsort(apart, kind="stable")
-    cluster, members, found = list(range(n)), [[k] for k in range(n)], []
-    for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
-        left, right = cluster[one], cluster[other]
-        if left == right:
-            continue
-        members.append(members[left] + members[right])
-        for k in members[-1]:
-            cluster[k] = len(members) - 1
-        found.append((left, right, distance))
-    return found
-
-
 def _in_line(points: Sequence[Sequence[float]]) -> bool:
     """Do points lie along a line on one level? It is the axis along which they are spread most."""
     x, y, z = zip(*points, strict=True)
@@ -311,8 +265,9 @@ def _over(position: Floats) -> tuple[Ints, Ints]:
 def _close_pairs(points: Floats, reach: float) -> tuple[Ints, Ints]:
     """The pairs of points (n, 2) that are less than so far apart, the lower number first, in the order of numbers."""
     if len(points) <= _MANY:
-        i, j = np.nonzero(np.triu(np.linalg.norm(points[None] - points[:, None], axis=2) < reach, 1))
-        return i, j
+        x, y = (own[None, :] - own[:, None] for own in points.T)
+        i, j = np.nonzero(np.sqrt(x * x + y * y) < reach)
+        return i[i < j], j[i < j]
     from scipy.spatial import cKDTree  # here: few worlds are so large
 
     i, j = cKDTree(points).query_pairs(reach, output_type="ndarray").T

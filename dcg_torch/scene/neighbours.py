@@ -85,8 +85,8 @@ def neighbours(position: Floats, color: Ints, half: Floats | None = None) -> Nei
 def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
     """Numbers of two different points (m, 2) that are closer than a bound, both ways round, and how far apart."""
     if len(points) <= _FEW:
-        offset = points[:, None] - points[None]
-        apart = np.hypot(offset[..., 0], offset[..., 1])
+        x, y = (own[:, None] - own[None, :] for own in points.T)
+        apart = np.hypot(x, y)
         near = apart < bound
         near.flat[:: len(points) + 1] = False
         i, j = near.nonzero()
@@ -122,9 +122,10 @@ def nearest_other(position: Floats) -> Floats:
         return found
     points = position[there]
     if len(there) <= _FEW:
-        apart = np.linalg.norm(points[:, None] - points[None], axis=2)
-        np.fill_diagonal(apart, np.inf)
-        found[there] = apart.min(axis=1)
+        x, y, z = (own[:, None] - own[None, :] for own in points.T)
+        apart = x * x + y * y + z * z
+        apart.flat[:: len(points) + 1] = np.inf
+        found[there] = np.sqrt(apart.min(axis=1))
         return found
     from scipy.spatial import cKDTree  # here: few worlds are so large
 

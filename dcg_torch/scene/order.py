@@ -18,6 +18,8 @@ TIE = 1e-6
 """Values that differ by less are equal."""
 _FEW = 64
 """Things up to which each is held against each."""
+_SORTED_WHOLE = 320
+"""Values up to which it takes less time to sort all than to find the highest."""
 _SORTED = 8
 """Places that are counted to one by one; beyond, they are searched."""
 
@@ -41,7 +43,7 @@ class Alike:
             few = code.tolist()
             number = {value: k for k, value in enumerate(sorted({*few} - {-1}))} | {-1: -1}
             which = np.array([number[value] for value in few], dtype=np.int64)
-            return cls(which, [np.flatnonzero(which == k) for k in range(len(number) - 1)])
+            return cls(which, [(which == k).nonzero()[0] for k in range(len(number) - 1)])
         known, which = np.unique(code, return_inverse=True)
         none = int(len(known) > 0 and known[0] < 0)
         order = np.argsort(which, kind="stable")
@@ -155,8 +157,11 @@ def highest(values: Floats, count: int) -> NDArray[np.int64]:
     """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
     if count == 1:
         return np.array([values.argmax()])
-    if len(values) <= max(512, 2 * count):
-        return np.argsort(-values, kind="stable")[:count]
+    order: Ints
+    if len(values) <= max(_SORTED_WHOLE, 2 * count):
+        order = (-values).argsort(kind="stable")
+        return order[:count]
     least = np.partition(values, len(values) - count)[len(values) - count]
     among = np.flatnonzero(values >= least)
-    return among[np.argsort(-values[among], kind="stable")[:count]]
+    order = (-values[among]).argsort(kind="stable")
+    return among[order[:count]]

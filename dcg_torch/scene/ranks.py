@@ -125,7 +125,7 @@ def _values(where: Layout) -> Floats:
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)
     along = (-y, y, -x, x, -z, z, -volume, volume, -height, height)
-    return np.stack([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart, nothing])
+    return np.array([*along, nothing, to_robot, -to_robot, to_speaker, -where.apart, nothing])
 
 
 def _from_mean_size(volume: Floats, alike: Alike) -> Floats:
@@ -156,5 +156,5 @@ def _from_middle(where: Layout, alike: Alike) -> Floats:
             middle = np.nan_to_num(where.position[members]).sum(axis=0) / len(members)
             if of_all and len(solid):
                 middle[:2] = (solid[:, :2].min(axis=0) + solid[:, :2].max(axis=0)) / 2
-            distance[members] = np.linalg.norm(where.position[members] - middle, axis=1)
+            distance[members] = np.sqrt(((where.position[members] - middle) ** 2).sum(axis=1))
     return distance

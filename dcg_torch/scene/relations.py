@@ -107,7 +107,7 @@ def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
     if covers is not None and apart is not None:
         near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
         near = np.where(covers, np.minimum(near, 0.0), near)
-    steps = np.searchsorted(_BOUNDS, np.where(exists, near, 0.0), side="left")
+    steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),
         "vertical": _vertical(where, first, near, up, exists, covers, apart),
@@ -151,7 +151,7 @@ _BESIDE_IT = 0.7
 def _vertical(
     where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools | None
 ) -> Ints:
-    step = np.searchsorted(_UP, up, side="left")  # 2 is on a level
+    step = _UP.searchsorted(up)  # 2 is on a level
     if where.bodies is not None and covers is not None and apart is not None:
         step = np.where(covers | apart, where.bodies.steps(first, covers) + 2, step)
     value = _VERTICAL[(distance < SAME_SPOT).astype(np.int64), np.minimum(step, 4)]
@@ -188,11 +188,11 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
     """(c, 2, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
     value = distance
     if where.direction[first].any():
-        heading = np.nan_to_num(where.heading[first])
+        heading = np.where(where.direction[first][:, None], where.heading[first], 0.0)
         offset = where.position[None, :, :2] - where.position[first][:, None, :2]
         ahead = -(offset * heading[:, None, :]).sum(axis=2)
         value = np.where(where.direction[first][:, None], ahead, distance)
-    signed = np.where(exists, np.stack([value, -value]), math.inf)
+    signed = np.where(exists, np.array([value, -value]), math.inf)
     before = lower(signed.reshape(-1, value.shape[1]), alike, NEAREST).reshape(signed.shape)
     compared = exists & (alike.code >= 0) & (before < NEAREST)
     out: Ints = np.where(compared, before + _STARTS[_COMPARED], -1).transpose(1, 0, 2)
@@ -206,13 +206,17 @@ def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
     offset = where.position[None, :, :2] - where.position[first][:, None, :2]
     with np.errstate(invalid="ignore"):
         length = np.maximum(np.hypot(offset[..., 0], offset[..., 1]), TIE)
-        angle = np.arccos(np.clip((offset * heading).sum(axis=2) / length, -1.0, 1.0))
-        slant = np.searchsorted((math.pi / 6, math.pi / 3, math.pi / 2), np.nan_to_num(angle))
+        cosine = (offset * heading).sum(axis=2) / length
+        slant = _SLANTS.searchsorted(np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)))
     direction = where.direction[first][:, None]
     return {
         "direction": np.where(exists & headed & direction, slant, -1),
         "part": np.where(exists & headed & ~direction, _part(where, heading), -1),
     }
+
+
+_SLANTS = np.array((math.pi / 6, math.pi / 3, math.pi / 2))
+"""Bounds of the angles between where a thing is and a direction."""
 
 
 def _part(where: Layout, heading: Floats) -> Ints:
