@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import math
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -15,7 +14,6 @@ import yaml
 from language_descriptions import DEVELOPMENT as DESCRIPTIONS
 from language_sentences import DEVELOPMENT as SENTENCES
 
-from dcg_torch.bench.__main__ import hostile
 from dcg_torch.language import Parse, Parser, Reading, default_parser, target_phrase
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.lexicon import read
@@ -26,7 +24,6 @@ SHARED = Path(__file__).parents[2] / "shared"
 CASES = SHARED / "cases"
 TEXTS = [sentence.text for sentence in SENTENCES] + [said.text for said in DESCRIPTIONS]
 ADVERSARIAL = ("pickup", "left", "can", "stand", "second", "orange", "close", "light", "place", "back", "up", "one")
-MEDIAN_SECONDS, SLOWEST_SECONDS = 0.004, 0.05
 
 
 @pytest.fixture(scope="module")
@@ -233,22 +230,6 @@ def test_paths_come_out_in_order_and_cover_the_words(text: str) -> None:
     for path in found:
         assert [t.start for t in path.tokens] == [0, *(t.stop for t in path.tokens[:-1])]
         assert path.tokens[-1].stop == len(words)
-
-
-def test_time_of_a_command(parser: Parser) -> None:
-    """CPU time, and the best of three, as machines are noisy."""
-
-    def seconds(text: str) -> float:
-        taken = []
-        for _ in range(3):
-            start = time.process_time()
-            parser.parse(text)
-            taken.append(time.process_time() - start)
-        return min(taken)
-
-    rng = np.random.default_rng(1)
-    assert np.median([seconds(text) for text in TEXTS]) <= MEDIAN_SECONDS
-    assert max(seconds(hostile(rng)) for _ in range(300)) <= SLOWEST_SECONDS
 
 
 # Cases that are kept outside the repository ---------------------------------------------------------------------------
