@@ -23,7 +23,7 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     """So many lessons on relations, and a part of that in each other kind of scene; the same for the same arguments.
 
     Boards of things that look alike have a quarter as many. Cluttered tables and things that say how large they are
-    have a sixth each, as have sides as parts of a scene, things at an end five twelfths, all others a third.
+    have a sixth each, things at an end five twelfths, all others a third.
 
     Args:
         parse: reads commands.
@@ -36,6 +36,6 @@ def generated_lessons(parse: Callable[[str, Collection[str]], Reading], count: i
     scattered = arranged_lessons(parse, third + count // 12, makers=(scattered_scene,))
     looks = arranged_lessons(parse, third, makers=(height_scene, shelf_scene, shelf_scene, lonely_scene))
     sized = arranged_lessons(parse, third // 2, makers=(furnished_scene, furnished_scene, table_top_scene))
-    parts = arranged_lessons(parse, count // 6, makers=(part_scene,))
+    parts = arranged_lessons(parse, third, makers=(part_scene,))
     tables = (*arranged_lessons(parse, third), *picks, *handled, *cluttered, *looks, *sized, *scattered, *boards)
     return (*relational_lessons(count), *tables, *parts, *room_lessons(parse, third))
