@@ -47,6 +47,8 @@ def _absent(solution: Solution) -> float:
         ("take the red ball", ["green ball", "red cube"]),  # the colour of one and the class of the other
         ("get me the apple", ["lamp", "desk", "sofa"]),  # no such class
         ("take the two red balls", ["green ball", "blue ball", "blue cube"]),
+        ("the left one of the two cubes", ["red ball", "green ball", "blue lamp"]),  # one of what is not there
+        ("take the middle one of the three cubes", ["red ball", "green ball", "blue lamp"]),
         ("frbl zwt the gnrx", ["red ball", "green ball"]),  # several words that nobody knows
     ],
 )

@@ -104,3 +104,25 @@ def test_rooms_that_are_given_count(model: GroundingModel) -> None:
 )
 def test_parts_of_a_room(model: GroundingModel, text: str, ids: list[str]) -> None:
     assert meant(model, text, ROOM, Pose(3.0, 6.0, -1.5708)) == sorted(ids)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("go to the bedroom and bring me the lamp", "bedroom"),
+        ("go to the kitchen and bring me the lamp", "kitchen"),
+        ("take the lamp in the kitchen, no, the bedroom", "bedroom"),
+    ],
+)
+@pytest.mark.parametrize("given", [False, True])
+def test_a_room_that_is_given_is_a_place_as_one_that_is_guessed(
+    model: GroundingModel, text: str, meant: str, *, given: bool
+) -> None:
+    """The value of a key `room` is no name of the things that stand there."""
+    flat = [("bed", "bedroom", 4.0), ("lamp", "bedroom", 3.2), ("stove", "kitchen", -4.0), ("lamp", "kitchen", -3.2)]
+    things = [
+        Percept(f"{type_} {room}", type_, None, (1.0, y, 0.0), None, frozenset({f"room: {room}"} if given else ()))
+        for type_, room, y in flat
+    ]
+    world = model.world_model(things, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in model.ground(text, world).objects] == [f"lamp {meant}"]

@@ -129,3 +129,14 @@ def test_the_middle_of_so_many_on_a_side_is_among_the_farthest_there() -> None:
         "take the middle one of the five blocks on the left",
     ):
         assert [o.id for o in model.ground(text, world).objects] == ["c"], text
+
+
+@pytest.mark.parametrize("number", [3, 5, 12, 30])
+def test_between_many_has_an_answer(number: int) -> None:
+    """Combinations of landmarks are cut, not their number: thirty names were 12 ** 30 combinations."""
+    names = ["the lamp", "the chair", "the desk", "the mug"]
+    things = [Percept(f"o{k}", names[k % 4][4:], "red", (1.0 + k / 4, (k % 5) - 2.0, 0.0)) for k in range(20)]
+    model = pretrained()
+    world = model.world_model(things, Pose(0.0, 0.0), looked=True)
+    text = "take the mug between " + " and ".join(names[k % 3] for k in range(number))
+    assert model.ground(text, world).probability is not None

@@ -51,6 +51,8 @@ _MOST_COUNTED = 3
 _APART, _FARTHEST = 0.5, 8.0
 """Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
 speak of two things at once that stand together."""
+_COMBINATIONS = 1728
+"""Combinations of more than two landmarks that are weighed: all of three beams of twelve."""
 _LANDMARKS = 8
 """Landmarks that are weighed where several are meant together."""
 
@@ -69,7 +71,7 @@ def modifier_factor(
         compared: (things,) those among which it ranks; None: all of a kind.
     """
     number, several = encoder.number, _counted_landmark(tree)
-    combos = list(itertools.product(*beams))
+    combos = list(itertools.product(*_fewer(beams)))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
     denied = NOT in tree.phrase.words
     if tree.phrase.words[0] in SAME_AS:
@@ -91,6 +93,12 @@ def modifier_factor(
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _fewer(beams: Sequence[Sequence[Hypothesis]]) -> list[Sequence[Hypothesis]]:
+    """The beams of several landmarks, cut so that combinations stay few: "between the bed and the desk and ..."."""
+    most = max(1, int(_COMBINATIONS ** (1.0 / max(1, len(beams))) + 1e-9))
+    return [beam[:most] if len(beams) > 2 else beam for beam in beams]
 
 
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:

@@ -12,11 +12,13 @@ from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,
+    LATERAL,
     ORDINALS,
     PLACE_WORDS,
     RANKING,
     READ_FROM,
     SIDED,
+    VERTICAL,
     WITHIN,
     is_superlative,
 )
@@ -182,7 +184,16 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     """
     whole = phrase.plural and phrase.count is None
     ranked = any(map(is_superlative, phrase.words)) or any(map(_ranks_from_somebody, described))
-    return [_within(c) if (whole or ranked) and _is_a_side(c) else c for c in described]
+    # "The left cube at the front", "the cube on the right in the back": the left one of those at the front.
+    lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
+    return [
+        _within(c) if _is_a_side(c) and (whole or ranked or (lateral and _side_of(c) in VERTICAL)) else c
+        for c in described
+    ]
+
+
+def _side_of(place: ParseTree) -> str | None:
+    return place.children[0].phrase.noun if place.children and not place.children[0].children else None
 
 
 def _ranks_from_somebody(place: ParseTree) -> bool:

@@ -39,6 +39,21 @@ def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
     return len(nouns) == 1 and len(colors) <= 1
 
 
+def one_of_those(tree: ParseTree) -> ParseTree:
+    """ "The left one of the two cubes" is a cube, also to a reading that leaves its name to what it is one of."""
+    phrase = tree.phrase
+    of = next((c for c in tree.children if c.phrase.words[:1] == ("of",) and len(c.children) == 1), None)
+    if phrase.kind is not PhraseKind.NOUN or phrase.noun is not None or phrase.plural or of is None:
+        return tree
+    those = of.children[0].phrase
+    if not those.plural or those.noun is None or those.words or not GROUP_WORDS.keys().isdisjoint({those.noun}):
+        return tree
+    several = () if those.count is None else (f"of {those.count}",)
+    words = tuple(dict.fromkeys((*phrase.words, *several)))
+    one = replace(phrase, noun=those.noun, color=phrase.color or those.color, words=words)
+    return ParseTree(one, (*(c for c in tree.children if c is not of), *of.children[0].children))
+
+
 def of_a_pair(tree: ParseTree) -> ParseTree:
     """ "The darker one of the pair of dots" is one of two that stand together."""
     phrase = tree.phrase

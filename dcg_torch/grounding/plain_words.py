@@ -7,7 +7,7 @@ import functools
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, together
+from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, one_of_those, together
 from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
@@ -36,6 +36,7 @@ from dcg_torch.names.vocabulary import (
     VERTICAL,
     VIEWERS,
     WORKSPACE,
+    is_superlative,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
@@ -60,7 +61,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(middle_of_set(of_a_pair(_sided(from_the_ground(tree)))))
+    tree = _farthest_to_a_side(middle_of_set(of_a_pair(one_of_those(_sided(from_the_ground(tree))))))
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -88,7 +89,23 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, _near_side(named))
+    if not any(map(is_superlative, words)):
+        children = _in_one_corner(children)
     return together(ParseTree(replace(phrase, words=words), children))
+
+
+def _in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
+    """ "On the right in the back" is near one corner."""
+    sides = [c for c in children if c.phrase.words[:1] and c.phrase.words[0] in _BESIDE and len(c.children) == 1]
+    bare = {c.children[0].phrase.noun: c for c in sides if not (c.children[0].children or c.children[0].phrase.words)}
+    lateral, vertical = ([side for side in bare if side in of] for of in (LATERAL, VERTICAL))
+    if len(lateral) != 1 or len(vertical) != 1:
+        return children
+    both = (bare[lateral[0]], bare[vertical[0]])
+    return (*(c for c in children if c not in both), _near_side((str(vertical[0]), str(lateral[0]))))
+
+
+_BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:

@@ -62,12 +62,12 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
 
 
 def speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
-    """Does the first noun phrase of a reading name nothing that is there, or but a room?
+    """Does the first noun of a reading name nothing that is there, or but a room?
 
     Args:
         types: the classes that are there, without opaque ones.
     """
-    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    noun = next((node.phrase.noun for node in tree.walk() if node.phrase.noun is not None), None)
     if noun is None or not types:
         return False
     return not names_one_of(noun, types) or is_only_a_room(noun, types)

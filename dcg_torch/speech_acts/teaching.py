@@ -31,6 +31,7 @@ class Teaching:
 class _Patterns:
     fillers: re.Pattern[str]
     pointing: frozenset[str]
+    denying: frozenset[str]
     same: tuple[re.Pattern[str], ...]
     naming: tuple[re.Pattern[str], ...]
 
@@ -41,6 +42,7 @@ def _patterns() -> _Patterns:
     return _Patterns(
         re.compile(rf"(?:(?:{'|'.join(data['fillers'])})\b[ ,.!]*)+"),
         frozenset(data["pointing"]),
+        frozenset(data["denying"]),
         *(tuple(re.compile(p) for p in data[kind]) for kind in ("same", "naming")),
     )
 
@@ -56,7 +58,10 @@ def read_teaching(text: str) -> Teaching | None:
             one, other = _noun(found["one"]), _noun(found["other"])
             return Teaching(other, same_as=one) if one and other else None
     for pattern in patterns.naming:
-        if (found := pattern.fullmatch(said)) is not None and (name := _noun(found["name"])) is not None:
+        found = pattern.fullmatch(said)
+        if found is not None and found["name"].split(" ")[0] in patterns.denying:
+            return None  # "this is not a lamp" tells no name
+        if found is not None and (name := _noun(found["name"])) is not None:
             subject = found["subject"]
             return Teaching(name, None if subject in patterns.pointing else subject)
     return None
