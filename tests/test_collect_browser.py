@@ -32,7 +32,8 @@ def written(page: Any) -> str:
     item = items_of([WORLD])[page.locator("input[name=item]").get_attribute("value")]
     text = f"Please go to the {item.object.replace('_', ' ')}"
     page.get_by_label("Write a command").fill(text)
-    page.get_by_role("button", name="Send").click()
+    with page.expect_navigation():  # else a reload may come while the next page does
+        page.get_by_role("button", name="Send").click()
     return text
 
 
