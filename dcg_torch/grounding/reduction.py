@@ -39,6 +39,8 @@ _FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
 _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
+_SHARING = 4
+"""Rows in which a weight fires, on average, from which on rows are fitted as they are written out."""
 _NEWTON_COLUMNS, _NEWTON_WORK = 400, 3e8
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
 
@@ -98,13 +100,14 @@ def reduce(
     entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
     few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
     if prefer == "newton" or (prefer == "auto" and few):
-        written = write_out(designs, weight, fixed, active, strength, times)
-        return _written(written, fixed, always=prefer == "newton")
+        found = _written(write_out(designs, weight, fixed, active, strength, times), fixed, always=prefer == "newton")
+        if found is not None:
+            return found
     return _factored(designs, weight, fixed, active, strength, times)
 
 
-def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced:
-    """Rows written out and made few by symmetry.
+def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None:
+    """Rows written out and made few by symmetry; None if neither Newton's method nor fitting them as they are pays.
 
     Args:
         always: Newton's method it is to be.
@@ -123,6 +126,8 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced:
     value = fires / root[incidence.column]
     found = split(incidence, value) if always or _may_pay(incidence) else None
     if found is None or not (always or _pays(found, len(start))):
+        if not _SHARING * len(root) <= len(incidence.column) <= _CROWDED * len(root):
+            return None
         rows = SparseRows.written(incidence, value)
         tied = alike.column, (1.0 / root)[alike.column]
         return Reduced(
