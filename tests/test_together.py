@@ -37,6 +37,14 @@ def test_only_candidates_are_together(seed: int, count: int, several: int) -> No
     assert (found == candidates).all()
 
 
+def test_what_stands_together_among_many_takes_no_square_of_them() -> None:
+    """Of twenty thousand things a table of all distances would have 9.6 GB."""
+    at = np.random.default_rng(0).uniform(0.0, 100.0, (20_000, 3))
+    at[7_000] = at[13_000] + 1e-6
+    found, _ = closest_together(at, np.ones(len(at), dtype=np.bool_), np.zeros(len(at)), 2)
+    assert set(np.flatnonzero(found)) == {7_000, 13_000}
+
+
 def scene(seed: int, kind: str) -> tuple[list[Percept], str, str]:
     """Six things far apart and a pair; the ids of its left and its right one."""
     rng = np.random.default_rng(seed)

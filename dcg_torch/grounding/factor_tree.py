@@ -184,7 +184,7 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     """
     whole = phrase.plural and phrase.count is None
     ranked = any(map(is_superlative, phrase.words)) or any(map(_ranks_from_somebody, described))
-    # "The left cube at the front", "the cube on the right in the back": the left one of those at the front.
+    # "The left cube at the front", "the cube on your right in the back": the left one of those at the front.
     lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
     return [
         _within(c) if _is_a_side(c) and (whole or ranked or (lateral and _side_of(c) in VERTICAL)) else c

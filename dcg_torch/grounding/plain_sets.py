@@ -27,11 +27,16 @@ def middle_of_set(tree: ParseTree) -> ParseTree:
         number = counted(landmark.words) or landmark.count
         if others or number == 2 or phrase.plural:
             continue
-        few = () if number is None else (f"of {number}",)
-        words = tuple(dict.fromkeys((*phrase.words, "middle", *few)))
-        one = replace(phrase, noun=phrase.noun or landmark.noun, color=phrase.color or landmark.color, words=words)
+        one = _one_of(phrase, landmark, number, "middle")
         return ParseTree(one, (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :]))
     return tree
+
+
+def _one_of(phrase: Phrase, several: Phrase, number: int | None, *more: str) -> Phrase:
+    """A phrase of one that also says what those are called that it is one of, how many they are, and more words."""
+    few = () if number is None else (f"of {number}",)
+    words = tuple(dict.fromkeys((*phrase.words, *more, *few)))
+    return replace(phrase, noun=phrase.noun or several.noun, color=phrase.color or several.color, words=words)
 
 
 def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
@@ -48,9 +53,7 @@ def one_of_those(tree: ParseTree) -> ParseTree:
     those = of.children[0].phrase
     if not those.plural or those.noun is None or those.words or not GROUP_WORDS.keys().isdisjoint({those.noun}):
         return tree
-    several = () if those.count is None else (f"of {those.count}",)
-    words = tuple(dict.fromkeys((*phrase.words, *several)))
-    one = replace(phrase, noun=those.noun, color=phrase.color or those.color, words=words)
+    one = _one_of(phrase, those, those.count)
     return ParseTree(one, (*(c for c in tree.children if c is not of), *of.children[0].children))
 
 
@@ -61,8 +64,7 @@ def of_a_pair(tree: ParseTree) -> ParseTree:
     of = next((c.children[0] for c in places if _PAIR in c.children[0].phrase.words), None)
     if phrase.kind is not PhraseKind.NOUN or of is None or phrase.plural:
         return tree
-    words = tuple(dict.fromkeys((*phrase.words, *of.phrase.words, "of 2")))
-    one = replace(phrase, noun=phrase.noun or of.phrase.noun, color=phrase.color or of.phrase.color, words=words)
+    one = _one_of(phrase, of.phrase, 2, *of.phrase.words)
     kept = tuple(c for c in tree.children if c.children[:1] != (of,) and c not in of.children)
     return ParseTree(one, (*kept, *of.children))
 

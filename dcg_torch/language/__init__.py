@@ -21,7 +21,7 @@ How a noun phrase is written down, beside its noun, colour and number:
 
     a group             "the row of five cubes" is the noun cube, plural, with the words "row" and "of 5" and no count;
                         "(the last one) in the row" has the landmark "row"
-    a pick              "the bigger of the two cubes" is the noun cube with the word "bigger" and count 1
+    a pick              "the bigger of the two cubes" is the noun cube with the words "bigger" and "of 2" and count 1
     a denial            "not" is part of what it denies: the word "not red", "not held"; the preposition "not on".
                         "with no cone on it" is the preposition "without", "with nothing on top of it" the word
                         "nothing on". What is ruled out is a denial of what it says more: "but not the red one" is
