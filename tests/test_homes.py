@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
 import pytest
 
 from dcg_torch import GroundingModel, Percept, Pose, pretrained
+from dcg_torch.scene.rooms import in_room
 from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import Object
 
 Thing = tuple[str, str, tuple[float, float, float], tuple[float, float, float]]
 FLAT = [  # a bedroom, a bathroom and a kitchen side by side
@@ -126,3 +129,17 @@ def test_a_room_that_is_given_is_a_place_as_one_that_is_guessed(
     ]
     world = model.world_model(things, Pose(0.0, 0.0), looked=True)
     assert [o.id for o in model.ground(text, world).objects] == [f"lamp {meant}"]
+
+
+def test_rooms_among_many_things_are_those_among_few(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Distances are worked out a part at a time; where the parts end changes nothing."""
+    rng = np.random.default_rng(0)
+    kinds = ("bed", "stove", "toilet", "lamp", "chair")
+    things = [
+        Object(f"o{k}", kinds[k % 5], True, position=(float(rng.uniform(0, 9)), float(rng.uniform(0, 9)), 0.0))
+        for k in range(57)
+    ]
+    whole = in_room(things, "kitchen")
+    monkeypatch.setattr("dcg_torch.scene.rooms._AT_ONCE", 100)
+    assert in_room(things, "kitchen") == pytest.approx(whole, abs=1e-12)
+    assert len(whole) == len(things)

@@ -13,6 +13,8 @@ _REACH = 1.6
 """Metres within which a thing tells its room: a bed tells of the nightstand, and less of what is at the other wall."""
 _NOTHING = 0.05
 """What tells of no room: far from all that tells of one nothing is known."""
+_AT_ONCE = 500_000
+"""Distances that are worked out at once: among thousands of things there are many millions."""
 
 
 def in_room(things: Sequence[Object], room: str) -> dict[str, float]:
@@ -28,9 +30,12 @@ def in_room(things: Sequence[Object], room: str) -> dict[str, float]:
         return {}
     where = np.array([(o.position or ())[:2] for o in placed])
     seen = np.array([(o.position or ())[:2] for o, _, _ in telling])
-    squared = ((where[:, None] - seen[None]) ** 2).sum(axis=2)
     # What is found in many rooms tells much less than what is found in one.
-    near = np.exp(-squared / (2.0 * _REACH**2)) * np.array([weight for _, _, weight in telling]) ** 3
+    told = np.array([weight for _, _, weight in telling]) ** 3
     own = np.array([name == room for _, name, _ in telling])
-    share = near[:, own].sum(axis=1) / (near.sum(axis=1) + _NOTHING)
-    return dict(zip([o.id for o in placed], share.tolist(), strict=True))
+    share: list[float] = []
+    for part in np.array_split(where, max(1, len(where) * len(seen) // _AT_ONCE)):
+        squared = ((part[:, None] - seen[None]) ** 2).sum(axis=2)
+        near = np.exp(-squared / (2.0 * _REACH**2)) * told
+        share += (near[:, own].sum(axis=1) / (near.sum(axis=1) + _NOTHING)).tolist()
+    return dict(zip([o.id for o in placed], share, strict=True))
