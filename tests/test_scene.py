@@ -113,7 +113,8 @@ def test_ranks_count_as_far_as_the_phrase_does() -> None:
     assert [j for j, names in enumerate(fourth) if "left nth" in names] == [3]
     assert [j for j, names in enumerate(fourth) if "right nth" in names] == [1]
     two = ranked(world, count=2)
-    assert [j for j, names in enumerate(two) if "right first" in names] == [3, 4]
+    assert [j for j, names in enumerate(two) if "right 1" in names] == [3, 4]
+    assert [j for j, names in enumerate(two) if "right 2" in names] == [2]
 
 
 def test_big_and_tall_are_measured() -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
+from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
@@ -20,7 +21,7 @@ from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shades_among, so_many
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import GROUP_WORDS, RANKING, SIDED, TOGETHER, WITHIN, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -146,22 +147,6 @@ def _counted_landmark(tree: ParseTree) -> int:
     return count if count is not None and 2 <= count <= _MOST_COUNTED else 0
 
 
-def ranks_from(tree: ParseTree) -> bool:
-    """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
-    name = tree.phrase.words[0]
-    return name in RANKING or name.partition(" ")[2] in RANKING
-
-
-def picks_a_side(tree: ParseTree) -> bool:
-    """Is it a modifier that picks by a side: "(of the two cubes) the one on the left"?"""
-    return tree.phrase.words[0] != WITHIN and len(tree.children) == 1 and tree.children[0].phrase.noun in SIDED
-
-
-def is_to_a_place(tree: ParseTree) -> bool:
-    """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
-    return "to a thing" not in tree.phrase.context
-
-
 @dataclass(frozen=True)
 class Comparison:
     """What a noun phrase picks from.
@@ -205,6 +190,7 @@ def comparison_set(
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     again = of_contradictions(told, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
+    denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
     among = so_many(several, own if close else fit, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
@@ -245,6 +231,13 @@ def _sized(
             log_size = log_size - _SIZED * (1.0 - off) ** 2
             out = np.where(off < _OFF, -_BEHIND - 1.0, out)
     return phrase, log_size, out
+
+
+def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what takes things out of those that are compared that a word such as "not red" rules out."""
+    if not any(word.startswith(f"{NOT} ") for word in phrase.words):
+        return np.zeros(len(encoder.all))
+    return np.array([-_BEHIND - 1.0 if is_ruled_out(phrase.words, o, named=True) else 0.0 for o in encoder.all])
 
 
 def _denied_sizes(words: Sequence[str]) -> list[int]:

@@ -184,11 +184,12 @@ class WorldEncoder:
         return self.unranked(phrase).beside(Coded(ranks, None) if few else Coded(*distinct_rows(ranks)))
 
     def relations(
-        self, landmarks: Sequence[tuple[int, ...]], among: str, members: NDArray[np.bool_] | None = None
+        self, landmarks: Sequence[tuple[int, ...]], counted: Ranking, members: NDArray[np.bool_] | None = None
     ) -> list[NDArray[np.int16]]:
         """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
-        if members is not None:
-            return list(scene.relations(self.layout, landmarks, among, members, self._standing))
+        among, ordinal, count = counted.among, counted.ordinal, counted.count
+        if members is not None or ordinal is not None or count is not None:
+            return list(scene.relations(self.layout, landmarks, among, members, self._standing, ordinal, count))
         new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
         step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
         for start in range(0, len(new), max(1, step)):
@@ -211,7 +212,7 @@ class WorldEncoder:
         counted = counted or Ranking("all")
         if not self.related:
             return np.full((len(landmarks), len(self.all), 1), self.features.placed_column)
-        return self.features.relation_columns(np.stack(self.relations(landmarks, counted.among, members)), counted)
+        return self.features.relation_columns(np.stack(self.relations(landmarks, counted, members)))
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of the factors of an example in this world."""

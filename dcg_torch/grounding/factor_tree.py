@@ -13,6 +13,7 @@ from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,
     LATERAL,
+    NTH,
     ORDINALS,
     PLACE_WORDS,
     RANKING,
@@ -22,6 +23,7 @@ from dcg_torch.names.vocabulary import (
     WITHIN,
     is_superlative,
 )
+from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -169,12 +171,20 @@ def _apart(tree: ParseTree) -> list[ParseTree]:
 def _counted_from(phrase: Phrase, described: list[ParseTree]) -> tuple[Phrase, list[ParseTree]]:
     """An ordinal that counts from a landmark is told to what names it: "second" of "second closest to the sphere"."""
     at = next((k for k, c in enumerate(described) if c.phrase.words[0] in RANKING), None)
-    if at is None or len(phrase.words) != 1 or phrase.words[0] not in ORDINALS:
+    ordinals = [word for word in phrase.words if word in ORDINALS]
+    ranked = any(is_superlative(word) or word.startswith("from ") for word in phrase.words)
+    if at is None or len(ordinals) != 1 or ranked:
         return phrase, described
-    below = described[at]
-    counted = replace(below.phrase, words=(f"{phrase.words[0]} {below.phrase.words[0]}", *below.phrase.words[1:]))
-    changed = [*described[:at], replace(below, phrase=counted), *described[at + 1 :]]
-    return replace(phrase, words=()), changed
+    below, number = described[at], ORDINALS[ordinals[0]]
+    said = ordinals[0] if number <= NEAREST else _LAST_NUMBERED
+    beyond = (f"{NTH}{number}",) if number > NEAREST else ()
+    words = (f"{said} {below.phrase.words[0]}", *below.phrase.words[1:], *beyond)
+    changed = [*described[:at], replace(below, phrase=replace(below.phrase, words=words)), *described[at + 1 :]]
+    return replace(phrase, words=tuple(word for word in phrase.words if word not in ordinals)), changed
+
+
+_LAST_NUMBERED = next(word for word, number in ORDINALS.items() if number == NEAREST)
+"""Places from a landmark beyond it have no weights of their own, and are counted in its place."""
 
 
 def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]:

@@ -45,13 +45,15 @@ def _may_be_one_of(phrase: Phrase, several: Phrase) -> bool:
 
 
 def one_of_those(tree: ParseTree) -> ParseTree:
-    """ "The left one of the two cubes" is a cube, also to a reading that leaves its name to what it is one of."""
+    """ "The left one of the two cubes" is a cube, also where its name is left to what it is one of, or said twice."""
     phrase = tree.phrase
     of = next((c for c in tree.children if c.phrase.words[:1] == ("of",) and len(c.children) == 1), None)
-    if phrase.kind is not PhraseKind.NOUN or phrase.noun is not None or phrase.plural or of is None:
+    if phrase.kind is not PhraseKind.NOUN or phrase.plural or of is None:
         return tree
     those = of.children[0].phrase
-    if not those.plural or those.noun is None or those.words or not GROUP_WORDS.keys().isdisjoint({those.noun}):
+    if not those.plural or those.words or not GROUP_WORDS.keys().isdisjoint({those.noun}):
+        return tree
+    if those.noun is None or not _may_be_one_of(phrase, those):
         return tree
     one = _one_of(phrase, those, those.count)
     return ParseTree(one, (*(c for c in tree.children if c is not of), *of.children[0].children))

@@ -61,7 +61,9 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _farthest_to_a_side(middle_of_set(of_a_pair(one_of_those(_sided(from_the_ground(tree))))))
+    tree = _counted_from_a_side(
+        _farthest_to_a_side(middle_of_set(of_a_pair(one_of_those(_sided(from_the_ground(tree))))))
+    )
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -130,6 +132,24 @@ def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
     word = f"from the {side}" if not ORDINALS.keys().isdisjoint(phrase.words) else f"{side}most"
     kept = tuple(c for c in tree.children if c.children != (sides[0],))
     return ParseTree(replace(phrase, words=(*phrase.words, word)), kept)
+
+
+def _counted_from_a_side(tree: ParseTree) -> ParseTree:
+    """ "From the left, the third cube", "the second cube to the left": the third and the second from the left."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN or not (ORDINALS.keys() | {"last"}) & {*phrase.words}:
+        return tree
+    if any(is_superlative(word) or word.startswith("from ") for word in phrase.words):
+        return tree
+    for k, place in enumerate(tree.children):
+        side = place.children[0] if len(place.children) == 1 else tree
+        beside = place.phrase.words[:1] == ("from",) or place.phrase.text.split()[:1] == ["to"]
+        if beside and side.phrase.noun in SIDED and not (side.children or {*side.phrase.words} - {"your", "my"}):
+            word = f"from the {side.phrase.noun}"
+            return ParseTree(
+                replace(phrase, words=(*phrase.words, word)), (*tree.children[:k], *tree.children[k + 1 :])
+            )
+    return tree
 
 
 def _sided(tree: ParseTree) -> ParseTree:

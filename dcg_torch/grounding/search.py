@@ -11,18 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
-from dcg_torch.grounding.describing import (
-    comparison_set,
-    is_narrowed,
-    is_to_a_place,
-    modifier_factor,
-    of_attributes,
-    picks_a_side,
-    ranks,
-    ranks_from,
-)
+from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
+from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Key, Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
@@ -184,7 +176,7 @@ class Search:
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         several = counted(tree.phrase.words) is not None
         others = {id(c): self._modifier(c) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
-        parts = [others[id(c)] for c in own if id(c) in others and is_to_a_place(c)]
+        parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c) or is_in_a_group(c))]
         some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]

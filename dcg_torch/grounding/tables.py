@@ -107,17 +107,15 @@ class Tables:
             return table.reshape(len(table), len(landmarks), n)
         side = self._side(phrase)
         own = side[:, self.features.relation_of]
-        few = self.features.few_of(counted)
         first = list(dict.fromkeys([of[0] for of in landmarks]))
         out = np.empty((len(side), len(first), n))
         step = max(1, _ENTRIES // (n * 16))
         for start in range(0, len(first), step):
             part = [(j,) for j in first[start : start + step]]
-            relations = encoder.relations(part, counted.among, members)
+            relations = encoder.relations(part, counted, members)
             flat = np.concatenate([one.T for one in relations], axis=1, dtype=np.int64)  # (families, part * n)
             total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
-            for table in (own,) if few is None else (own, side[:, few]):
-                _add(total, table, flat)
+            _add(total, own, flat)
             out[:, start : start + step] = total.reshape(len(side), -1, n)
         if any(len(of) > 1 for of in landmarks):
             out = out[:, [first.index(of[0]) for of in landmarks]]

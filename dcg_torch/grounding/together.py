@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features.said import look_scores
+from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.grounding.solution import ModifierFactor
 from dcg_torch.names.vocabulary import LATERAL, WITHIN
 from dcg_torch.scene.order import highest
@@ -50,11 +51,15 @@ def so_many(
     if several > there.sum():
         return None
     found = np.zeros(len(fit), dtype=np.bool_)
-    sided = None if close else _along_a_side(fit, modifiers, encoder)
-    values = np.where(there, (own if sided is None else sided)[:objects], -np.inf)
-    first = highest(values, several + 1)
-    last = float(values[first[several - 1]])
-    tied = len(first) > several and last - values[first[several]] < _ALIKE
+    ranking = np.sum([m.log_psi for m in modifiers if ranks_from(m.tree)], axis=0)
+    sided = None if close else _along_a_side(fit - ranking, modifiers, encoder)
+    for described in (own - ranking if sided is None and not close else sided, own):
+        values = np.where(there, (own if described is None else described)[:objects], -np.inf)
+        first = highest(values, several + 1)
+        last = float(values[first[several - 1]])
+        tied = len(first) > several and last - values[first[several]] < _ALIKE
+        if not tied or close or sided is not None:
+            break  # "closest to the lamp" picks one of so many; where there are more, it says which so many
     if sided is not None or not (close or tied):
         found[first[:several]] = True
         return found, np.zeros(len(fit))

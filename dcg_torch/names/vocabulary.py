@@ -94,6 +94,8 @@ ORDINALS = {
     **{"first": 1, "second": 2, "third": 3, "fourth": 4, "fifth": 5},
     **{"sixth": 6, "seventh": 7, "eighth": 8, "ninth": 9, "tenth": 10},
 }
+NTH = "nth "
+"""Begins the word that says to which number a modifier counts, beyond those that have weights: "fifth closest to"."""
 TOGETHER = "together "
 """Begins the word that says how many of a kind stand together, and are meant or picked from: "together 2"."""
 MUTUAL = frozenset({"next to", "touching", "near", "close to", "beside"})

@@ -121,6 +121,11 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
     return out
 
 
+def counted(before: Ints, count: int | None) -> Ints:
+    """Places where the first so many are meant together: each of "the two on the left" is as good as the first."""
+    return before if count is None or count < 2 else np.maximum(before - (count - 1), 0)
+
+
 def _lowest(values: Floats, alike: Alike, most: int) -> Iterator[Floats]:
     """(r, classes + 1) the lowest value of each class, then the next ...; the last column is of what has no class."""
     sizes = [len(members) for members in alike.members]

@@ -10,7 +10,7 @@ from dcg_torch.names.vocabulary import MIDDLE_LINE, WORKED_OUT
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
 from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
-from dcg_torch.scene.order import TIE, Alike, signatures
+from dcg_torch.scene.order import TIE, Alike, counted, signatures
 from dcg_torch.scene.order import before as lower
 
 AXES = (
@@ -28,8 +28,8 @@ STATES = [
 features as they are met."""
 
 _NUMBERED = [str(k) for k in range(1, NEAREST + 1)]
-RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth", "first")]
-"""By number, and by what the phrase asks for: the nth of a row, one of the first few."""
+RANKS = [f"rank: {axis} {k}" for axis in AXES for k in (*_NUMBERED, "nth")]
+"""By number, and by what the phrase asks for: the nth of a row."""
 
 
 def states(where: Layout) -> list[list[str]]:
@@ -86,7 +86,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     Args:
         members: (n,) the things compared, objects and groups each with their like; None: all.
         ordinal: what the phrase counts to: 2 for "the second cone".
-        count: how many the phrase means: 2 for "the two cones on the right".
+        count: how many the phrase means: 2 for "the two cones on the right", which are the first of them together.
 
     Returns:
         (n, k) bag of indices into `RANKS`, padded with -1.
@@ -97,14 +97,12 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
     values[AXES.index("medium")] = _from_mean_size(values[AXES.index("small")], alike)
-    before = lower(values, alike, max(NEAREST, ordinal or 0, count or 0))
+    before = lower(values, alike, max(NEAREST + (count or 1) - 1, ordinal or 0))
     there = np.isfinite(values) & (code >= 0)
-    first = np.arange(len(AXES))[:, None] * (NEAREST + 2)
-    out = [np.where(there & (before < NEAREST), first + before, -1)]
+    first, place = np.arange(len(AXES))[:, None] * (NEAREST + 1), counted(before, count)
+    out = [np.where(there & (place < NEAREST), first + place, -1)]
     if ordinal is not None:
-        out.append(np.where(there & (before == ordinal - 1), first + NEAREST, -1))
-    if count is not None and count > 1:
-        out.append(np.where(there & (before < count), first + NEAREST + 1, -1))
+        out.append(np.where(there & (place == ordinal - 1), first + NEAREST, -1))
     bag: Ints = np.concatenate(out).T
     return bag
 

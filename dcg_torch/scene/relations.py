@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
-from dcg_torch.scene.order import TIE, Alike
+from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
@@ -63,6 +63,8 @@ def relations(
     among: str,
     members: Bools | None = None,
     known: dict[int, Standing] | None = None,
+    ordinal: int | None = None,
+    count: int | None = None,
 ) -> NDArray[np.int16]:
     """The relation features of every thing to every tuple of landmarks.
 
@@ -71,6 +73,8 @@ def relations(
         among: which of `SETS` "the closest" is one of.
         members: (n,) the things that it is one of, instead of such a set.
         known: what was found of this layout before; more is added.
+        ordinal: the place that is asked for, beyond those that are told apart: it stands for the last of them.
+        count: how many are meant, the first of them together: "the two closest to the cone".
 
     Returns:
         (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
@@ -81,7 +85,7 @@ def relations(
         known.update(zip(new, _standing(where, np.array(new)), strict=True))
     alike = where.alike(among) if members is None else Alike.by(np.where(members & ~where.place, 0, -1))
     found, distance, may = (np.array(part) for part in zip(*(known[j] for j in first), strict=True))
-    found[:, _COMPARED] = _orders(where, np.array(first), distance, may, alike)
+    found[:, _COMPARED] = _orders(where, np.array(first), distance, may, alike, ordinal, count)
     if any(len(of) > 1 for of in landmarks):
         found[:, _BETWEEN] = between(where, landmarks)
     out: NDArray[np.int16] = found.transpose(0, 2, 1)
@@ -184,7 +188,15 @@ def _sector(angle: Floats, kept: Bools) -> Ints:
     return np.rint(np.where(kept, angle, 0.0) / (math.pi / 4)).astype(np.int64) & 7
 
 
-def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: Alike) -> Ints:
+def _orders(
+    where: Layout,
+    first: Ints,
+    distance: Floats,
+    exists: Bools,
+    alike: Alike,
+    ordinal: int | None = None,
+    count: int | None = None,
+) -> Ints:
     """(c, 2, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
     value = distance
     if where.direction[first].any():
@@ -193,7 +205,10 @@ def _orders(where: Layout, first: Ints, distance: Floats, exists: Bools, alike: 
         ahead = -(offset * heading[:, None, :]).sum(axis=2)
         value = np.where(where.direction[first][:, None], ahead, distance)
     signed = np.where(exists, np.array([value, -value]), math.inf)
-    before = lower(signed.reshape(-1, value.shape[1]), alike, NEAREST).reshape(signed.shape)
+    most = max(NEAREST + (count or 1) - 1, ordinal or 0)
+    before = counted(lower(signed.reshape(-1, value.shape[1]), alike, most).reshape(signed.shape), count)
+    if ordinal is not None and ordinal > NEAREST:
+        before = np.where(before == ordinal - 1, NEAREST - 1, np.where(before == NEAREST - 1, NEAREST, before))
     compared = exists & (alike.code >= 0) & (before < NEAREST)
     out: Ints = np.where(compared, before + _STARTS[_COMPARED], -1).transpose(1, 0, 2)
     return out

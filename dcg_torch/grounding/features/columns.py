@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from dcg_torch import scene
 from dcg_torch.grounding.features.names import (
-    FEW,
     PAIRS,
     Feature,
     Group,
@@ -258,30 +257,15 @@ class FeatureSet:
         number = self.grounding.get
         return sorted({column for name in names if (column := number(name)) is not None})
 
-    def relation_columns(self, found: NDArray[np.int16], ranking: Ranking) -> NDArray[np.int64]:
-        """(..., k) grounding columns of a modifier's groundings, by relations (..., families) of `scene.relations`.
-
-        Args:
-            ranking: what the phrase counts that the modifier describes.
-        """
+    def relation_columns(self, found: NDArray[np.int16]) -> NDArray[np.int64]:
+        """(..., k) grounding columns of a modifier's groundings, by relations (..., families) of `scene.relations`."""
         columns = [np.full((*found.shape[:-1], 1), self.placed_column), self.relation_of[found]]
-        if (of_few := self.few_of(ranking)) is not None:
-            columns.append(of_few[found])
         return np.concatenate(columns, axis=-1)
 
     @property
     def placed_column(self) -> int:
         """Of every grounding of a modifier."""
         return self.grounding[f"kind: {GroundingKind.PLACED}"]
-
-    def few_of(self, ranking: Ranking) -> NDArray[np.int64] | None:
-        """Index into `scene.RELATION_NAMES` -> column of "one of the first few", -1 for none; a last entry for -1.
-
-        None where the phrase counts no more than one.
-        """
-        if ranking.count is None or ranking.count < 2:
-            return None
-        return np.where(self._rank_of < ranking.count, self._few, -1)
 
     @cached_property
     def _ranks(self) -> NDArray[np.int64]:
@@ -292,17 +276,6 @@ class FeatureSet:
     def relation_of(self) -> NDArray[np.int64]:
         """Index into `scene.RELATION_NAMES` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RELATION_NAMES), -1])
-
-    @cached_property
-    def _few(self) -> NDArray[np.int64]:
-        """Index into `scene.RELATION_NAMES` -> column of the "few" of its family, -1 for most families."""
-        found = [self.grounding.get(FEW.get(f, ""), -1) for f, names in scene.RELATIONS.items() for _ in names]
-        return np.array([*found, -1])
-
-    @cached_property
-    def _rank_of(self) -> NDArray[np.int64]:
-        """Index into `scene.RELATION_NAMES` -> the number of the value in its family."""
-        return np.array([*(k for names in scene.RELATIONS.values() for k in range(len(names))), 0])
 
 
 def _families(names: Iterable[str]) -> tuple[list[str], list[int]]:

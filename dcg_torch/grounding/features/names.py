@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from dcg_torch import scene
 from dcg_torch.grounding.features.said import said_features
 from dcg_torch.names.attributes import OF_KEY
-from dcg_torch.names.vocabulary import GROUP_WORDS, ORDINALS, TOGETHER, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, NTH, ORDINALS, TOGETHER, counted
 from dcg_torch.types import (
     LOOKED_ROUND,
     NOT,
@@ -51,9 +51,6 @@ PAIRS: dict[str, frozenset[str]] = {
     "look stated": frozenset({"said look"}),
 }
 
-FEW = {family: f"relation: {family} few" for family in ("closest", "farthest")}
-"""Family of ranks by distance -> the name of the feature of the first few, as many as the phrase counts."""
-
 PAPER = frozenset({Group.DCG, Group.UNKNOWN, Group.HYPOTHETICAL, Group.COLOR})
 """The feature groups of the paper's fullest model, DCG-UPUP-Away with colour."""
 
@@ -83,7 +80,7 @@ def fixed_groundings() -> Iterator[Feature]:
     yield Group.UNKNOWN, "known: no"
     yield Group.COLOR, "color: unknown"
     yield Group.HYPOTHETICAL, "hypothetical: yes"
-    for name in (*scene.RELATION_NAMES, *FEW.values(), *scene.STATES, *scene.RANKS):
+    for name in (*scene.RELATION_NAMES, *scene.STATES, *scene.RANKS):
         yield Group.RELATION, name
     for name in said_features():
         yield Group.NAMES, name
@@ -120,7 +117,7 @@ def ranking(phrase: Phrase) -> Ranking | None:
     """What a noun phrase or a modifier counts; None for a noun phrase without a word that could mean a rank."""
     if phrase.kind is PhraseKind.NOUN and all(OF_KEY in word for word in phrase.words):
         return None
-    ordinal = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
+    ordinal = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None) or counted(phrase.words, NTH)
     return Ranking(phrase.among or "all", ordinal, phrase.count)
 
 
@@ -131,7 +128,7 @@ def scene_features(phrase: Phrase) -> Iterator[Feature]:
     of = "word" if phrase.kind is PhraseKind.NOUN else str(phrase.kind)
     if phrase.kind in (PhraseKind.NOUN, PhraseKind.MODIFIER):
         for word in phrase.words:
-            if word != NOT and OF_KEY not in word and not word.startswith(TOGETHER):
+            if word != NOT and OF_KEY not in word and not word.startswith((TOGETHER, NTH)):
                 yield Group.RELATION, f"{of}: {word}, scene {phrase.scene}"
 
 
@@ -153,7 +150,7 @@ def word_features(phrase: Phrase) -> Iterator[Feature]:
     words = [word for word in words if OF_KEY not in word]  # each by itself says nothing of others like it
     if is_noun and picked_from(phrase) is not None:
         words = [word for word in words if not word.startswith("of ")]
-    words = [word for word in words if not word.startswith(TOGETHER)]  # which these are, is measured
+    words = [word for word in words if not word.startswith((TOGETHER, NTH))]  # which these are, is measured
     for word in words:
         yield (Group.RELATION, f"word: {word}") if is_noun else (Group.DCG, f"{phrase.kind}: {word}")
     if is_noun and len(words) > 1:

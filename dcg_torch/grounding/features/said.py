@@ -99,17 +99,21 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
-    if any(_denies(word, thing, look < 0) for word in said.words):
+    if is_ruled_out(said.words, thing, look < 0):
         found = list(dict.fromkeys([*found, "attribute: contrary"]))
     return [f"said {name}" for name in found]
 
 
-def _denies(word: str, thing: Object, named: bool) -> bool:
+def is_ruled_out(words: Sequence[str], thing: Object, named: bool) -> bool:
     """Does a word such as "not red" or "not cube" rule a thing out?
 
     Args:
         named: are colours to be judged by their names?
     """
+    return any(_denies(word, thing, named) for word in words)
+
+
+def _denies(word: str, thing: Object, named: bool) -> bool:
     denied = word.removeprefix(f"{NOT} ")
     if denied == word:
         return False

@@ -1,0 +1,28 @@
+"""What a modifier does to a noun phrase, by its tree: it ranks from a landmark, picks a side, or names a place."""
+
+from __future__ import annotations
+
+from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.names.vocabulary import INSIDE, RANKING, SIDED, WITHIN
+from dcg_torch.types import ParseTree
+
+
+def ranks_from(tree: ParseTree) -> bool:
+    """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
+    name = tree.phrase.words[0]
+    return name in RANKING or name.partition(" ")[2] in RANKING
+
+
+def picks_a_side(tree: ParseTree) -> bool:
+    """Is it a modifier that picks by a side: "(of the two cubes) the one on the left"?"""
+    return tree.phrase.words[0] != WITHIN and len(tree.children) == 1 and tree.children[0].phrase.noun in SIDED
+
+
+def is_in_a_group(tree: ParseTree) -> bool:
+    """Does a modifier say of which group a thing is one: "in the row"?"""
+    return tree.phrase.words[0] in INSIDE and len(tree.children) == 1 and in_group(tree.children[0].phrase)
+
+
+def is_to_a_place(tree: ParseTree) -> bool:
+    """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
+    return "to a thing" not in tree.phrase.context
