@@ -192,10 +192,13 @@ def comparison_set(
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
-    among = so_many(several, own if close else fit, fit, modifiers, encoder, bool(close)) if several else None
+    of_color = own >= own.max() - _NEAR if phrase.color is not None else np.isfinite(own)
+    counts = np.where(of_color, own if close else fit, -np.inf)
+    among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
         log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
+    log_size = log_size + _of_so_many(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
     described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
     if phrase.color is not None:
@@ -231,6 +234,14 @@ def _sized(
             log_size = log_size - _SIZED * (1.0 - off) ** 2
             out = np.where(off < _OFF, -_BEHIND - 1.0, out)
     return phrase, log_size, out
+
+
+def _of_so_many(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what groups of another number lose to "the stack of three", where there is a group of three."""
+    number, counts = counted(phrase.words), np.array([len(o.members) for o in encoder.all])
+    if number is None or not in_group(phrase) or number not in counts:
+        return np.zeros(len(counts))
+    return np.where((counts > 0) & (counts != number), -_SIZED, 0.0)
 
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
