@@ -166,7 +166,7 @@ LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": 
 LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "in line with": "next to"}
 """Prepositions, and those that say much the same: what is known of these holds for them too, until they are learned."""
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
-PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
+PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom of": "bottom"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""
 
 
