@@ -35,7 +35,7 @@ from dcg_torch.names.vocabulary import (
     WORKSPACE,
     is_superlative,
 )
-from dcg_torch.types import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 NEAREST = "closest to"
 
@@ -155,9 +155,10 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    if name in ("with", "without") and len(landmark.children) == 1 and _on_it(landmark.children[0]):
-        bearing = replace(tree.phrase, words=("under" if name == "with" else "not under", *tree.phrase.words[1:]))
-        return ParseTree(bearing, (replace(landmark, children=()),))
+    seen_from_it = _seen_from_it(landmark.children[0]) if len(landmark.children) == 1 else None
+    if name in ("with", "without") and seen_from_it is not None:
+        words = (seen_from_it if name == "with" else f"{NOT} {seen_from_it}", *tree.phrase.words[1:])
+        return ParseTree(replace(tree.phrase, words=words), (replace(landmark, children=()),))
     line = line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
         words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
@@ -170,10 +171,21 @@ def _sided(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
 
 
-def _on_it(place: ParseTree) -> bool:
-    """The "on it" of "the nightstand with the lamp on it"."""
-    below = place.children[0].phrase if len(place.children) == 1 else None
-    return place.phrase.words[0] in ("on", "on top of") and below is not None and below.text in ("it", "them")
+def _seen_from_it(place: ParseTree) -> str | None:
+    """How a thing stands to what stands so to it: "the mug with a lamp behind it" is in front of the lamp."""
+    below = place.children[0].phrase if len(place.children) == 1 and place.phrase.words else None
+    if below is None:
+        return None
+    if below.text.startswith("its ") and below.noun in LATERAL:
+        return _SEEN_FROM_IT[f"{below.noun} of"]
+    return _SEEN_FROM_IT.get(place.phrase.words[0]) if below.text in ("it", "them") else None
+
+
+_SEEN_FROM_IT = {
+    **{"on": "under", "on top of": "under", "above": "under", "under": "above"},
+    **{"behind": "in front of", "in front of": "behind", "left of": "right of", "right of": "left of"},
+    **{relation: relation for relation in ("next to", "beside", "near", "touching")},
+}
 
 
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
