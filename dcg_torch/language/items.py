@@ -42,9 +42,16 @@ class Item:
     finite: bool = False  # a verb's -s form
     determined: bool = False  # has an article
     negative: bool = False  # "no cube"
-    beside: bool = False  # "and" or a comma joins it to the noun phrase before
+    beside: bool = False  # "and" or a comma joins it to what stands before
     said: bool = False  # an adverb or participle that is said of a noun phrase
+    forced: bool = False  # a preposition that can only tell a noun phrase apart, as behind a relative pronoun
+    before: list[Item] = field(default_factory=list)  # the noun phrases that stand before a preposition
     children: list[Item] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """The first word: of a verb its base form, of a preposition its normal form."""
+        return self.words[0] if self.words else ""
 
     def walk(self) -> Iterator[Item]:
         """The item and all below it."""

@@ -7,11 +7,10 @@ from collections.abc import Sequence
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
-from dcg_torch.language.noun_phrases import NounPhrase
+from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
 from dcg_torch.language.tagging import Reader, Token
 
 _SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
-NOMINAL = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE", "ONE"})
 _VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
 
 
@@ -104,7 +103,7 @@ class _Phrases(Reader):
         if phrase.is_measure:
             return phrase.at
         if phrase.named:
-            self.out.append(phrase.item())
+            self.out.append(phrase.item)
             self.first = False
             return phrase.at
         self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.text(i),))

@@ -65,7 +65,7 @@ def deny(noun: Item, other: Item) -> None:
         elif word and word not in (noun.color, *noun.words):
             noun.words += (f"not {word}",)
     for place in other.children:
-        place.words = (f"not {place.words[0]}",)
+        place.words = (f"not {place.name}",)
         noun.children.append(place)
 
 
@@ -96,7 +96,7 @@ def _settle_nothing(noun: Item, without: Item, thing: Item) -> None:
     if thing.noun in SETS["unnamed_things"] and len(thing.children) == 1:
         (where,) = thing.children
         if where.children[0].noun in {None, "top"}:
-            name = where.words[0]
+            name = where.name
             noun.words += (f"nothing {'on' if name in PLACING['upon'] else name}",)
             noun.children.remove(without)
 

@@ -179,7 +179,7 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     for clause in clauses[: clauses.index(own)] if own.action in VERBS["take"] else ():
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
-        led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
+        led = [place.children[0] for place in clause.places if place.name in PLACING["goals"] - PLACING["away"]]
         named = [noun for noun in (main_object(clause), *led) if noun is not None and noun.noun not in apart]
         goal = next((noun for noun in named if noun.noun and not noun.plural), goal)
         turned = clause.action in VERBS["turn"] if goal in named else turned
