@@ -37,6 +37,12 @@ class Clause:
         return self.verb.name.split()[0] if self.verb else ""
 
 
+    @property
+    def tells(self) -> bool:
+        """Whether it orders nothing: no verb, or "there is"."""
+        return self.verb is None or (self.action in SETS["be"] and not self.statement)
+
+
 def main_object(clause: Clause) -> Item | None:
     """The direct object that is a thing: not the robot itself, a person spoken to, a measure or a direction."""
     return next((noun for noun in clause.objects if not noun.is_a("no_object")), None)

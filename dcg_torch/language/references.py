@@ -16,9 +16,9 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        there = exists(clause)
-        if clause is own or not clause.objects or not (clause.verb is None or there):
+        if clause is own or not (clause.objects and clause.tells):
             continue
+        there = exists(clause)
         more = clause.objects[0]
         landmark = named_again(clause, clauses)
         if landmark is not None:
@@ -90,15 +90,13 @@ def take_what_was_asked_of(noun: Item, own: Clause, clauses: Sequence[Clause]) -
 
 def tells_of_neighbour(clause: Clause) -> bool:
     """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and (clause.verb is None or exists(clause)) else None
-    return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
+    thing = clause.objects[0] if len(clause.objects) == 1 and clause.tells else END
+    return thing.is_a("new") and about_it(thing)
 
 
 def exists(clause: Clause) -> bool:
     """A clause that says what is there: "There is a cone by the door", "beside it is a stand"."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else END
-    beside = thing.determined and not (thing.definite or thing.pronoun) and about_it(thing)
-    return beside or (clause.action in SETS["be"] and not clause.statement)
+    return clause.tells and (clause.verb is not None or tells_of_neighbour(clause))
 
 
 def about_it(noun: Item) -> bool:
@@ -109,11 +107,8 @@ def about_it(noun: Item) -> bool:
 
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
-    for clause in later:
-        denied = main_object(clause) if clause.negated else None
-        if denied is not None and denied.noun == noun.noun is not None and not (denied.color or denied.children):
-            return not denied.words
-    return False
+    denied = (main_object(clause) for clause in later if clause.negated)
+    return noun.noun is not None and any(one and one.noun == noun.noun and one.is_a("empty") for one in denied)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
