@@ -36,7 +36,6 @@ class Clause:
         """The verb without its particle, empty if there is none."""
         return self.verb.name.split()[0] if self.verb else ""
 
-
     @property
     def tells(self) -> bool:
         """Whether it orders nothing: no verb, or "there is"."""

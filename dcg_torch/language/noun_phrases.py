@@ -8,7 +8,7 @@ from dcg_torch.english.forms import parts, singular
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
 from dcg_torch.language.predicates import normal_words
-from dcg_torch.language.tagging import Reader, Token
+from dcg_torch.language.tagging import Token
 
 _HEADS = frozenset({"N", "SIDE", "ONE"})
 _DESCRIBING = frozenset({"COL", "MOD"})
@@ -18,7 +18,7 @@ NOMINAL = _STARTS | {"ONE"}
 _LONGEST_NUMBER = 3
 
 
-class NounPhrase(Reader):
+class NounPhrase:
     """Reads the noun phrase that begins at a token; `at` is the token behind it.
 
     `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one. A method for each tag
@@ -26,7 +26,7 @@ class NounPhrase(Reader):
     """
 
     def __init__(self, tokens: Sequence[Token], start: int, alone: bool) -> None:
-        super().__init__(tokens)
+        self.tokens = tokens
         self.start, self.at, self.alone = start, start, alone
         self.item = Item(Kind.NOUN, tokens[start].start, 0, "")
         self.nouns: list[Token] = []
@@ -53,7 +53,7 @@ class NounPhrase(Reader):
         return bool(self.nouns) and self.nouns[-1].tag in _HEADS
 
     def _determiner(self, token: Token) -> int:
-        if self.at > self.start and self.tag(self.at - 1) not in {"Q", "DET", "P"}:
+        if self.at > self.start and self.tokens[self.at - 1].tag not in {"Q", "DET", "P"}:
             return 0
         self.item.negative = self.item.negative or token.text in SETS["none"]
         if token.value[0] in SETS["owned"]:
@@ -75,13 +75,13 @@ class NounPhrase(Reader):
         if self.group is not None or (self.picked and self.item.count == 1 and (number or 0) > 1):
             self.of = number  # "the left one of the two cubes"
             return 1
-        if not self.item.determined and singular(self.text(self.at + 1)) in SETS["measures"]:
-            behind = self.tag(self.at + 2)
-            if behind not in _STARTS - {"DET", "SIDE"} or self.text(self.at + 2) in SETS["directions"]:
+        if not self.item.determined and singular(self.tokens[self.at + 1].text) in SETS["measures"]:
+            behind = self.tokens[self.at + 2].tag
+            if behind not in _STARTS - {"DET", "SIDE"} or self.tokens[self.at + 2].text in SETS["directions"]:
                 self.is_measure = self.closed = True
                 return 2
         self.item.count = self.item.count if self.picked else number
-        if token.text == "one" and self.tag(self.at + 1) not in _STARTS:
+        if token.text == "one" and self.tokens[self.at + 1].tag not in _STARTS:
             self.item.pronoun = self.closed = True
         return 1
 
@@ -91,8 +91,8 @@ class NounPhrase(Reader):
         return 1
 
     def _color(self, token: Token) -> int:
-        after = self.text(self.at + 1)
-        if self.tag(self.at + 1) == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
+        after = self.tokens[self.at + 1].text
+        if self.tokens[self.at + 1].tag == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
             self.item.words += (f"{token.value[0]} {after}",)  # "white-haired": it is no colour of the whole
             return 2
         if self.item.color is not None:
@@ -101,7 +101,9 @@ class NounPhrase(Reader):
         return 1 + (after in SETS["color_fillers"])
 
     def _noun(self, token: Token) -> int:
-        filler = token.text in SETS["color_fillers"] and self.tag(self.at + 1) in _STARTS  # "the dark coloured ball"
+        filler = (
+            token.text in SETS["color_fillers"] and self.tokens[self.at + 1].tag in _STARTS
+        )  # "the dark coloured ball"
         if not (filler and (self.item.words or self.item.color)):
             self.nouns.append(token)
         return 1
@@ -109,24 +111,24 @@ class NounPhrase(Reader):
     def _one(self, token: Token) -> int:
         """ "The red one"; "the one red cube"."""
         one = token.text == "one"
-        if one and self.item.determined and self.tag(self.at + 1) in {"COL", "N", "NM"}:
+        if one and self.item.determined and self.tokens[self.at + 1].tag in {"COL", "N", "NM"}:
             self.item.count = 1
         else:
             self.item.pronoun = True
-            self.closed = not self.item.words or self.text(self.at + 1) != "of"  # "the middle one of the cubes"
+            self.closed = not self.item.words or self.tokens[self.at + 1].text != "of"  # "the middle one of the cubes"
             self.item.plural = self.item.plural or not one
         return 1
 
     def _name(self, token: Token) -> int:
         """ "Cube 3": a number that is part of a name."""
-        if not self.headed or singular(self.text(self.at + 1)) in SETS["measures"]:
+        if not self.headed or singular(self.tokens[self.at + 1].text) in SETS["measures"]:
             return 0
         self.item.words += token.value
         return 1
 
     def _denial(self, token: Token) -> int:
         """ "The not blue cube", "a non red one"."""
-        after = self.tag(self.at + 1)
+        after = self.tokens[self.at + 1].tag
         if not (self.item.determined or self.item.words) or self.nouns or after not in _DESCRIBING:
             return 0
         self.item.words += (f"not {self.tokens[self.at + 1].value[0]}",)
@@ -136,15 +138,15 @@ class NounPhrase(Reader):
         """The "and" and commas of "the red, white and blue tower"."""
         if self.nouns or not (self.item.color or self.item.words) or self.picked:
             return 0
-        at = self.at + 1 + (self.text(self.at + 1) == "and")
-        follows = self.tag(at + 1) in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
-        if self.tag(at) not in _DESCRIBING or not follows:
+        at = self.at + 1 + (self.tokens[self.at + 1].text == "and")
+        follows = self.tokens[at + 1].tag in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
+        if self.tokens[at].tag not in _DESCRIBING or not follows:
             return 0
         return at - self.at
 
     def _possessive(self, token: Token) -> int:
         """ "The robot's cube" is the cube."""
-        if not self.nouns or self.tag(self.at + 1) not in _STARTS:
+        if not self.nouns or self.tokens[self.at + 1].tag not in _STARTS:
             return 0
         self.nouns, self.item.color = [], None
         return 1
@@ -156,7 +158,7 @@ class NounPhrase(Reader):
         return self._group_of() or self._pick_of()
 
     def _group_of(self) -> int:
-        if not self.headed or self.tag(self.at + 1) not in _STARTS:
+        if not self.headed or self.tokens[self.at + 1].tag not in _STARTS:
             return 0
         last = self.nouns[-1].text
         unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
@@ -181,7 +183,7 @@ class NounPhrase(Reader):
     def _behind_determiners(self) -> int:
         """The token behind this one and the determiners that follow it."""
         after = self.at + 1
-        while self.tag(after) == "DET":
+        while self.tokens[after].tag == "DET":
             after += 1
         return after
 
@@ -189,14 +191,14 @@ class NounPhrase(Reader):
         """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
         picker = self.tokens[self.at - 1]
         # "The middle of the three cones", but "the middle of the table".
-        counted = self.tag(self._behind_determiners()) == "NUM" and picker.text in SETS["counted_middles"]
+        counted = self.tokens[self._behind_determiners()].tag == "NUM" and picker.text in SETS["counted_middles"]
         if self.headed and not (picker.tag == "SIDE" and counted):
             return 0
         if not self.headed and (self.nouns or picker.tag not in {"Q", "NUM", "ORD", "MOD", "ONE"}):
             return 0
         after = self._behind_determiners()
-        bare_group = self.text(after) in SETS["groups"] and self.text(after + 1) != "of"
-        several = self.tag(self.at + 1) in _STARTS or self.text(self.at + 1) in SETS["group_pronouns"]
+        bare_group = self.tokens[after].text in SETS["groups"] and self.tokens[after + 1].text != "of"
+        several = self.tokens[self.at + 1].tag in _STARTS or self.tokens[self.at + 1].text in SETS["group_pronouns"]
         if bare_group or not several:
             self.closed = True  # "the last of the row": the row is no such thing
             return 0
@@ -220,7 +222,7 @@ class NounPhrase(Reader):
         item, part = self.item, self.tokens[self.start : self.at]
         if not self.nouns and not item.color and item.words and part[-1].tag == "MOD":
             self._noun_after_all()
-        ordered = bool(item.words) and item.words[-1] in SETS["ordinals"] and self.text(self.at) == "from"
+        ordered = bool(item.words) and item.words[-1] in SETS["ordinals"] and self.tokens[self.at].text == "from"
         picked = (item.determined and item.count is not None) or (item.words and (item.determined or self.alone))
         # "The biggest", "those two", "second (from the left)".
         self.named = bool(self.nouns or item.color or item.pronoun or picked or ordered or "one of" in item.words)

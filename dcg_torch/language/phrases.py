@@ -8,7 +8,7 @@ from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
 from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
-from dcg_torch.language.tagging import Reader, Token
+from dcg_torch.language.tagging import BEHIND, Token
 
 _SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
 _VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
@@ -16,23 +16,23 @@ _VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
 
 def items(tokens: Sequence[Token]) -> list[Item]:
     """The phrases of a command. Tokens without a part in any are left out."""
-    reader = _Phrases(tokens)
+    reader = _Phrases([*tokens, BEHIND, BEHIND, BEHIND])
     i = 0
     while i < len(tokens):
         i = reader.step(i)
     return reader.out
 
 
-class _Phrases(Reader):
+class _Phrases:
     def __init__(self, tokens: Sequence[Token]) -> None:
-        super().__init__(tokens)
+        self.tokens = tokens
         self.out: list[Item] = []
         self.first = True  # no noun phrase stands before in the sentence
         self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
         self.parts |= dict.fromkeys(_VERBAL, self.verb) | dict.fromkeys(NOMINAL, self.nominal)
 
     def step(self, i: int) -> int:
-        tag = self.tag(i)
+        tag = self.tokens[i].tag
         if tag in _SIMPLE:
             self.add(_SIMPLE[tag], i, i + 1)
         return self.parts[tag](i) if tag in self.parts else i + 1
@@ -71,7 +71,7 @@ class _Phrases(Reader):
         item = self.add(Kind.VERB, i, i + 1, (base,))
         item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
-        after = self.text(i + 1)
+        after = self.tokens[i + 1].text
         if base in PARTICLE_VERBS.get(after, ()):
             item.words, item.stop = (f"{base} {after}",), self.tokens[i + 1].stop
             item.text += f" {after}"
@@ -88,7 +88,7 @@ class _Phrases(Reader):
         return i + 1
 
     def pronoun(self, i: int) -> int:
-        text = self.text(i)
+        text = self.tokens[i].text
         item = self.add(Kind.NOUN, i, i + 1, self.tokens[i].value if " " in text else ())  # "each other"
         item.noun = PRONOUNS.get(text)
         item.pronoun = item.noun is None
@@ -106,5 +106,5 @@ class _Phrases(Reader):
             self.out.append(phrase.item)
             self.first = False
             return phrase.at
-        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.text(i),))
+        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.tokens[i].text,))
         return i + 1
