@@ -10,10 +10,9 @@ from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import settle
-from dcg_torch.language.predicates import deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.saying import NounPhrases
 
 

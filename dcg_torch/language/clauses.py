@@ -6,9 +6,8 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, is_state
 from dcg_torch.language.lexicon import RELATION_VERBS, SETS
-from dcg_torch.language.predicates import is_state
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})

@@ -10,7 +10,8 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
-from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS, lines
+from dcg_torch.english.dictionary import lines
+from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS
 
 _BASIC, _SHADES = SETS["basic_colors"], SETS["shades"]
 _LONGEST = 3  # words of a colour's name beside its shades
@@ -28,7 +29,7 @@ def normal_color(name: str) -> str:
 @functools.cache
 def color_names() -> frozenset[str]:
     """Every colour name in normal form, of one word or several."""
-    return frozenset(name for name in lines("colors.txt") if name not in SETS["color_things"]) | _BASIC
+    return frozenset(name for name in lines("colors.txt", __package__) if name not in SETS["color_things"]) | _BASIC
 
 
 @functools.cache

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.english.forms import parts, singular
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import Item, Kind, normal_words
 from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
-from dcg_torch.language.predicates import normal_words
 from dcg_torch.language.tagging import Token
 
 _HEADS = frozenset({"N", "SIDE", "ONE"})

@@ -25,12 +25,9 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
             landmark.take_up(more)
         elif there and about_it(more) and more.noun is not None and more.start > noun.start:
             noun.children.append(more.behind("with"))
-        elif _the_same(noun, more) and (clause.statement or there or clause.verb is None):
-            noun.take_up(more)
-        elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
-            same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
-            one_of_them = noun.plural and not more.plural and more.text not in SETS["stands_for"]
-            if same and not one_of_them and "other" not in more.words:
+        elif _the_same(noun, more) or (more.is_a("again") and (clause.statement or there or len(clause.objects) == 1)):
+            another = "other" in more.words or (noun.plural and not more.plural) or None not in (more.color, noun.color)
+            if more.text in SETS["stands_for"] or not another:
                 noun.take_up(more)
 
 

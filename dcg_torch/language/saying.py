@@ -6,10 +6,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, is_edge_of, is_state, last_thing, share_noun
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import conjoin
-from dcg_torch.language.predicates import is_edge_of, is_state, last_thing, share_noun
 
 
 class NounPhrases:
