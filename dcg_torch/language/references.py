@@ -74,17 +74,6 @@ def hang_fragments(clauses: Sequence[Clause]) -> None:
             clause.objects, clause.places = [replace(asked, children=clause.places)], []
 
 
-def take_what_was_asked_of(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
-    """ "Is the red mug clean? Then I'll take that one."."""
-    if noun.noun is not None or not (noun.pronoun and noun.is_a("empty")):
-        return
-    asked = (main_object(clause) for clause in reversed(clauses[: clauses.index(own)]) if clause.refused)
-    meant = next((one for one in asked if one is not None and one.noun is not None and not one.pronoun), None)
-    if meant is not None:
-        noun.noun, noun.pronoun = meant.noun, False
-        noun.take_up(meant)
-
-
 def tells_of_neighbour(clause: Clause) -> bool:
     """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
     thing = clause.objects[0] if len(clause.objects) == 1 and clause.tells else END
@@ -137,17 +126,20 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
     """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
     blocks", "this group") all that was said of it there."""
+    before = clauses[: clauses.index(own)]
+    asked = [noun for clause in before if clause.refused and (noun := main_object(clause)) is not None]
     earlier: list[Item] = []
-    for clause in clauses[: clauses.index(own)]:
+    for clause in before:
         main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
         # What a sentence is about is rather meant again than what it only places that by.
         earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
         earlier += main
     nodes = [(node, node.start) for node in target.walk()]
-    for node, before in nodes:
-        if node.kind is not Kind.NOUN or not _names_again(node) or (node is target and node.pronoun):
+    for node, start in nodes:
+        if node.kind is not Kind.NOUN or not _names_again(node):
             continue
-        named = [noun for noun in reversed(earlier) if noun.start < before and _may_be(node, noun)]
+        mentions = asked if node is target and node.pronoun else earlier  # "Is the mug clean? I'll take that one."
+        named = [noun for noun in reversed(mentions) if noun.start < start and _may_be(node, noun)]
         named = [noun for noun in named if node not in noun.walk()]
         if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
             named = [noun for noun in named if noun.words or noun.color or noun.children]

@@ -81,7 +81,6 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
-    references.take_what_was_asked_of(chosen.noun, chosen.clause, clauses)
     verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
