@@ -11,7 +11,6 @@ from dcg_torch.language.lexicon import RELATION_VERBS, SETS
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})
-_CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 
 
 @dataclass(slots=True, eq=False)
@@ -85,7 +84,7 @@ def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
     first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
     sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
-    if any(item.kind in _CARRY_ON for item in sentence):
+    if any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence):
         return False
     # "Blue. Not the dark one."
     described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
@@ -27,7 +28,6 @@ class _Phrases:
     def __init__(self, tokens: Sequence[Token]) -> None:
         self.tokens = tokens
         self.out: list[Item] = []
-        self.first = True  # no noun phrase stands before in the sentence
         self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
         self.parts |= dict.fromkeys(_VERBAL, self.verb) | dict.fromkeys(NOMINAL, self.nominal)
 
@@ -42,7 +42,6 @@ class _Phrases:
         part = self.tokens[i:j]
         item = Item(kind, part[0].start, part[-1].stop, " ".join(token.text for token in part), words)
         self.out.append(item)
-        self.first = kind is Kind.STOP or (self.first and kind is not Kind.NOUN)
         return item
 
     @property
@@ -99,12 +98,12 @@ class _Phrases:
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
-        phrase = NounPhrase(self.tokens, i, self.first)
+        sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, reversed(self.out))
+        phrase = NounPhrase(self.tokens, i, all(item.kind is not Kind.NOUN for item in sentence))
         if phrase.is_measure:
             return phrase.at
         if phrase.named:
             self.out.append(phrase.item)
-            self.first = False
             return phrase.at
         self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.tokens[i].text,))
         return i + 1

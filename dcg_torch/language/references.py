@@ -100,11 +100,11 @@ def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     of = next((c for c in one.children if c.words == ("of",) and c.children[0].plural and c.children[0].noun), None)
-    if of is not None and one.noun is None and of.start < one.start:
-        one.children.remove(of)  # "of the cubes, the one behind the box"
     below = [node for child in one.children for node in child.children]
     named = [noun for noun in _mentions(clauses) if noun.noun and noun.start < one.start and noun not in below]
-    named += of.children if of is not None and of not in one.children else []
+    if of is not None and one.noun is None and of.start < one.start:
+        one.children.remove(of)  # "of the cubes, the one behind the box"
+        named += of.children
     named = [noun for noun in named if one not in noun.walk()]
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):

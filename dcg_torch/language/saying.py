@@ -181,9 +181,8 @@ class NounPhrases:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
             return
-        noun.pick(predicate)
-        noun.color = noun.color or predicate.color
-        self.say(noun, predicate.words)
+        noun.take_up(predicate)
+        self.was_denied = False
         if noun.noun is None and is_state(predicate):
             self.say(noun, (str(predicate.noun),))
         elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
