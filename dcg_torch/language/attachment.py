@@ -42,7 +42,8 @@ class _Builder(NounPhrases):
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
             self.relative = self.forced = True
-        elif item.text == "but" and after.kind is Kind.NOUN and self.last.is_a("all"):  # "anything but the cone"
+        elif item.text == "but" and after.kind is Kind.NOUN and any(noun.is_a("all") for noun in self.nouns):
+            # "Anything (on the table) but the cone".
             self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"

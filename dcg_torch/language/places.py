@@ -157,6 +157,8 @@ def _nearest(place: Item, decisions: Decisions) -> Item:
     last = candidates[-1]
     if place.name == "of":
         return last
+    if place.name == "except":
+        return next((noun for noun in reversed(candidates) if noun.is_a("all") or noun.plural), last)
     solid = [noun for noun in candidates if not noun.is_a("not_solid")] or candidates
     if last.noun in SETS["groups"] and last is not solid[-1]:  # "the cube above the tower on the left"
         return last if decisions.choose("group_owner", CHOICES["group_owner"]) == "group" else solid[-1]
