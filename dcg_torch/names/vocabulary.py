@@ -112,6 +112,10 @@ SIDE_WORDS |= {
 }
 QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
 """Words that say how many are meant, and nothing of which."""
+DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", "our", "their"})
+"""Words before what is one thing in particular."""
+EXCEPT = "except"
+"""The preposition before what is left out."""
 EITHER_END = frozenset({"back", "front"})
 """Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
