@@ -35,7 +35,7 @@ from dcg_torch.grounding.written import (
     write_out,
 )
 
-_FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
+_FEW_ENTRIES, _SOME_ENTRIES = 50_000, 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
 _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
