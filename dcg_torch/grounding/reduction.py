@@ -41,8 +41,9 @@ _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
 _SHARING = 4
 """Rows in which a weight fires, on average, from which on rows are fitted as they are written out."""
-_NEWTON_COLUMNS, _NEWTON_WORK = 400, 3e8
-"""Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
+_NEWTON_COLUMNS, _NEWTON_WORK, _LITTLE_WORK = 400, 3e8, 1.5e7
+"""Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way; the latter
+where rows may be fitted as they are written out."""
 
 
 @dataclass(frozen=True)
@@ -124,9 +125,10 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None
     offset = None if offset is None else offset[:, alike.row_first]
     own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
     value = fires / root[incidence.column]
+    sparse = _SHARING * len(root) <= len(incidence.column) <= _CROWDED * len(root)
     found = split(incidence, value) if always or _may_pay(incidence) else None
-    if found is None or not (always or _pays(found, len(start))):
-        if not _SHARING * len(root) <= len(incidence.column) <= _CROWDED * len(root):
+    if found is None or not (always or _pays(found, len(start), _LITTLE_WORK if sparse else _NEWTON_WORK)):
+        if not sparse:
             return None
         rows = SparseRows.written(incidence, value)
         tied = alike.column, (1.0 / root)[alike.column]
@@ -147,12 +149,12 @@ def _may_pay(incidence: Incidence) -> bool:
     return int(np.count_nonzero(np.bincount(incidence.column) > 1)) <= _NEWTON_COLUMNS
 
 
-def _pays(found: Split, q: int) -> bool:
-    """Is a step of Newton's method cheap enough?"""
+def _pays(found: Split, q: int, most: float) -> bool:
+    """Does a step of Newton's method take at most so many multiplications, and are few weights shared?"""
     shared = len(found.shared)
     variables = q * shared
     work = (len(found.first) + variables) * variables * variables + 40 * q * q * found.incidence.rows
-    return shared <= _NEWTON_COLUMNS and work <= _NEWTON_WORK
+    return shared <= _NEWTON_COLUMNS and work <= most
 
 
 def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats) -> Classes:
