@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.grounding.arrowhead import Split, split
-from dcg_torch.grounding.cells import cell_rows, together
+from dcg_torch.grounding.cells import cell_rows, fills_grid, together
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.grounding.objective import Objective
 from dcg_torch.grounding.psi import Floats, binary
@@ -35,8 +35,9 @@ from dcg_torch.grounding.written import (
     write_out,
 )
 
-_FEW_ENTRIES, _SOME_ENTRIES = 50_000, 2_000_000
-"""Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
+_FEW_ENTRIES, _SOME_ENTRIES, _MOST_ENTRIES = 50_000, 200_000, 2_000_000
+"""Pairs that may fire, over all rows, up to which rows are written out: always; unless they share many weights and are
+a grid, as then few of them are alike; if they share few weights."""
 _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
 _SHARING = 4
@@ -98,9 +99,7 @@ def reduce(
     if not designs:
         empty = np.zeros((0, 0), dtype=np.int64)
         designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
-    entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
-    few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
-    if prefer == "newton" or (prefer == "auto" and few):
+    if prefer == "newton" or (prefer == "auto" and _may_be_written(designs, active)):
         found = _written(write_out(designs, weight, fixed, active, strength, times), fixed, always=prefer == "newton")
         if found is not None:
             return found
@@ -168,10 +167,14 @@ def _fires(design: DesignMatrix, active: Mask) -> Mask:
     return fires
 
 
-def _crowded(designs: Sequence[DesignMatrix], active: Mask, entries: int) -> bool:
-    """Do so many rows share each of many weights that Newton's method cannot be the fastest way?"""
+def _may_be_written(designs: Sequence[DesignMatrix], active: Mask) -> bool:
+    """May it pay to write rows out? Not if so many share each of many weights that Newton's method takes long."""
+    entries: int = sum(design.grounding.size * design.language.shape[1] for design in designs)
+    if entries <= _FEW_ENTRIES or entries > _MOST_ENTRIES:
+        return entries <= _FEW_ENTRIES
     columns = count_firing(designs, active)
-    return columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
+    crowded = columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
+    return not crowded or (entries <= _SOME_ENTRIES and not all(map(fills_grid, designs)))
 
 
 def _factored(
