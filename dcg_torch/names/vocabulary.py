@@ -76,7 +76,9 @@ LIKELY_ROOM = "likely room: "
 """Begins the attribute that tells in which room of a home a thing is likely to be."""
 SPOT = "spot: "
 """Begins the attribute that tells whether a thing is in a corner of a room."""
-WORKED_OUT = (CELL, LIKELY_ROOM, SPOT)
+LEVEL = "level: "
+"""Begins the attributes that tell how many levels of its stack are below a thing, and how many above it."""
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, LEVEL)
 """Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
