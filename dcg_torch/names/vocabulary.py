@@ -114,6 +114,11 @@ QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
 """Words that say how many are meant, and nothing of which."""
 DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", "our", "their"})
 """Words before what is one thing in particular."""
+GROUP_LIKE = frozenset({*GROUP_WORDS, "pair"})
+"""Words that make one whole of several things."""
+ANY = "any"
+HALF, FEW = "half", {"few": 3}
+"""Words for a share of what is described, and for how many are meant at most."""
 EXCEPT = "except"
 """The preposition before what is left out."""
 EITHER_END = frozenset({"back", "front"})
