@@ -8,7 +8,7 @@ from dataclasses import replace
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.language.lexicon import CHOICES, NTH, PLACING, SETS, VERBS
 from dcg_torch.names.rooms import room_named
 
 
@@ -95,6 +95,16 @@ def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
     denied = (main_object(clause) for clause in later if clause.negated)
     return noun.noun is not None and any(one and one.noun == noun.noun and one.is_a("empty") for one in denied)
+
+
+def by_mention(one: Item, clauses: Sequence[Clause]) -> None:
+    """ "There is a lamp and a chair. Take the latter.": which of those that were named before, in their order."""
+    order = next((word for word in one.words if word in SETS["ordinals"]), None)
+    named = [noun for noun in _mentions(clauses) if noun.start < one.start and noun.is_a("mention")]
+    named.sort(key=lambda noun: noun.start)
+    at = -1 if order == "last" else list(NTH.values()).index(order) if order in NTH.values() else len(named)
+    if at < len(named) and named:
+        _take_over(one, named[at])
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
