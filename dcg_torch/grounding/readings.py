@@ -233,11 +233,12 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     for share, solution in zip(shares, solutions, strict=True):
         for id_, p in solution.probabilities.items():
             total[id_] += share * p / whole
-    meant = [s.object.id if s.object is not None else None for s in solutions]
-    grounded = [k for k, id_ in enumerate(meant) if id_ is not None]
+    meant = [[o.id for o in (s.object, *s.objects) if o is not None] for s in solutions]
+    grounded = [k for k, ids in enumerate(meant) if ids]
     if not grounded:
         return solutions[0]
-    best = max(grounded, key=lambda k: (total[meant[k] or ""], shares[k]))
+    # Of several that one reading means alike any may be the likeliest.
+    best = max(grounded, key=lambda k: (max(total[id_] for id_ in meant[k]), shares[k]))
     own = {id_: total[id_] for id_ in solutions[best].probabilities}
     return replace(solutions[best], probabilities=own)
 
