@@ -86,6 +86,8 @@ def _told(tree: ParseTree, tall: bool) -> ParseTree:
     if stack is None:
         said = number is not None and along and along[0].startswith("from ") and tall and not tree.children
         return ParseTree(_at(phrase, number or 1, _ENDS[along[0]])) if said else tree
+    if number is None and [_ENDS[word] for word in along] == ["down"]:
+        return tree  # the shipped weights know what the top of a stack is
     end = _ENDS[along[0]] if along else _AT_ENDS.get(stack.phrase.words[0])
     if phrase.noun in _FEET and not along:
         phrase, end = replace(phrase, noun=None), "up"

@@ -54,11 +54,11 @@ class _Phrases:
         if token.text in SETS["filler_words"] and self.before.kind in {Kind.PREPOSITION, Kind.VERB, Kind.STOP}:
             return i + 1  # "go to like the cone"
         normal = token.value[0]
-        *start, end, of = token.text.split() if " " in token.text else ("", "", "")
-        if start == ["from", "the"] and end in SETS["ends"] and self.before.is_a("counted"):
+        *_, end = token.text.split()[:3]
+        if token.text.startswith("from the ") and end in SETS["ends"] and self.before.is_a("counted"):
             self.add(Kind.PREPOSITION, i, i + 1, ("from",))  # "the second from the left of the row"
             side = self.add(Kind.NOUN, i, i + 1)
-            side.noun, side.determined, normal = end, True, of
+            side.noun, side.determined, normal = end, True, "of"
         elif token.text.startswith("the ") and self.before.kind in {Kind.PREPOSITION, Kind.STOP}:
             bare = self.add(Kind.NOUN, i, i + 1)  # "go to the closest to you"
             bare.pronoun = bare.determined = True
