@@ -10,7 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.names.vocabulary import ANY, DEFINITE, FEW, GROUP_LIKE, HALF
+from dcg_torch.names.vocabulary import ANY, FEW, GROUP_LIKE, HALF, SO_MANY
 from dcg_torch.types import Child, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 
@@ -213,8 +213,8 @@ class Solution:
             return False
         if HALF in noun.words or not FEW.keys().isdisjoint(noun.words):
             return True
-        first = noun.text.partition(" ")[0]
-        return first == ANY or (noun.count is not None and " of " in noun.text and first not in DEFINITE)
+        number, of, _ = noun.text.partition(" of ")
+        return number.partition(" ")[0] == ANY or bool(of and (number in SO_MANY or number.isdecimal()))
 
     @property
     def noun(self) -> Phrase | None:
@@ -248,7 +248,11 @@ class Solution:
             own = self.probabilities[self.object.id]
         else:
             own = self._probability_of_set({o.id for o in meant})
-        if noun is not None and len(meant) < (noun.count or 0) and not self.object.members:
+        if (
+            noun is not None
+            and len(meant) < (noun.count or 0)
+            and not (self.object.members or self.object.hypothetical)
+        ):
             own *= _MISCOUNTED
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 

@@ -116,7 +116,8 @@ DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", 
 """Words before what is one thing in particular."""
 GROUP_LIKE = frozenset({*GROUP_WORDS, "pair"})
 """Words that make one whole of several things."""
-ANY = "any"
+ANY, SO_MANY = "any", frozenset({*NUMBER_WORDS, "one", "a couple"})
+"""What begins a noun phrase that means some of several, whichever they are: "any two", "three of", "a couple of"."""
 HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
 EXCEPT = "except"
