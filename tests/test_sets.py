@@ -60,6 +60,10 @@ def meant(model: GroundingModel, text: str, things: list[Percept]) -> set[str]:
         ("everything on the table but the red block", TABLE, "blue"),
         ("every block but the ones on the floor", TABLE, "red blue"),
         ("every block not on the table", TABLE, "green yellow"),
+        ("everything except the fork, the white cup and the red cup", CUPS, "middle"),
+        ("all the cups but the white and the blue one", CUPS, "right"),
+        ("every cup apart from the leftmost", CUPS, "middle right"),
+        ("nothing but the fork", CUPS, "fork"),
     ],
 )
 def test_what_is_left_out_is_not_meant_and_all_else_is(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -61,10 +62,8 @@ def list_places(clauses: Sequence[Clause]) -> None:
 
 def hang_fragments(clauses: Sequence[Clause]) -> None:
     """ "The red car... is there one? Yes, by the bridge.": a place by itself is where what was named before it is."""
-    for k, clause in enumerate(clauses):
-        before = clauses[k - 1] if k else clause
-        parted = k > 0 and before.refused is not None and clause.refused is None
-        if not parted or clause.verb or clause.objects or not clause.places:
+    for k, (before, clause) in enumerate(itertools.pairwise(clauses)):
+        if not before.refused or clause.refused or clause.verb or clause.objects or not clause.places:
             continue
         named = [main_object(other) for other in clauses[:k] if other.refused is None and other.verb is None]
         if named and (noun := named[-1]) is not None and noun.noun is not None:
@@ -99,12 +98,11 @@ def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
 
 def by_mention(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There is a lamp and a chair. Take the latter.": which of those that were named before, in their order."""
-    order = next((word for word in one.words if word in SETS["ordinals"]), None)
-    named = [noun for noun in _mentions(clauses) if noun.start < one.start and noun.is_a("mention")]
-    named.sort(key=lambda noun: noun.start)
-    at = -1 if order == "last" else list(NTH.values()).index(order) if order in NTH.values() else len(named)
-    if at < len(named) and named:
-        _take_over(one, named[at])
+    before = [noun for noun in _mentions(clauses) if noun.start < one.start and noun.is_a("mention")]
+    named = sorted(before, key=lambda noun: noun.start)
+    for word, noun in (*zip(NTH.values(), named, strict=False), *(("last", noun) for noun in named[-1:])):
+        if word in one.words:
+            _take_over(one, noun)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
