@@ -67,6 +67,7 @@ class Search:
         self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
+        self._children: dict[tuple[str, int, int], Child] = {}
 
     def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
         """The best configuration, and the probabilities of all that it may be about.
@@ -305,13 +306,14 @@ class Search:
             scores: others than its own.
         """
         tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
-        kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all
+        kind, things, (_, n, m) = GROUNDING_OF[tree.phrase.kind], self.encoder.all, scored.scores.shape
         found, scores = [], (scored.scores if scores is None else scores).reshape(-1)
-        _, n, m = scored.scores.shape
         best = highest(scores, beam)
         for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
             c, j, p = flat // (m * n), flat // m % n, flat % m
-            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
+            key, below = (kind._value_, j, meant[p]._value_), combos[c]  # hashed quickly
+            if (child := self._children.get(key)) is None:
+                child = self._children[key] = Child(Grounding(kind, things[j]), meant[p])
             if modifiers:
                 below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
             found.append(Hypothesis(tree, child, below, score))
