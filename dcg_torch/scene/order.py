@@ -94,21 +94,14 @@ def numbered(values: Iterable[Hashable]) -> Ints:
 
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
     """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
-    n = len(columns[0])
-    if n <= _FEW:
-        rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
-        number: dict[Hashable, int] = {}
-        few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
-        return [few.index(k) for k in range(len(number))], np.array(few, dtype=np.int64)
-    code = np.zeros(n, dtype=np.int64)  # without a tuple for each of many things
-    for column in columns:
-        further = column if isinstance(column, np.ndarray) else numbered(column)
-        more = int(further.max()) + 1
-        if int(code.max()) + 1 > (1 << 62) // more:
-            code = np.unique(code, return_inverse=True)[1]
-        code = code * more + further
-    _, first, kind = np.unique(code, return_index=True, return_inverse=True)
-    return first.tolist(), kind
+    rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
+    number: dict[Hashable, int] = {}
+    few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
+    kind = np.array(few, dtype=np.int64)
+    if len(few) <= _FEW:
+        return [few.index(k) for k in range(len(number))], kind
+    highest_yet = np.maximum.accumulate(kind)
+    return np.flatnonzero(np.diff(highest_yet, prepend=-1)).tolist(), kind
 
 
 def before(values: Floats, alike: Alike, most: int) -> Ints:
