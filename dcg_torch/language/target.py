@@ -111,15 +111,15 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
             leads = not references.about_it(found[first].noun)  # but "go to the table and take the cup on it"
-            if name == "earlier_goal" and leads and not any(_leads(other, found[first]) for other in found[:k]):
+            if name == "earlier_goal" and leads and not any(_leads(other, choice, found[first]) for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
 
 
-def _leads(other: Mention, chosen: Mention) -> bool:
-    """Is it where an order before leads, or beside it: "enter the hall, go to the desk and take the cup"?"""
-    return _relation(other, chosen) in {"earlier_goal", "earlier_clause"}
+def _leads(before: Mention, goal: Mention, chosen: Mention) -> bool:
+    """Is a goal not the first, or not alone in its clause: "enter the hall, go to the desk and take the cup"?"""
+    return before.clause is goal.clause or _relation(before, chosen) == "earlier_goal"
 
 
 def _relation(other: Mention, chosen: Mention) -> str:

@@ -101,7 +101,8 @@ def _verb_of(word: str) -> str | None:
 def _is_for(base: str, name: str) -> bool:
     """Is a thing of some name for what a verb says: has it, or a kind that it is of, a name with the verb in it?"""
     listed = next((of for verb, of in everyday().purposes.items() if base in (verb, verb.removesuffix("e"))), ())
-    table, own = nouns(), {name, name_parts(name).head}
+    table, listed_whole = nouns(), name in nouns() or name in everyday().groups
+    own = {name} if listed_whole else {name, name_parts(name).head}  # a trash can is no can to drink from
     senses = table.senses(name, _MAIN) or table.senses(name_parts(name).head, _MAIN)
     kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
     words = name.split(" ")
