@@ -12,9 +12,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import OWNERS
+from dcg_torch.names.weights import names_one_of
+from dcg_torch.scene.bodies import gap
 from dcg_torch.scene.frames import seen_by_speaker, seen_facing
-from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _SIDE = r"(?:\w+[ -]+){0,2}?(?:left|right|front|back|side|perspective|point of view|view|viewpoint)\b"
 _CUES = ((re.compile(rf"\bmy {_SIDE}"), 4.0), (re.compile(rf"\byour? {_SIDE}"), -4.0), (re.compile(r"\byour?\b"), -1.0))
@@ -51,7 +54,29 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     thing = found.object
     if thing is None or thing.hypothetical:
         return None
-    return seen_facing(found.world, thing, away=place.phrase.words[0] == FACING_FROM)
+    away = place.phrase.words[0] == FACING_FROM
+    seen = seen_facing(found.world, thing, away=away)
+    noun = next((node.phrase.noun for node in tree.children[0].walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    return seen if seen is None or away or noun is None else _of_those_beside(seen, thing, noun)
+
+
+def _of_those_beside(world: WorldModel, faced: Object, noun: str) -> WorldModel:
+    """ "Facing the bed, the pillow on the right" is one of the two on the bed, where all others are far from it."""
+    named = [o for o in world.objects if o.position is not None and o.type and names_one_of(noun, (o.type,))]
+    gaps = sorted((gap(o, faced), o.id) for o in named if o.id != faced.id)
+    if len(gaps) < _BESIDE + 1 or is_generic(noun):
+        return world
+    least = gaps[_BESIDE - 1][0] + world.unit
+    near = {id_ for distance, id_ in gaps if distance < least}
+    if len(near) != _BESIDE or gaps[_BESIDE - 1][0] > world.unit:
+        return world
+    far = {id_ for _, id_ in gaps} - near
+    meant = {o.id for o in world.objects} if world.meant is None else {*world.meant}
+    return replace(world, meant=frozenset(meant - far))
+
+
+_BESIDE = 2
+"""How many of a kind beside a thing that is faced are told apart by sides."""
 
 
 FACING = "facing"

@@ -140,6 +140,9 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         return tree
     for k, place in enumerate(tree.children):
         side = place.children[0] if len(place.children) == 1 else tree
+        if place.phrase.words[:1] and place.phrase.words[0] in _COUNTED_FROM and side.phrase.noun not in SIDED:
+            # "The second one to the right of the cup" is the second that one comes to.
+            return replace(tree, phrase=replace(phrase, words=(*phrase.words, _COUNTED_FROM[place.phrase.words[0]])))
         beside = place.phrase.words[:1] == ("from",) or place.phrase.text.split()[:1] == ["to"]
         if beside and side.phrase.noun in SIDED and not (side.children or {*side.phrase.words} - {"your", "my"}):
             word = f"from the {side.phrase.noun}"
@@ -147,6 +150,9 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
                 replace(phrase, words=(*phrase.words, word)), (*tree.children[:k], *tree.children[k + 1 :])
             )
     return tree
+
+
+_COUNTED_FROM = {"left of": "from the right", "right of": "from the left"}
 
 
 def _sided(tree: ParseTree) -> ParseTree:

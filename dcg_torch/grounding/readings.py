@@ -11,6 +11,7 @@ from functools import cached_property
 import numpy as np
 
 from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.grounding.compounds import by_compounds
 from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
@@ -72,9 +73,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
-    led = led_into_rooms(
-        [by_levels(by_heights(by_corners(by_rooms(tree, world), world), world), world) for tree, _, _ in trees], world
-    )
+    roomed = [by_compounds(by_rooms(tree, world), world) for tree, _, _ in trees]
+    led = led_into_rooms([by_levels(by_heights(by_corners(tree, world), world), world) for tree in roomed], world)
     trees = [
         (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
         for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)

@@ -175,11 +175,21 @@ class Search:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
         own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         several = counted(tree.phrase.words) is not None
-        others = {id(c): self._modifier(c) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
+        kind = self._beside_what_is_faced(tree) if own else None
+        others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c) or is_in_a_group(c))]
         some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
+
+    def _beside_what_is_faced(self, tree: ParseTree) -> Bools | None:
+        """(things,) those of a noun phrase's kind that may be meant by who faces what they are beside; else None."""
+        world = self.encoder.world
+        if world.meant is None or world.viewer is None:
+            return None
+        named = comparison_set(tree, (), self.encoder, self._tables).among
+        found: Bools = named & np.array([o.id in world.meant for o in self.encoder.all], dtype=np.bool_)
+        return found if found.any() else None
 
     def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""

@@ -117,6 +117,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
+    if one.noun is None and not several and named:
+        several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
     if not several or one.noun is not None:
         return
     group = max(several, key=lambda noun: noun.start).copy()
@@ -129,6 +131,22 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         pair = (word for word in group.words if word in SETS["close_pairs"])
         one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
+
+
+def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
+    """ "There is a tall plant and a short one": plants, of which nothing else is said."""
+    told = next((clause.objects for clause in clauses if clause.action in SETS["be"] and len(clause.objects) > 1), [])
+    nouns = {noun.noun for noun in told if noun.noun is not None}
+    if len(nouns) != 1 or any(noun.definite or noun.children for noun in told):
+        return []
+    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)]
+
+
+def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]:
+    """ "The cup. There are two of them.": two cups."""
+    counts = [noun for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
+    count = next((noun.count for noun in counts if (noun.count or 0) > 1), None)
+    return [] if count is None else [replace(named, count=count, plural=True)]
 
 
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
@@ -156,6 +174,8 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
             meant = named[int(decisions.choose("mention", options).split()[1])]
             _take_over(node, meant)
             nodes += [(below, meant.start) for child in node.children for below in child.walk()]
+        elif node.text == "it" and node.noun is None and "other" in target.words:  # "the other cup, behind it"
+            node.noun, node.color, node.pronoun = target.noun, target.color, False
 
 
 def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> list[Item]:

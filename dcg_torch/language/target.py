@@ -113,10 +113,15 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
             leads = not references.about_it(found[first].noun)  # but "go to the table and take the cup on it"
-            if name == "earlier_goal" and leads and not any(other.clause is choice.clause for other in found[:k]):
+            if name == "earlier_goal" and leads and not any(_leads(other, choice, found[first]) for other in found[:k]):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
+
+
+def _leads(before: Mention, goal: Mention, chosen: Mention) -> bool:
+    """Is a goal not the first, or not alone in its clause: "enter the hall, go to the desk and take the cup"?"""
+    return before.clause is goal.clause or _relation(before, chosen) == "earlier_goal"
 
 
 def _relation(other: Mention, chosen: Mention) -> str:
@@ -144,9 +149,11 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         # What begins the sentence: "Start at the church. The tree closest to it, mark that."
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
-        if handled and chosen.place is None and not fronted:
+        beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
+        found_by = beside and chosen.place is None and handled and handled[-1].score < TARGETS["take"]
+        if handled and chosen.place is None and not fronted and not found_by:
             return handled[-1]
-        if earlier and references.tells_of_neighbour(earlier[-1].clause):
+        if beside:
             return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
         if earlier:
             meant = last if fronted else max(earlier, key=lambda choice: (choice.score, found.index(choice)))

@@ -13,7 +13,7 @@ from typing import Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.names.normal import head_index, normalise, read_data, singular
+from dcg_torch.names.everyday import Name, everyday, name_parts
 from dcg_torch.names.wordnet import nouns
 
 FORMS: Final = (
@@ -29,7 +29,7 @@ FORMS: Final = (
     "name: none",
 )
 KINDS: Final = (
-    "kind: everyday",  # two names of one thing: equal, or in the list of this project
+    "kind: everyday",  # two names of one thing, or of it and its kind: equal, or in the lists of this project
     "kind: same",  # a synset in common among the first senses
     "kind: noun is kind",  # "armchair" for a chair
     "kind: class is kind",  # "fruit" for an apple
@@ -49,71 +49,6 @@ _COMMON = 400
 """A synset that so many others are kinds of ("artifact", "person") makes no siblings."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Name:
-    """A name in parts: its words in the singular, the head last; and written as one, to compare by."""
-
-    words: tuple[str, ...]
-    text: str
-    solid: str
-
-    @property
-    def head(self) -> str:
-        return self.words[-1]
-
-
-@dataclass(frozen=True)
-class _Everyday:
-    groups: dict[str, frozenset[int]]
-    generic: frozenset[str]
-    purposeful: frozenset[str]
-    purposes: dict[str, list[str]]
-
-
-@functools.cache
-def _measures() -> frozenset[str]:
-    return frozenset(read_data("everyday.yaml")["measures"])
-
-
-@functools.cache
-def _everyday() -> _Everyday:
-    data, groups = read_data("everyday.yaml"), dict[str, set[int]]()
-    for k, names in enumerate(data["same"]):
-        for name in names:
-            groups.setdefault(_name(str(name)).text, set()).add(k)
-    frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    generic, purposeful = (frozenset(map(str, data[name])) for name in ("generic", "purposeful"))
-    return _Everyday(frozen, generic, purposeful, data["purposes"])
-
-
-@functools.lru_cache(maxsize=8192)
-def _name(name: str) -> _Name:
-    """The parts of a name. What follows "of" comes first, "bottle of wine" is "wine bottle", but not where the word
-    before it only measures: "head of lettuce" is lettuce. A number comes first too: "cube 3" is a cube."""
-    words = tuple(part for word in normalise(name).split(" ") for part in _split(word))
-    head = head_index(words)
-    if head < len(words) - 1:
-        before, after = words[: head + 1], words[head + 2 :]
-        if words[head + 1].isdigit():
-            words = (*words[head + 1 :], *before)
-        elif words[head + 1] == "of":
-            words = (*before, *after) if before[-1] in _measures() else (*after, *before)
-        else:
-            words = before
-    words = tuple(w if w == "glasses" else singular(w) for w in words)
-    return _Name(words, " ".join(words), "".join(w.removesuffix("s") if w != "glasses" else w for w in words))
-
-
-def _split(word: str) -> tuple[str, ...]:
-    """The two nouns that are written as one that WordNet does not know: ("glass", "bottle") of "glassbottle"."""
-    if len(word) < 7 or not word.isalpha() or word in nouns() or singular(word) in nouns():
-        return (word,)
-    for cut in range(len(word) - 3, 2, -1):
-        if word[:cut] in nouns() and word[cut:] in nouns() and min(cut, len(word) - cut) > 2:
-            return word[:cut], word[cut:]
-    return (word,)
-
-
 @functools.lru_cache(maxsize=65536)
 def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     """The facts that hold between a noun and the name of a class: one of `FORMS`, and one of `KINDS` or none.
@@ -125,9 +60,9 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
         noun: what was said, in the singular; one word or a compound.
         class_name: as the recogniser writes it.
     """
-    said, named = _name(noun), _name(class_name)
+    said, named = name_parts(noun), name_parts(class_name)
     if unheard_of(noun):
-        said = next((other for other in (named, _name(named.head)) if _misspells(said.text, other.text)), said)
+        said = next((other for other in (named, name_parts(named.head)) if _misspells(said.text, other.text)), said)
     if (told := _by_purpose(said, named)) is not None:
         return told
     form = _form(said, named)
@@ -136,19 +71,19 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     return form, "kind: everyday" if form == "name: equal" else _kind(said, named)
 
 
-def _by_purpose(said: _Name, named: _Name) -> tuple[str, ...] | None:
+def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     """The facts of "the measuring thing", "the lamp thingy" and of a name before its kind; None for all else."""
-    everyday = _everyday()
+    lists = everyday()
     if len(said.words) < 2 or said.head in named.words:
         return None
     if said.words[: len(named.words)] == named.words and _says_kind(said.words[len(named.words) :], named):
         return "name: class is head", "kind: same"  # "marker pen"
-    if said.head not in everyday.purposeful:
+    if said.head not in lists.purposeful:
         return None
     *_, word = before = said.words[:-1]
     if (base := _verb_of(word)) is not None and _is_for(base, named.text):
         return "name: part", "kind: same"
-    if said.head not in everyday.generic:
+    if said.head not in lists.generic:
         return None
     inner = " ".join(before)
     return evidence(inner, named.text) if base is None and not unheard_of(word) else ("name: generic",)
@@ -165,11 +100,13 @@ def _verb_of(word: str) -> str | None:
 @functools.lru_cache(maxsize=8192)
 def _is_for(base: str, name: str) -> bool:
     """Is a thing of some name for what a verb says: has it, or a kind that it is of, a name with the verb in it?"""
-    listed = next((of for verb, of in _everyday().purposes.items() if base in (verb, verb.removesuffix("e"))), ())
-    table, own = nouns(), {name, _name(name).head}
-    senses = table.senses(name, _MAIN) or table.senses(_name(name).head, _MAIN)
+    listed = next((of for verb, of in everyday().purposes.items() if base in (verb, verb.removesuffix("e"))), ())
+    table, listed_whole = nouns(), name in nouns() or name in everyday().groups
+    own = {name} if listed_whole else {name, name_parts(name).head}  # a trash can is no can to drink from
+    senses = table.senses(name, _MAIN) or table.senses(name_parts(name).head, _MAIN)
     kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
-    same = any(_share_a_name(one, part) or one == part for one in listed for part in own)
+    words = name.split(" ")
+    same = any(_share_a_name(one, part) or one == part or one in words for one in listed for part in own)
     if same or any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
         return True
     above = {kind for sense in senses for kind in table.ancestors(sense, _UP - 2)}
@@ -177,10 +114,10 @@ def _is_for(base: str, name: str) -> bool:
     return any(re.match(rf"{base}(?:e?$|ing|er|or|{base[-1]}ing|{base[-1]}er)", part) for part in told)
 
 
-def _form(said: _Name, named: _Name) -> str:
+def _form(said: Name, named: Name) -> str:
     if said.solid == named.solid:
         return "name: equal"
-    if said.text in _everyday().generic and not _share_a_name(said.text, named.text):
+    if said.text in everyday().generic and not _share_a_name(said.text, named.text):
         return "name: generic"
     longer, shorter = len(named.words) > len(said.words), len(named.words) < len(said.words)
     if longer and named.words[-len(said.words) :] == said.words:
@@ -197,7 +134,7 @@ def _form(said: _Name, named: _Name) -> str:
     return "name: shared word" if one & other else "name: none"
 
 
-def _says_kind(rest: tuple[str, ...], named: _Name) -> bool:
+def _says_kind(rest: tuple[str, ...], named: Name) -> bool:
     """Whether what follows the name of a class says what kind of thing it is: "banana fruit", "marker pen"."""
     kind = " ".join(rest)
     if _relation(kind, named.text) in {"everyday", "class is kind", "class is far kind"}:
@@ -222,7 +159,7 @@ _SPELT, _LONG = 5, 8
 @functools.lru_cache(maxsize=65536)
 def may_be_meant_for(noun: str, class_name: str) -> bool:
     """Is a noun the name of a class, or its head, but for a letter that is not the first: "bell" for a ball?"""
-    said, named = _name(noun).text, _name(class_name)
+    said, named = name_parts(noun).text, name_parts(class_name)
     return any(
         min(len(said), len(name)) > 3 and said[0] == name[0] and OSA.distance(said, name, score_cutoff=1) == 1
         for name in (named.text, named.head)
@@ -231,11 +168,11 @@ def may_be_meant_for(noun: str, class_name: str) -> bool:
 
 def _share_a_name(noun: str, name: str) -> bool:
     """Whether both are in one group of the list: "picture" may be said of everything, and of a painting by its name."""
-    groups = _everyday().groups
+    groups = everyday().groups
     return bool(groups.get(noun, frozenset()) & groups.get(name, frozenset()))
 
 
-def _kind(said: _Name, named: _Name) -> str:
+def _kind(said: Name, named: Name) -> str:
     whole = _relation(said.text, named.text)
     if whole not in _LOOSE or said.head == named.head:
         return f"kind: {whole}"
@@ -249,7 +186,7 @@ def _kind(said: _Name, named: _Name) -> str:
 @functools.lru_cache(maxsize=65536)
 def _relation(noun: str, name: str) -> str:
     """How two nouns of the table relate: the end of one of the `KINDS` that are not of heads."""
-    if _share_a_name(noun, name):
+    if _share_a_name(noun, name) or name in everyday().kinds.get(noun, ()):
         return "everyday"
     said, named = _meanings(noun), _meanings(name)
     if not said.senses or not named.senses:
@@ -271,12 +208,12 @@ def steps_apart(one: str, other: str) -> int:
     >>> steps_apart("desk", "table"), steps_apart("couch", "bed"), steps_apart("couch", "pillow") > 4
     (0, 4, True)
     """
-    if _share_a_name(_name(one).text, _name(other).text) or one == other:
+    if _share_a_name(name_parts(one).text, name_parts(other).text) or one == other:
         return 0
     table, least = nouns(), FAR_APART
-    for said in table.senses(_name(one).text, _MAIN) or table.senses(_name(one).head, _MAIN):
+    for said in table.senses(name_parts(one).text, _MAIN) or table.senses(name_parts(one).head, _MAIN):
         above = table.ancestors(said, _UP)
-        for named in table.senses(_name(other).text, _MAIN) or table.senses(_name(other).head, _MAIN):
+        for named in table.senses(name_parts(other).text, _MAIN) or table.senses(name_parts(other).head, _MAIN):
             common = (above[s] + steps for s, steps in table.ancestors(named, _UP).items() if s in above)
             least = min(least, min(common, default=FAR_APART))
     return least
@@ -288,16 +225,16 @@ FAR_APART = 12
 
 def is_generic(noun: str) -> bool:
     """May it be said of whatever there is: "thing", "piece"?"""
-    name, generic = _name(noun), _everyday().generic
-    if len(name.words) > 1 and name.head in generic & _everyday().purposeful:  # "the measuring thing"
+    name, generic = name_parts(noun), everyday().generic
+    if len(name.words) > 1 and name.head in generic & everyday().purposeful:  # "the measuring thing"
         return _verb_of(name.words[-2]) is not None or unheard_of(name.words[-2])
     return name.text in generic
 
 
 def unheard_of(noun: str) -> bool:
     """Is it one word that neither WordNet nor this project's list knows?"""
-    name = _name(noun)
-    return len(name.words) == 1 and not _meanings(name.text).senses and name.text not in _everyday().groups
+    name = name_parts(noun)
+    return len(name.words) == 1 and not _meanings(name.text).senses and name.text not in everyday().groups
 
 
 @dataclass(frozen=True, slots=True)

@@ -90,6 +90,15 @@ def bulk(size: tuple[float, float, float]) -> float:
     return math.prod(extents) if extents else 0.0
 
 
+def gap(one: Object, other: Object) -> float:
+    """Metres between the footprints of two things that stand somewhere, along the axes of the world; 0 where they share
+    floor. What has no extents is a point."""
+    if one.position is None or other.position is None:
+        return math.inf
+    half = [sum(0.0 if o.size is None else o.size[k] / 2.0 for o in (one, other)) for k in (0, 1)]
+    return math.hypot(*(max(0.0, abs(one.position[k] - other.position[k]) - half[k]) for k in (0, 1)))
+
+
 def bodies(objects: Sequence[Object], height: NDArray[np.float64], turned: float, unit: float) -> Bodies | None:
     """How large things are; None where of none it is known.
 

@@ -121,7 +121,10 @@ class Layout:
     def near(self) -> Neighbours:
         """Of the objects, which come first: who is near whom."""
         n = int(self.solid.sum())
-        return neighbours(self.position[:n], self.color[:n], None if self.bodies is None else self.bodies.half[:n])
+        if self.bodies is None:
+            return neighbours(self.position[:n], self.color[:n])
+        heights = self.bodies.bottom[:n], self.bodies.top[:n]
+        return neighbours(self.position[:n], self.color[:n], self.bodies.half[:n], heights)
 
     @functools.cached_property
     def apart(self) -> Floats:

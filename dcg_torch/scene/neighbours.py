@@ -20,6 +20,8 @@ SAME_SPOT = 0.6
 """Units between two feet, seen from above, within which one thing is over the other."""
 ONE_LEVEL = 1.2
 """Units of height within which the upper one rests on the lower one."""
+RESTS = 0.25
+"""Units between the foot of one thing and the top of another beyond which the one does not rest on the other."""
 NEXT = 1.6
 """Units within which things are neighbours."""
 
@@ -50,13 +52,16 @@ class Neighbours:
     colors: dict[int, tuple[int, ...]]
 
 
-def neighbours(position: Floats, color: Ints, half: Floats | None = None) -> Neighbours:
+def neighbours(
+    position: Floats, color: Ints, half: Floats | None = None, heights: tuple[Floats, Floats] | None = None
+) -> Neighbours:
     """Who is near whom.
 
     Args:
         position: (n, 3) in units of the world; NaN where a thing stands nowhere.
         color: (n,) the number of its colour, -1 for none.
         half: (n, 2) half extents in x and y, NaN where they are not known: small things side by side are no stack.
+        heights: (n,) those of the lower and the upper ends, NaN where not known: a desk does not rest on the bin below.
     """
     n = len(position)
     covered, resting, beside, stacked = (np.zeros(n, dtype=np.bool_) for _ in range(4))
@@ -74,6 +79,9 @@ def neighbours(position: Floats, color: Ints, half: Floats | None = None) -> Nei
         stacked[i] = True
         up = position[i, 2] - position[j, 2]
         over = (up > 0.01) & (up <= ONE_LEVEL)
+        if heights is not None:
+            with np.errstate(invalid="ignore"):
+                over &= ~(np.abs(heights[0][i] - heights[1][j]) > RESTS)
         resting[i[over]] = True
         covered[j[over]] = True
         colored = color[j] >= 0

@@ -1,0 +1,61 @@
+"""Compounds of two things that are there: "the desk lamp" is the lamp on the desk, "the bedside lamp" one by the bed.
+
+So it is where a class of that name is not there, and where some of the things named by the last word stand on what the
+first words name, and others do not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from dcg_torch.names.everyday import everyday
+from dcg_torch.names.normal import normalise
+from dcg_torch.names.weights import log_odds
+from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+_NAMED = 4.0
+"""Log-odds from which a noun is the name of a class."""
+_SPOT = 0.6
+"""Units within which, seen from above, a thing is over another whose extents nobody says."""
+
+
+def by_compounds(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in which such compounds are a noun and where it stands."""
+    phrase = tree.phrase
+    children = tuple(by_compounds(child, world) for child in tree.children)
+    words = (phrase.noun or "").split(" ") if phrase.kind is PhraseKind.NOUN else []
+    if len(words) < 2:
+        return replace(tree, children=children)
+    things = [o for o in world.objects if o.position is not None and o.type and not o.type.startswith(OPAQUE)]
+    types = {o.type or "" for o in things}
+    first, head = " ".join(words[:-1]), words[-1]
+    named = {word for type_ in types for word in normalise(type_).split(" ")}
+    beside = everyday().beside.get(first)
+    heads = [o for o in things if log_odds(head, o.type or "") > _NAMED]
+    if len(heads) < 2 or (not named.isdisjoint(words[:-1]) and not _is_class(first, types)):
+        return replace(tree, children=children)
+    if any(log_odds(phrase.noun or "", type_) > _NAMED and normalise(type_) != head for type_ in types):
+        return replace(tree, children=children)
+    place = beside or first
+    marks = [o for o in things if log_odds(place, o.type or "") > _NAMED and o not in heads]
+    over = [any(_is_over(o, mark, world.unit) for mark in marks) for o in heads]
+    if not marks or (beside is None and (all(over) or not any(over))):
+        return replace(tree, children=children)
+    where = ParseTree(Phrase(PhraseKind.NOUN, place, noun=place))
+    preposition = Phrase(PhraseKind.PREPOSITION, "next to" if beside else "on", ("next to" if beside else "on",))
+    return ParseTree(replace(phrase, noun=head), (*children, ParseTree(preposition, (where,))))
+
+
+def _is_class(name: str, types: Sequence[str] | set[str]) -> bool:
+    return any(normalise(type_) == name for type_ in types)
+
+
+def _is_over(thing: Object, mark: Object, unit: float) -> bool:
+    if thing.position is None or mark.position is None or thing.position[2] <= mark.position[2]:
+        return False
+    offset = [abs(a - b) for a, b in zip(thing.position[:2], mark.position[:2], strict=True)]
+    if mark.size is None:
+        return math.hypot(*offset) < _SPOT * unit
+    return all(apart <= extent / 2.0 for apart, extent in zip(offset, mark.size[:2], strict=True))
