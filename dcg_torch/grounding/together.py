@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,9 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features.said import look_scores
 from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.grounding.solution import ModifierFactor
-from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, WITHIN, counted
+from dcg_torch.names.attributes import size_side
+from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, ORDINALS, WITHIN, counted
 from dcg_torch.scene.groups import ROW
 from dcg_torch.scene.order import highest
 from dcg_torch.types import Phrase
@@ -31,6 +34,8 @@ _ALIKE = 0.7
 """Nats by which things differ that are described alike."""
 _SHADED = 2.0
 """Nats for each unit by which a colour's score stays behind the best of those that are compared."""
+_COUNTED = 3.0
+"""Nats for each place by which a thing stays behind "the second darkest"."""
 _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
@@ -155,6 +160,36 @@ def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: Wor
     y = encoder.layout.position[:, 1]
     described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
     return np.where(described, y if side == "left" else -y, fit - _BEYOND)
+
+
+def shaded(said: Phrase, phrase: Phrase, described: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+    """ "The darkest of the small ones" is compared with these, not with all in view; "the second darkest" is counted.
+
+    Args:
+        said: the phrase with all its words.
+        phrase: the same without those that are taken up.
+        described: (things,) what the rest of it describes.
+
+    Returns:
+        The phrase without what compares colours, and the log-factor of each thing; both as before where colours are
+        compared among all.
+    """
+    nothing = np.zeros(len(described))
+    number = next((ORDINALS[word] for word in said.words if word in ORDINALS), None)
+    shades = tuple(word for word in comparing_words(said.look) if word.endswith("est"))
+    if not shades or (number is None and all(size_side(word) is None for word in said.words)):
+        return phrase, nothing
+    among = described & encoder.perceived
+    log_shade = shades_among(shades, among, encoder)
+    members = np.flatnonzero(among & np.array([o.color is not None or o.rgb is not None for o in encoder.all]))
+    if not log_shade.any() or len(members) < (number or 1):
+        return phrase, nothing
+    if number is not None:
+        place = np.argsort(np.argsort(-log_shade[members], kind="stable"))
+        log_shade[members] = -_COUNTED * np.abs(place + 1 - number)
+    log_shade[~among] = log_shade.min()
+    words = tuple(w for w in phrase.words if w not in shades and w not in ORDINALS)
+    return replace(phrase, words=words, look=tuple(w for w in phrase.look if w not in shades)), log_shade
 
 
 def shades_among(words: tuple[str, ...], among: Bools, encoder: WorldEncoder) -> Floats:

@@ -130,7 +130,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if not several or one.noun is not None:
         return
-    group = max(several, key=lambda noun: noun.start).copy()
+    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in several)]
+    group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
     for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
@@ -138,7 +139,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.words += ("middle",)
     if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
         pair = (word for word in group.words if word in SETS["close_pairs"])
-        one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
+        looks = () if SETS["sizes"] & {*one.words} else (word for word in group.words if word in SETS["sizes"])
+        one.words = tuple(dict.fromkeys((*one.words, *looks, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 

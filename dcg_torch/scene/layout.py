@@ -67,6 +67,7 @@ class Layout:
         robot: (2,) where the robot is.
         speaker: (2,) where the speaker is, or None.
         bodies: how large the objects are, or None.
+        picture: does it show a page or a wall, where none is over another?
     """
 
     things: tuple[Object, ...]
@@ -83,6 +84,7 @@ class Layout:
     robot: Floats
     speaker: Floats | None
     bodies: Bodies | None = None
+    picture: bool = False
 
     @functools.cached_property
     def solid(self) -> Bools:
@@ -202,7 +204,7 @@ def layout(world: WorldModel) -> Layout:
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
     return Layout(
-        things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker, sized
+        things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker, sized, picture=not on_floor
     )
 
 
