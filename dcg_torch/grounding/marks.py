@@ -16,6 +16,7 @@ from dataclasses import replace
 from typing import Any, Final, TypeVar
 
 from dcg_torch.grounding.mark_finder import FoundMark, find_marks
+from dcg_torch.grounding.people import of_people
 from dcg_torch.grounding.spoken import ParsedCommand
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
@@ -47,6 +48,7 @@ def heard(
         things: what is there.
     """
     things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
+    text = of_people(text, things)
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
     if marks is None or len(text) > _LONGEST or _STAND_IN in text.lower():
         return parse(text, vocabulary)

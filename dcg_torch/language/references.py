@@ -139,9 +139,16 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.words += ("middle",)
     if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
         pair = (word for word in group.words if word in SETS["close_pairs"])
-        looks = () if SETS["sizes"] & {*one.words} else (word for word in group.words if word in SETS["sizes"])
+        sized = not SETS["sizes"].isdisjoint(one.words)
+        looks = [w for w in group.words if _describes(w) and not (sized and w in SETS["sizes"])]
         one.words = tuple(dict.fromkeys((*one.words, *looks, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
+
+
+def _describes(word: str) -> bool:
+    """Does a word tell of each of several, and neither counts nor picks?"""
+    counts = SETS["ordinals"] | SETS["quantifiers"] | SETS["others"] | SETS["pairs"] | SETS["sides"] | SETS["groups"]
+    return word.isalpha() and word not in counts and not word.endswith(("est", "most"))
 
 
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
