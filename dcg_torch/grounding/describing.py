@@ -18,7 +18,7 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.together import log_member, log_tidy, shaded, shades_among, so_many
+from dcg_torch.grounding.together import log_in_row, log_tidy, shaded, shades_among, so_many
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
@@ -83,8 +83,8 @@ def modifier_factor(
         log_psi = table[tables.factor.correspondences.index(asserted)]
         if tree.phrase.plural and not denied and tree.phrase.words[0] in _AROUND:
             log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
-        if not denied and tree.phrase.words[0] in _MEMBER and len(tree.children) == 1:
-            log_psi = np.minimum(log_psi, log_member([of[0] for of in landmarks], encoder))
+        if not denied and tree.phrase.words[0] in _MEMBER and counted(tree.children[0].phrase.words):
+            log_psi = np.minimum(log_psi, log_in_row([of[0] for of in landmarks], encoder))
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -123,7 +123,7 @@ def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncod
     return found
 
 
-_MEMBER = frozenset({"in", "of", "from"})
+_MEMBER = frozenset({"in", "of"})
 _AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _REACH, _VAGUE = 0.6, 0.12
 """Units of a gap up to which things stand around another, and how vague that is."""

@@ -41,7 +41,7 @@ _TIGHT = 4.0
 _FAR = -8.0
 """The most that it loses."""
 _OUTSIDE = -6.0
-"""Nats that a thing loses that is none of a group in which it is said to be."""
+"""Nats that a thing loses that is none of a row of so many in which it is said to be."""
 _BENT = 8.0
 """Nats that a row loses for each step by which one of it stands aside."""
 _ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
@@ -112,9 +112,9 @@ def log_tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """
     lost = np.zeros(len(encoder.all))
     number = counted(phrase.words)
-    if _ROWS.isdisjoint({phrase.noun, *phrase.words}):
+    if number is None or _ROWS.isdisjoint({phrase.noun, *phrase.words}):
         return lost
-    many = [j for j, o in enumerate(encoder.all) if ROW in o.attributes and (number or len(o.members)) == len(o.members)]
+    many = [j for j, o in enumerate(encoder.all) if ROW in o.attributes and len(o.members) == number]
     if len(many) < 2:
         return lost
     at = {o.id: place for o, place in zip(encoder.all, encoder.layout.position, strict=True)}
@@ -125,12 +125,12 @@ def log_tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     return lost
 
 
-def log_member(groups: Sequence[int], encoder: WorldEncoder) -> Floats:
-    """(groups, things) what things lose that are none of a group to "the red one in the row"; 0 where it is no group."""
+def log_in_row(groups: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(groups, things) what things lose that are none of a row to "the red one in the row of four"; 0 of all else."""
     lost = np.zeros((len(groups), len(encoder.all)))
     for k, j in enumerate(groups):
         members = encoder.all[j].members
-        if members:
+        if members and ROW in encoder.all[j].attributes:
             lost[k] = [0.0 if o.id in members or o.members else _OUTSIDE for o in encoder.all]
     return lost
 
