@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence
+from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.vocabulary import CELL, CELL_STEPS, INSIDE, LINE_ENDS, LINE_OF, NUMBER_WORDS, ORDINALS
 from dcg_torch.names.weights import names_one_of
@@ -190,6 +190,8 @@ class _Speaking:
             return None
         if words & _MIDDLES and words <= _MIDDLES:
             return self.fitting(phrase, self.central())
+        if not words.isdisjoint(("left", "right")):
+            words -= {"far"}  # "on the far right" is at no back
         ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
         if len(ends) != 1 + (not edge) or len({axis for axis, _ in ends} & {0, 1}) != len(ends):
             return None
@@ -256,7 +258,7 @@ def _fits(phrase: Phrase, thing: Object, cell: Cell) -> bool:
     if colored and _SAME.isdisjoint(color_evidence(phrase.color or "", thing.color or "")):
         return False
     own = thing.attributes - {LOOKED_ROUND} | {f"{CELL}{_name(cell)}"}
-    return not any("attribute: contrary" in attribute_evidence((w,), own) for w in phrase.words if OF_KEY in w)
+    return not any("attribute: contrary" in attribute_evidence((w,), own) for w in phrase.words)
 
 
 def _is_aside(word: str, axis: int) -> bool:

@@ -97,6 +97,8 @@ class _Finder:
         ):
             return False
         begins = i == 0 or not set(".,;:!?").isdisjoint(self.text[self.tokens[i - 1].end() : self.tokens[i].start()])
+        if begins and self.word(i + 1) in lists["moves"] and "n" in parts(word):
+            return True
         return (unheard_of(word) and not parts(word)) or (not begins and self.words[i - 1] not in ("the", "to", "of"))
 
     def _is_place(self, i: int, n: int) -> bool:

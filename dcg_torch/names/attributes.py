@@ -173,8 +173,8 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         return "attribute: silent"
     key, value = max(named, key=lambda pair: (len(pair[0]), pair))
     like = said.removesuffix(key).strip()
-    if not like or value in _words_of("absent"):
-        return "attribute: contrary" if value in _words_of("absent") else "attribute: equal"
+    if not like or _is_none(key, value):
+        return "attribute: contrary" if _is_none(key, value) else "attribute: equal"
     if value == key or value in _words_of("present"):  # "the white beard": hair of the face is like that of the head
         whole = read_data("values.yaml")["part_of"].get(key)
         told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
@@ -186,6 +186,13 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         near = not {"color: equal", "color: same hue", "color: alike"}.isdisjoint(color_evidence(like, value))
         fact = "attribute: alike" if near else "attribute: contrary"
     return fact or "attribute: silent"
+
+
+def _is_none(key: str, value: str) -> bool:
+    """Does the value of a key say that there is none: "no", or "bald" of `hair`?"""
+    meanings, _ = _meanings()
+    none = {one for one in meanings[normalise(_NONE)] if one[0] in key.split(" ")}
+    return value in _words_of("absent") or not none.isdisjoint(meanings.get(value, ()))
 
 
 @functools.lru_cache(maxsize=4096)
