@@ -263,8 +263,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             name, phrase = "on", replace(phrase, noun=SIDE_OF[name], words=())
         elif phrase.noun not in PLACE_WORDS:
             phrase = replace(phrase, noun=GROUND_WORD)
-    if _picks(tree) is not None:
-        name = "in"
+    if _picks(tree) is not None or (name == "of" and in_group(phrase)):
+        name = "in"  # "the middle one of the stack"
     inside = name in ("on", "at", "to", "in", "towards")
     if phrase.noun in SIDED:
         sides = tuple(word for word in phrase.words if word not in DEGREES)
