@@ -14,9 +14,9 @@ import yaml
 from language_descriptions import DEVELOPMENT as DESCRIPTIONS
 from language_sentences import DEVELOPMENT as SENTENCES
 
+from dcg_torch.english.dictionary import read
 from dcg_torch.language import Parse, Parser, Reading, default_parser, target_phrase
 from dcg_torch.language.decisions import Decisions, best_first
-from dcg_torch.language.lexicon import read
 from dcg_torch.language.tagging import paths
 from dcg_torch.types import ParseTree, Phrase
 
@@ -125,7 +125,7 @@ def test_no_word_of_the_data_is_read_as_a_truth_value(name: str) -> None:
         else:
             yield value
 
-    assert not [leaf for leaf in leaves(yaml.safe_load(read(name))) if isinstance(leaf, bool)]
+    assert not [leaf for leaf in leaves(yaml.safe_load(read(name, "dcg_torch.language"))) if isinstance(leaf, bool)]
 
 
 def test_rules_name_what_was_chosen(parser: Parser) -> None:

@@ -7,19 +7,20 @@ from collections.abc import Iterable, Iterator, Mapping
 from importlib import resources
 
 
-def read(name: str) -> str:
-    """The text of a file of `data/`."""
-    return resources.files(__package__).joinpath("data", name).read_text(encoding="utf-8")
+def read(name: str, room: str = __package__) -> str:
+    """The text of a file of a room's `data/`, of this room's if no other is said."""
+    return resources.files(room).joinpath("data", name).read_text(encoding="utf-8")
 
 
-def _lines(name: str) -> list[str]:
-    return [line for line in read(name).splitlines() if line and not line.startswith("#")]
+def lines(name: str, room: str = __package__) -> list[str]:
+    """The lines of such a file that are neither empty nor comments."""
+    return [line for line in read(name, room).splitlines() if line and not line.startswith("#")]
 
 
 @functools.cache
 def english() -> Mapping[str, Mapping[str, int]]:
     """A dictionary: word -> {part of speech (n, v, a, r): how often it is that, a power of two}."""
-    return _Dictionary(line.partition("\t")[::2] for line in _lines("english.tsv"))
+    return _Dictionary(line.partition("\t")[::2] for line in lines("english.tsv"))
 
 
 class _Dictionary(Mapping[str, Mapping[str, int]]):
@@ -45,4 +46,4 @@ class _Dictionary(Mapping[str, Mapping[str, int]]):
 @functools.cache
 def irregular() -> Mapping[tuple[str, str], str]:
     """(irregular form, part of speech) -> base form."""
-    return {(form, kind): base for form, kind, base in (line.split("\t") for line in _lines("irregular.tsv"))}
+    return {(form, kind): base for form, kind, base in (line.split("\t") for line in lines("irregular.tsv"))}

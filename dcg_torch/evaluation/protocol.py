@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections import Counter
+from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +21,8 @@ from dcg_torch.types import WorldModel
 
 _FULL_WEIGHT = 100
 """Episodes of one of several corpora that count in full: of more, each counts for less: it is to drown no small one."""
+_FULL_SCENE = 8
+"""Commands in one scene that count in full: a scene described a hundred times tells of itself, not of words."""
 CAUSES = ("no phrase", "wrong noun", "wrong colour", "wrong relation")
 
 
@@ -140,12 +143,15 @@ def train(
     for corpus in corpora:
         where, kept = workspace(corpus), training.kept(corpus)
         weight = 1.0 if len(corpora) == 1 else min(1.0, math.sqrt(_FULL_WEIGHT / max(1, len(kept))))
-        for episode in kept:
+        scenes = [_scene(episode) for episode in kept]
+        times = Counter(scenes)
+        for episode, scene in zip(kept, scenes, strict=True):
             world = test_world(model, episode, where)
             read = heard(parse, episode.text, (), world.objects)
             if read.readings and episode.target:
                 readings = worth_grounding(read, world, model.learner.readings)
-                lesson = Lesson(readings[0].tree, world, frozenset(episode.target), weight, tuple(readings))
+                counts = weight * min(1.0, math.sqrt(_FULL_SCENE / times[scene]))
+                lesson = Lesson(readings[0].tree, world, frozenset(episode.target), counts, tuple(readings))
                 lessons.append(lesson)
     model.teach(
         lessons,
@@ -155,6 +161,11 @@ def train(
         progress=progress,
     )
     return time.perf_counter() - began
+
+
+def _scene(episode: Episode) -> Hashable:
+    """What tells scenes apart: their group, or what stands where."""
+    return episode.group or tuple((o.type, o.color, o.rgb, o.position) for o in episode.objects)
 
 
 def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:

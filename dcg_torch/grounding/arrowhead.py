@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.grounding.design import Ints, scrambled
+from dcg_torch.grounding.design import Ints, numbered, scrambled
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.rows import ArrowheadRows
 from dcg_torch.grounding.symmetry import Incidence
@@ -80,5 +80,5 @@ def split(incidence: Incidence, value: Floats) -> Split:
     is_shared[incidence.column[private]] = False
     bits = scrambled(scrambled(incidence.column.astype(np.uint64)) ^ value.view(np.uint64))
     keys = np.add.reduceat(np.where(alone, np.uint64(0), bits), incidence.starts)
-    _, first, pattern = np.unique(keys, return_index=True, return_inverse=True)
+    first, pattern = numbered(keys)
     return Split(incidence, value, private, np.flatnonzero(is_shared), pattern, first)

@@ -15,6 +15,11 @@ _GRID = 0.25
 """Share of phrases and groundings that occur together from which on the whole product is the faster way."""
 
 
+def fills_grid(design: DesignMatrix) -> bool:
+    """Do most phrases occur with most groundings?"""
+    return len(design.phrase) >= _GRID * len(design.language) * len(design.things[0])
+
+
 def cell_rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -> tuple[GridRows | SparseRows, Ints]:
     """What fires, and where the design's rows are in the grid, or which of them are left.
 

@@ -37,9 +37,6 @@ from dcg_torch.types import Correspondence, Phrase
 Ints = NDArray[np.int64]
 Bools = NDArray[np.bool_]
 
-_TOLERANCE = 1e-3
-"""Max-norm of the gradient at which a fit of choices has arrived."""
-
 
 @dataclass(frozen=True)
 class Modified:
@@ -252,11 +249,14 @@ def fit_choices(
     l2: float,
     prior: Floats,
     max_steps: int = 60,
+    tolerance: float = 1e-3,
 ) -> Bools:
     """Move the free weights of a factor to the likeliest of choices, in place, by L-BFGS.
 
     Args:
         free, l2, prior: as for `Likelihood`.
+        max_steps: at the most.
+        tolerance: max-norm of the gradient at which the fit has arrived.
 
     Returns:
         (L, G) the features that fired and were free.
@@ -265,7 +265,7 @@ def fit_choices(
         return np.zeros(features.shape, dtype=np.bool_)
     function = Likelihood(choices, features, factor, free=free, l2=l2, prior=prior)
     with one_thread():
-        found = solvers.lbfgs(function, function.start, tolerance=_TOLERANCE, max_steps=max_steps)
+        found = solvers.lbfgs(function, function.start, tolerance=tolerance, max_steps=max_steps)
     weight = factor.weight.detach().cpu().numpy().copy()
     for own, sign in zip(weight, correspondence_signs(factor), strict=True):
         own[function.free] += sign * (found.point.at - function.start)

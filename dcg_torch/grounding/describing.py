@@ -179,9 +179,8 @@ def comparison_set(
     shades = comparing_words(phrase.look) if several else ()  # they compare those, not all in view
     told = of_attributes(phrase.words, encoder)
     apart = tuple(word for word in told if not says_size(word))
-    table = tables.unranked(
-        encoder, replace(phrase, words=apart, look=tuple(w for w in phrase.look if w not in shades))
-    )
+    look = tuple(w for w in phrase.look if w not in shades)
+    table = tables.unranked(encoder, replace(phrase, words=apart, look=look))
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]

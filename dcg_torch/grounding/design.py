@@ -118,22 +118,21 @@ def distinct_rows(bag: Bag) -> tuple[Bag, Ints]:
     firsts, parts, seen = [], [], 0
     found: list[Hashes] = []
     for start in range(0, max(1, len(bag)), _CHUNK):
-        hashes, first, which = np.unique(
-            row_hashes(bag[start : start + _CHUNK]), return_index=True, return_inverse=True
-        )
-        found.append(hashes)
+        hashes = row_hashes(bag[start : start + _CHUNK])
+        first, which = numbered(hashes)
+        found.append(hashes[first])
         firsts.append(first + start)
         parts.append(which + seen)
-        seen += len(hashes)
+        seen += len(first)
     first, which = np.concatenate(firsts), np.concatenate(parts)
     if len(found) > 1:
-        _, own, among = np.unique(np.concatenate(found), return_index=True, return_inverse=True)
+        own, among = numbered(np.concatenate(found))
         first, which = first[own], among[which]
     rows = distinct(bag[first])
-    if (rows == bag[first]).all():
+    if np.count_nonzero(rows < 0) == np.count_nonzero(bag[first] < 0):
         return rows, which
     # Rows that name a column twice hashed as others do until now.
-    _, own, among = np.unique(row_hashes(rows), return_index=True, return_inverse=True)
+    own, among = numbered(row_hashes(rows))
     return rows[own], among[which]
 
 
@@ -157,6 +156,19 @@ def scrambled(numbers: Hashes) -> Hashes:
     bits *= _SECOND
     bits ^= bits >> _31
     return bits
+
+
+def numbered(keys: Hashes) -> tuple[Ints, Ints]:
+    """Where each distinct key stands first, in ascending order of the keys, and the number of every key."""
+    if not len(keys):
+        return np.zeros(0, dtype=np.int64), np.zeros(0, dtype=np.int64)
+    order = keys.argsort()
+    ordered = keys[order]
+    new = np.ones(len(keys), dtype=np.bool_)
+    np.not_equal(ordered[1:], ordered[:-1], out=new[1:])
+    which = np.empty_like(order)
+    which[order] = new.cumsum() - 1
+    return np.minimum.reduceat(order, new.nonzero()[0]), which
 
 
 def run_starts(numbers: Ints) -> Ints:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from dcg_torch.grounding.plain_lines import in_whole_line
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import (
@@ -111,7 +112,7 @@ def setting_of(world: WorldModel) -> Setting:
 def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
     there, (flat, upright), scene = setting
-    found = _described(in_plain_words(tree, there, flat=flat or upright, upright=upright))
+    found = _described(in_plain_words(in_whole_line(tree), there, flat=flat or upright, upright=upright))
     return _said_in(found, scene) if scene else found
 
 
@@ -157,7 +158,10 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     described = [c for c in tree.children if c.phrase.kind is PhraseKind.PREPOSITION and c.children]
     phrase, described = _counted_from(phrase, described)
     described = _within_parts(phrase, described)
-    phrase = replace(phrase, context=context, among=comparison_set(phrase, described))
+    among = comparison_set(phrase, described)
+    # What can be taken has no part in which is the middle one of a stack.
+    placed = among == "row" and any(is_superlative(word) or word in ORDINALS for word in phrase.words)
+    phrase = replace(phrase, context=() if placed else context, among=among)
     return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
 
 

@@ -93,9 +93,7 @@ def fit(
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
     if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
-    fixed = weight.copy()
-    cells = np.flatnonzero(active)
-    fixed.reshape(len(fixed), -1)[:, cells] = 0.0 if prior is None else prior.reshape(len(fixed), -1)[:, cells]
+    fixed = np.where(active, 0.0 if prior is None else prior, weight)
     where = factor.weight.device if device is None else device_of(device)
     with one_thread():
         lifted = lift(designs, fixed, active, strength)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import DesignMatrix, Hashes, Ints, row_hashes, scrambled
 from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.symmetry import bits_of
+from dcg_torch.grounding.symmetry import bits_of, count_distinct
 
 Mask = NDArray[np.bool_]
 
@@ -98,12 +98,14 @@ def _own_columns(designs: Sequence[DesignMatrix], which: int, columns: int) -> I
 def _alike(design: DesignMatrix, own: Ints) -> Iterator[Ints]:
     """Numbers of phrases with equal rows, and equal columns but for their own."""
     others = np.where(design.language == own[:, None], -1, design.language)
-    rows = scrambled(row_hashes(design.grounding) ^ bits_of(design.count, len(design.phrase)))
     keys = scrambled(row_hashes(others))
+    if count_distinct(keys[own >= 0]) == np.count_nonzero(own >= 0):
+        return
+    rows = scrambled(row_hashes(design.grounding) ^ bits_of(design.count, len(design.phrase)))
     np.add.at(keys, design.phrase, rows)
     used = np.zeros(len(own), dtype=np.bool_)
     used[design.phrase] = True
-    return _groups(np.flatnonzero((own >= 0) & used), keys)
+    yield from _groups(np.flatnonzero((own >= 0) & used), keys)
 
 
 def _with_equal_cells(columns: Ints, firing: Ints, fixed: Floats, active: Mask, strength: Floats) -> Iterator[Ints]:

@@ -103,7 +103,7 @@ class Objective:
         rows, chances, r = self.rows, point.chances, len(self.rows.entry)
         q, shared = len(chances), rows.patterns.shape[1]
         gradient = point.gradient.reshape(q, -1)
-        curvature = self.total * chances[:, None] * (np.eye(q)[:, :, None] - chances)  # (Q, Q, N)
+        curvature = self._curvature(chances)
         if not r:
             return self._shared_step(curvature, -gradient).reshape(-1)
         coupled = rows.entry * curvature[:, :, :r]
@@ -153,16 +153,19 @@ class Objective:
         if len(chances) == 1:
             curvature, strength = total * chances * (1.0 - chances), self.strength / 2.0
             return lambda d: rows.gradient(curvature * rows.scores(d)) + strength * d
+        curvature = self._curvature(chances)
 
         def times(d: Floats) -> Floats:
-            u = rows.scores(d)
-            u -= (chances * u).sum(axis=0)
-            u *= chances
-            u *= total
-            bent: Floats = rows.gradient(u) + self.strength * (d - d.sum(axis=0) / len(self.count))
+            bent: Floats = rows.gradient(_times(curvature, rows.scores(d)[:, None])[:, 0])
+            bent += self.strength * (d - d.sum(axis=0) / len(self.count))
             return bent
 
         return times
+
+    def _curvature(self, chances: Floats) -> Floats:
+        """(Q, Q, N) of each row by its score differences."""
+        found: Floats = self.total * chances[:, None] * (np.eye(len(chances))[:, :, None] - chances)
+        return found
 
     def newton_cg_step(self, point: Point, tolerance: float = 0.0) -> Floats:
         """An approximate Newton step by preconditioned conjugate gradients.
@@ -173,22 +176,24 @@ class Objective:
             tolerance: of the gradient's max-norm; the system is not solved much better than that asks for.
         """
         solve, hessian = self._preconditioner(point), self.hessian(point)
-        residual = -point.gradient.reshape(len(point.chances), -1)
-        step = np.zeros_like(residual)
-        eased = solve(residual)
-        towards, size = eased, float(np.vdot(residual, eased))
+        residual, shape = -point.gradient, (len(point.chances), -1)
+        step, left = np.zeros_like(residual), residual.reshape(shape)  # a view, as `moving` is
+        towards = solve(left).reshape(-1)
+        moving, size = towards.reshape(shape), float(residual @ towards)
         enough = size * max(min(0.1, point.norm), _OF_TOLERANCE * tolerance / point.norm) ** 2
         for _ in range(_CG_STEPS):
-            bent = hessian(towards)
-            length = size / float(np.vdot(towards, bent))
+            bent = hessian(moving).reshape(-1)
+            length = size / float(towards @ bent)
             step += length * towards
-            residual = residual - length * bent
-            eased = solve(residual)
-            before, size = size, float(np.vdot(residual, eased))
+            bent *= length
+            residual -= bent
+            eased = solve(left).reshape(-1)
+            before, size = size, float(residual @ eased)
             if size <= enough:
                 break
-            towards = eased + size / before * towards
-        return step.reshape(-1)
+            towards *= size / before
+            towards += eased
+        return step
 
     def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""

@@ -4,9 +4,10 @@ right is "closest to the right", the middle of a table that is no object of its 
 from __future__ import annotations
 
 import functools
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from dataclasses import replace
 
+from dcg_torch.grounding.plain_lines import line_of_all, read_along
 from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, one_of_those, together
 from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
@@ -20,15 +21,11 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     LIKE_RELATION,
-    LINE_FROM,
-    LINE_OF,
-    MIDDLE_LINE,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
     QUANTIFIERS,
-    READ_FROM,
     SAME_RELATION,
     SIDE_OF,
     SIDED,
@@ -38,7 +35,7 @@ from dcg_torch.names.vocabulary import (
     WORKSPACE,
     is_superlative,
 )
-from dcg_torch.types import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 NEAREST = "closest to"
 
@@ -82,7 +79,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
             plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
         )
     )
-    words = levels_of_stack(_read_along(words, children), children)
+    words = levels_of_stack(read_along(words, children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -164,10 +161,11 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    if name in ("with", "without") and len(landmark.children) == 1 and _on_it(landmark.children[0]):
-        bearing = replace(tree.phrase, words=("under" if name == "with" else "not under", *tree.phrase.words[1:]))
-        return ParseTree(bearing, (replace(landmark, children=()),))
-    line = _line_of_all(phrase)
+    seen_from_it = _seen_from_it(landmark.children[0]) if len(landmark.children) == 1 else None
+    if name in ("with", "without") and seen_from_it is not None:
+        words = (seen_from_it if name == "with" else f"{NOT} {seen_from_it}", *tree.phrase.words[1:])
+        return ParseTree(replace(tree.phrase, words=words), (replace(landmark, children=()),))
+    line = line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
         words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
         return ParseTree(replace(tree.phrase, words=words), (ParseTree(line),))
@@ -179,43 +177,26 @@ def _sided(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
 
 
-def _on_it(place: ParseTree) -> bool:
-    """The "on it" of "the nightstand with the lamp on it"."""
-    below = place.children[0].phrase if len(place.children) == 1 else None
-    return place.phrase.words[0] in ("on", "on top of") and below is not None and below.text in ("it", "them")
+def _seen_from_it(place: ParseTree) -> str | None:
+    """How a thing stands to what stands so to it: "the mug with a lamp behind it" is in front of the lamp."""
+    below = place.children[0].phrase if len(place.children) == 1 and place.phrase.words else None
+    if below is None:
+        return None
+    if below.text.startswith("its ") and below.noun in LATERAL:
+        return _SEEN_FROM_IT[f"{below.noun} of"]
+    return _SEEN_FROM_IT.get(place.phrase.words[0]) if below.text in ("it", "them") else None
+
+
+_SEEN_FROM_IT = {
+    **{"on": "under", "on top of": "under", "above": "under", "under": "above"},
+    **{"behind": "in front of", "in front of": "behind", "left of": "right of", "right of": "left of"},
+    **{relation: relation for relation in ("next to", "beside", "near", "touching")},
+}
 
 
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
-
-
-_SAME_END = {"from the back": "from the top", "from the front": "from the bottom"}
-
-
-def _line_of_all(phrase: Phrase) -> Phrase | None:
-    """ "The third row", "the bottom row" is one of the lines of the whole scene; None for a row by itself."""
-    line = LINE_OF.get(phrase.noun or "")
-    if line is None or phrase.plural or phrase.color is not None:
-        return None
-    ends, (start, _) = LINE_FROM[line], READ_FROM[line]
-    ordinal = next((word for word in phrase.words if word in ORDINALS), None)
-    plain = [_SAME_END.get(word, word) for word in phrase.words]
-    sides = [ends[w] for w in plain if w in ends] + [w for w in plain if w in ends.values()]
-    if ordinal is None and not sides:
-        return replace(phrase, noun=line, words=(MIDDLE_LINE,)) if "middle" in phrase.words else None
-    number = ORDINALS.get(ordinal or "", 1)
-    return replace(phrase, noun=line, words=(f"{number} {sides[0] if sides else start}",))
-
-
-def _read_along(words: tuple[str, ...], children: Sequence[ParseTree]) -> tuple[str, ...]:
-    """ "The second cube in the third row" is the second from the left."""
-    lines = (c.children[0].phrase.noun for c in children if len(c.children) == 1 and c.phrase.words[0] in INSIDE)
-    line = next((noun for noun in lines if noun in READ_FROM), None)
-    counted = any(word in ORDINALS for word in words) and not any(word.startswith("from ") for word in words)
-    if line is None or not counted or len(words) > 1:
-        return words
-    return (*words, READ_FROM[line][1])
 
 
 def _picks(tree: ParseTree) -> str | None:

@@ -14,6 +14,7 @@ from dcg_torch.grounding.attributes import by_attributes
 from dcg_torch.grounding.compounds import by_compounds
 from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.exceptions import split_exceptions, without
 from dcg_torch.grounding.factor_tree import (
     Setting,
     coordinated,
@@ -112,8 +113,8 @@ class SharedSearch:
         self._tables = tables
         self._beam = beam
         self._search = Search(encoder, tables, beam)
-        self._grouped: dict[bool, Search] = {}
-        self._solved: dict[tuple[ParseTree, bool, bool], Solution] = {}
+        self._others: dict[tuple[bool | None, frozenset[str]], Search] = {(None, frozenset()): self._search}
+        self._solved: dict[tuple[ParseTree, bool, bool, frozenset[str]], Solution] = {}
 
     @property
     def world(self) -> WorldModel:
@@ -138,34 +139,44 @@ class SharedSearch:
         return replace(found, further=further) if further else found
 
     def _described(self, tree: ParseTree, *, brief: bool) -> Solution:
-        return self.solve(in_setting(tree, self._setting), groups=speaks_of_groups(tree), brief=brief)
+        kept, exceptions = split_exceptions(tree)
+        out = [self._described(one, brief=True).objects for one in exceptions]
+        left_out = frozenset(o.id for objects in out for o in objects if not o.hypothetical)
+        return self.solve(
+            in_setting(kept, self._setting), groups=speaks_of_groups(kept), brief=brief, left_out=left_out
+        )
 
-    def solve(self, tree: ParseTree, *, groups: bool = False, brief: bool = False) -> Solution:
+    def solve(
+        self, tree: ParseTree, *, groups: bool = False, brief: bool = False, left_out: frozenset[str] = frozenset()
+    ) -> Solution:
         """Of a tree of factors.
 
         Args:
             groups: are the groups that objects form there to be meant?
             brief: leave out the runner-up.
+            left_out: ids of what is there and is not meant.
         """
-        key = (tree, groups, brief)
+        key = (tree, groups, brief, left_out)
         if key not in self._solved:
-            search = self._of_groups(speaks_of_lines(tree)) if groups else self._search
+            search = self._search_in(speaks_of_lines(tree) if groups else None, left_out)
             self._solved[key] = search.solve(tree, brief=brief)
         return self._solved[key]
 
     def with_runner_up(self, solution: Solution) -> Solution:
         """A solution of this search that was found without one; one of another search as it is."""
-        found = [s for s in (self._search, *self._grouped.values()) if s.encoder.world is solution.world]
+        found = [s for s in self._others.values() if s.encoder.world is solution.world]
         if not found or solution.tree is None or solution.best is None:
             return solution
         return replace(solution, runner_up=found[0].runner_up(solution.tree, solution.best))
 
-    def _of_groups(self, lines: bool) -> Search:
-        if lines not in self._grouped:
+    def _search_in(self, lines: bool | None, left_out: frozenset[str]) -> Search:
+        """The search in the world with its groups, of which lines are some, or without them if that is None."""
+        if (lines, left_out) not in self._others:
             encoder = self._search.encoder
-            world = with_groups(encoder.world, lines=lines)
-            self._grouped[lines] = Search(encoder.of(world), self._tables, self._beam)
-        return self._grouped[lines]
+            world = encoder.world if lines is None else with_groups(encoder.world, lines=lines)
+            world = without(world, left_out) if left_out else world
+            self._others[lines, left_out] = Search(encoder.of(world), self._tables, self._beam)
+        return self._others[lines, left_out]
 
 
 def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.grounding.arrowhead import Split, split
-from dcg_torch.grounding.cells import cell_rows, together
+from dcg_torch.grounding.cells import cell_rows, fills_grid, together
 from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.grounding.objective import Objective
 from dcg_torch.grounding.psi import Floats, binary
@@ -35,14 +35,16 @@ from dcg_torch.grounding.written import (
     write_out,
 )
 
-_FEW_ENTRIES, _SOME_ENTRIES = 200_000, 2_000_000
-"""Pairs that may fire, over all rows, up to which rows are written out, the latter if they share few weights."""
+_FEW_ENTRIES, _SOME_ENTRIES, _MOST_ENTRIES = 50_000, 200_000, 2_000_000
+"""Pairs that may fire, over all rows, up to which rows are written out: always; unless they share many weights and are
+a grid, as then few of them are alike; if they share few weights."""
 _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
 _SHARING = 4
 """Rows in which a weight fires, on average, from which on rows are fitted as they are written out."""
-_NEWTON_COLUMNS, _NEWTON_WORK = 400, 3e8
-"""Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way."""
+_NEWTON_COLUMNS, _NEWTON_WORK, _LITTLE_WORK = 400, 3e8, 1.5e7
+"""Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way; the latter
+where rows may be fitted as they are written out."""
 
 
 @dataclass(frozen=True)
@@ -97,9 +99,7 @@ def reduce(
     if not designs:
         empty = np.zeros((0, 0), dtype=np.int64)
         designs = [DesignMatrix(empty, empty, np.zeros(0, dtype=np.int64), np.zeros((len(weight), 0)))]
-    entries = sum(design.grounding.size * design.language.shape[1] for design in designs)
-    few = entries <= _FEW_ENTRIES or (entries <= _SOME_ENTRIES and not _crowded(designs, active, entries))
-    if prefer == "newton" or (prefer == "auto" and few):
+    if prefer == "newton" or (prefer == "auto" and _may_be_written(designs, active)):
         found = _written(write_out(designs, weight, fixed, active, strength, times), fixed, always=prefer == "newton")
         if found is not None:
             return found
@@ -124,9 +124,10 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None
     offset = None if offset is None else offset[:, alike.row_first]
     own, start = own[alike.column_first], summed(start, alike.column, len(root)) / root
     value = fires / root[incidence.column]
+    sparse = _SHARING * len(root) <= len(incidence.column) <= _CROWDED * len(root)
     found = split(incidence, value) if always or _may_pay(incidence) else None
-    if found is None or not (always or _pays(found, len(start))):
-        if not _SHARING * len(root) <= len(incidence.column) <= _CROWDED * len(root):
+    if found is None or not (always or _pays(found, len(start), _LITTLE_WORK if sparse else _NEWTON_WORK)):
+        if not sparse:
             return None
         rows = SparseRows.written(incidence, value)
         tied = alike.column, (1.0 / root)[alike.column]
@@ -147,12 +148,12 @@ def _may_pay(incidence: Incidence) -> bool:
     return int(np.count_nonzero(np.bincount(incidence.column) > 1)) <= _NEWTON_COLUMNS
 
 
-def _pays(found: Split, q: int) -> bool:
-    """Is a step of Newton's method cheap enough?"""
+def _pays(found: Split, q: int, most: float) -> bool:
+    """Does a step of Newton's method take at most so many multiplications, and are few weights shared?"""
     shared = len(found.shared)
     variables = q * shared
     work = (len(found.first) + variables) * variables * variables + 40 * q * q * found.incidence.rows
-    return shared <= _NEWTON_COLUMNS and work <= _NEWTON_WORK
+    return shared <= _NEWTON_COLUMNS and work <= most
 
 
 def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats) -> Classes:
@@ -166,10 +167,14 @@ def _fires(design: DesignMatrix, active: Mask) -> Mask:
     return fires
 
 
-def _crowded(designs: Sequence[DesignMatrix], active: Mask, entries: int) -> bool:
-    """Do so many rows share each of many weights that Newton's method cannot be the fastest way?"""
+def _may_be_written(designs: Sequence[DesignMatrix], active: Mask) -> bool:
+    """May it pay to write rows out? Not if so many share each of many weights that Newton's method takes long."""
+    entries: int = sum(design.grounding.size * design.language.shape[1] for design in designs)
+    if entries <= _FEW_ENTRIES or entries > _MOST_ENTRIES:
+        return entries <= _FEW_ENTRIES
     columns = count_firing(designs, active)
-    return columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
+    crowded = columns > _NEWTON_COLUMNS and entries > _CROWDED * columns
+    return not crowded or (entries <= _SOME_ENTRIES and not all(map(fills_grid, designs)))
 
 
 def _factored(

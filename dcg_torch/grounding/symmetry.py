@@ -12,11 +12,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import Hashes, Ints, run_starts, scrambled
+from dcg_torch.grounding.design import Hashes, Ints, numbered, run_starts, scrambled
 from dcg_torch.grounding.psi import Floats
 
 
@@ -32,7 +33,7 @@ class Incidence:
     rows: int
     columns: int
 
-    @property
+    @cached_property
     def starts(self) -> Ints:
         """(rows,) the first entry of each row."""
         return run_starts(self.row)
@@ -66,10 +67,21 @@ class Classes:
     def incidence(self, of: Incidence) -> tuple[Incidence, Floats]:
         """Which column classes fire in which row classes, and how many columns of them."""
         size = len(self.column_size)
+        if len(self.row_size) == of.rows:  # then columns that are alike fire in the same rows
+            return self._columns_alone(of)
         one = of.keep(np.sort(self.row_first))
         of_row = self.row[np.sort(self.row_first)]
         cells, count = np.unique(of_row[one.row] * size + self.column[one.column], return_counts=True)
         return Incidence(cells // size, cells % size, len(self.row_size), size), count.astype(np.float64)
+
+    def _columns_alone(self, of: Incidence) -> tuple[Incidence, Floats]:
+        """The same where no two rows are alike; rows stay in their order."""
+        first = np.zeros(of.columns, dtype=np.bool_)
+        first[self.column_first] = True
+        kept = first[of.column]
+        column = self.column[of.column[kept]]
+        one = Incidence(of.row[kept], column, of.rows, len(self.column_size))
+        return one, self.column_size[column].astype(np.float64)
 
 
 def row_keys(incidence: Incidence) -> Hashes:
@@ -87,38 +99,30 @@ def bits_of(values: Sequence[NDArray[np.float64]] | Floats, size: int) -> Hashes
 
 
 def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Classes:
-    """The coarsest classes of rows and columns that are alike.
+    """The coarsest classes of rows and columns that are alike; rows stay in their order where no two of them are.
 
     Args:
         row_start: (rows,) rows that differ here are never alike.
         column_start: (columns,) the same of columns.
     """
-    by_column = np.argsort(incidence.column, kind="stable")
     row_starts = incidence.starts
-    column_starts = run_starts(incidence.column[by_column])
-    row_of = incidence.row[by_column]
     rows, columns, found = row_start, column_start, (0, 0)
     while True:
-        below = np.add.reduceat(scrambled(rows)[row_of], column_starts)
-        columns = scrambled(columns) + below
+        columns = scrambled(columns)
+        np.add.at(columns, incidence.column, scrambled(rows)[incidence.row])
         beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         rows = scrambled(rows) + beside
-        before, found = found, (_distinct(rows), _distinct(columns))
+        before, found = found, (count_distinct(rows), count_distinct(columns))
         apart = before[0] == len(rows)  # all rows were: no column can be told further from others
         if apart or found in (before, (len(rows), len(columns))):
             break
-    row_first, row_class, row_size = _numbered(rows)
-    column_first, column_class, column_size = _numbered(columns)
-    return Classes(row_class, column_class, row_first, column_first, row_size, column_size)
+    every = np.arange(len(rows))
+    row_first, row = (every, every) if found[0] == len(rows) else numbered(rows)
+    column_first, column = numbered(columns)
+    return Classes(row, column, row_first, column_first, np.bincount(row), np.bincount(column))
 
 
-def _distinct(keys: Hashes) -> int:
+def count_distinct(keys: Hashes) -> int:
     """How many distinct ones there are."""
     ordered = np.sort(keys)
     return int(np.count_nonzero(ordered[1:] != ordered[:-1])) + min(1, len(keys))
-
-
-def _numbered(keys: Hashes) -> tuple[Ints, Ints, Ints]:
-    """Where each distinct key stands first, the number of every key, and how many have each."""
-    _, first, which, size = np.unique(keys, return_index=True, return_inverse=True, return_counts=True)
-    return first, which, size

@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, Ints
+from dcg_torch.grounding.design import DesignMatrix, Ints, numbered
 from dcg_torch.grounding.objective import likelihood
 from dcg_torch.grounding.psi import Bag, Floats, scores
-from dcg_torch.grounding.symmetry import Incidence, bits_of, row_keys
+from dcg_torch.grounding.symmetry import Incidence, bits_of, count_distinct, row_keys
 
 Mask = NDArray[np.bool_]
 
@@ -142,8 +142,7 @@ def _one_more(mask: Mask) -> Mask:
 
 def _offset(designs: Sequence[DesignMatrix], codes: Sequence[Ints], fixed: Floats) -> Floats | None:
     """(Q, N) score differences by weights that do not move; few of those that fire are not zero."""
-    some = _not_zero(designs, fixed)
-    if not some.any():
+    if not fixed.any() or not (some := _not_zero(designs, fixed)).any():
         return None
     flat, width, totals = some.reshape(-1), fixed.shape[2], []
     for code in codes:
@@ -172,8 +171,8 @@ def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, 
     mask = _one_more(active)
     flat, parts, lengths = mask.reshape(-1), [], []
     for code in codes:
-        fires = flat[code]
-        parts.append(code[fires])
+        fires = flat.take(code)
+        parts.append(code.reshape(-1)[fires.reshape(-1)])
         lengths.append(np.count_nonzero(fires, axis=(1, 2)))
     pairs, length = np.concatenate(parts), np.concatenate(lengths)
     seen = np.zeros(mask.size, dtype=np.bool_)
@@ -191,7 +190,9 @@ def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple
     keys = row_keys(incidence)
     if offset is not None:
         keys = keys + bits_of(offset, incidence.rows)
-    _, first, which = np.unique(keys, return_index=True, return_inverse=True)
+    if count_distinct(keys) == len(keys):
+        return incidence, count, offset
+    first, which = numbered(keys)
     order = np.argsort(first)  # rows stay in their order
     rank = np.empty_like(order)
     rank[order] = np.arange(len(order))

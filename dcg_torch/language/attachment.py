@@ -10,10 +10,9 @@ from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
-from dcg_torch.language.places import Pending, settle
-from dcg_torch.language.predicates import deny, is_superlative, last_thing, settle_words
+from dcg_torch.language.places import settle
 from dcg_torch.language.saying import NounPhrases
 
 
@@ -43,7 +42,8 @@ class _Builder(NounPhrases):
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
             self.relative = self.forced = True
-        elif item.text == "but" and after.kind is Kind.NOUN and self.last.is_a("all"):  # "anything but the cone"
+        elif item.text == "but" and after.kind is Kind.NOUN and any(noun.is_a("all") for noun in self.nouns):
+            # "Anything (on the table) but the cone".
             self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
@@ -77,30 +77,30 @@ class _Builder(NounPhrases):
 
     def place(self, item: Item) -> None:
         """A preposition, which waits for its noun phrase."""
-        if self.denied and item.words[0] in PLACING["strong"]:
+        if self.denied and item.name in PLACING["strong"]:
             self.denied, self.excluded, self.preposition = False, True, None
             return
         # "the cube closest to ..." can't be where the cube goes, nor can "the cube not on ...".
-        forced = self.forced or self.denied or (item.words[0] in PLACING["extremes"] and bool(self.nouns))
+        item.forced = self.forced or self.denied or (item.name in PLACING["extremes"] and bool(self.nouns))
         extreme = next((word for word in self.last.words if word in SETS["extremes"]), None)
-        if extreme and item.words[0] in PLACING["of_extremes"]:  # "the closest cone to you"
+        if extreme and item.name in PLACING["of_extremes"]:  # "the closest cone to you"
             self.last.words = tuple(word for word in self.last.words if word != extreme)
-            item.words, forced = (f"{extreme} {item.words[0]}",), True
-        nouns = list(self.nouns)
+            item.words, item.forced = (f"{extreme} {item.name}",), True
+        item.before, item.beside = list(self.nouns), self.joined
         if self.denied:
-            item.words, self.denied = (f"not {item.words[0]}",), False
-            if self.joined and self.pending and len(nouns) > 1:
-                nouns.pop()  # "on the sofa and not on the bed"
+            item.words, self.denied = (f"not {item.name}",), False
+            if self.joined and self.pending and len(self.nouns) > 1:
+                item.before.pop()  # "on the sofa and not on the bed"
         self.preposition = item
-        self.pending.append(Pending(item, nouns, forced, self.joined))
+        self.pending.append(item)
         self.forced = self.joined = False
 
     def adverb(self, item: Item, after: Item) -> None:
         """A word by itself: said of a noun phrase, or of the way the verb is done."""
-        name = item.words[0]
+        name = item.name
         if not self.nouns or self.preposition is not None:
             return
-        ranks = item.is_a("ordered") and after.kind is Kind.PREPOSITION and after.words[0] in PLACING["ranks"]
+        ranks = item.is_a("ordered") and after.kind is Kind.PREPOSITION and after.name in PLACING["ranks"]
         if ranks and self.joined and self.last.is_a("place"):  # "top row, second from the left"
             self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
             return
@@ -119,7 +119,7 @@ class _Builder(NounPhrases):
         if self.preposition is not None:
             return False
         if item.text in SETS["stands_for"] and self.nouns and acts:
-            self.relative = self.relative or after.words[0] == "be"
+            self.relative = self.relative or after.name == "be"
             return self.relative
         if item.noun in SETS["holders"] and self.relative and self.forced and acts:
             return True  # "the block that the arm is holding"
@@ -130,7 +130,7 @@ class _Builder(NounPhrases):
 
     def verb(self, item: Item, after: Item) -> None:
         """A verb: the clause's own, or one that says something of a noun phrase."""
-        name = item.words[0]
+        name = item.name
         direct = after.kind is Kind.NOUN and after.noun not in SETS["measures"]
         main = not (item.participle or item.finite or self.relative or name == "be")
         if self.clause.verb is None and (main or not self.nouns):
@@ -158,9 +158,10 @@ class _Builder(NounPhrases):
 
     def relation(self, item: Item) -> None:
         """ "The cube that has a cone on it", "the box facing the wall": a verb between two noun phrases."""
-        name = RELATION_VERBS.get(item.words[0], item.words[0])
+        name = RELATION_VERBS.get(item.name, item.name)
         if self.denied:
             name = "without" if name == "with" else f"not {name}"
         self.denied, item.said = False, True
-        self.preposition = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,))
-        self.pending.append(Pending(self.preposition, list(self.nouns), True, False))
+        place = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,), forced=True, before=list(self.nouns))
+        self.preposition = place
+        self.pending.append(place)

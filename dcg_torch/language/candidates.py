@@ -10,37 +10,67 @@ import functools
 from typing import Final
 
 from dcg_torch.english.dictionary import irregular
-from dcg_torch.english.forms import is_compared, is_plural, parts, singular, verb
+from dcg_torch.english.forms import is_compared, parts, singular, verb
 from dcg_torch.language.colors import normal_color, single_colors
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, listed
 
-_OPEN: Final = GRAMMAR["open"]
+_RULES: Final = [
+    *(([name], tags) for name, tags in GRAMMAR["lists"].items()),
+    *((row.split(), tags) for row, tags in GRAMMAR["words"]),
+]
+_ASKED: Final = (
+    SETS.keys() & {name.lstrip("-") for row, _ in _RULES for name in row} | GRAMMAR["seldom_nouns"].keys() & SETS
+)
 _CLOSED: Final = listed(GRAMMAR["lists"].keys() - GRAMMAR["open_lists"].split())
 _FIXED: Final = listed(GRAMMAR["fixed_lists"].split())
 _EMPTY: Final = listed(GRAMMAR["empty_lists"].split())
-_LONGEST: Final = 40
+_LONGEST, _SHORT = 40, 4
 
 
 @functools.lru_cache(8192)
 def candidates(word: str) -> tuple[tuple[str, float], ...]:
     """The tags that a word may have, each with its log-weight."""
-    found: dict[str, float] = {}
-    for name, weights in GRAMMAR["lists"].items():
-        if word in SETS[name]:
-            _add(found, weights)
-    if word in PRONOUNS:
-        _add(found, GRAMMAR["pronoun"])
-    if word in NUMBERS or word.isdecimal():
-        _add(found, GRAMMAR["number"])
-    if word.isdecimal() or (len(word) == 1 and word.isalpha()):
-        _add(found, GRAMMAR["named_number"])
-    if word in NORMAL and not found:
-        _add(found, GRAMMAR["lists"]["modifiers"])
-    _add_color(found, word)
-    plain = word.replace("'", "").isalnum() and word.isascii() and not word.isdecimal() and len(word) <= _LONGEST
-    if plain and not is_fixed(word):
-        _add_open(found, word)
+    told, found = _features(word), dict[str, float]()
+    for row, tags in _RULES:
+        if row[0] in told and all((name[0] != "-") is (name.lstrip("-") in told) for name in row):
+            for tag, weight in tags.items():
+                found[tag] = max(found.get(tag, -99.0), weight - told.get(row[0], 0.0))
+            told |= dict.fromkeys(("tagged", *tags), 0.0)
     return tuple(found.items())
+
+
+def _features(word: str) -> dict[str, float]:
+    """What the rules of `grammar.yaml` ask of a word; of its parts of speech, how much seldomer it is one."""
+    known, base, stem = parts(word), singular(word), verb(word)
+    if base != word and ("n" in parts(base) or (stem == word and not known)):
+        known["n"] = max(known.get("n", 0), parts(base).get("n", 0))
+    told = {part: GRAMMAR["step"] * (max(known.values()) - often) for part, often in known.items()}
+    color, plain = normal_color(word), word.replace("'", "").isalnum() and word.isascii() and len(word) <= _LONGEST
+    asked = {
+        "pronoun": word in PRONOUNS,
+        "digits": word.isdecimal(),
+        "letter": len(word) == 1 and word.isalpha(),
+        "number": word in NUMBERS,
+        "normal": word in NORMAL,
+        "color": color in single_colors(),
+        "basic_color": color in SETS["basic_colors"],
+        "open": plain and not (word.isdecimal() or is_fixed(word)),
+        "long": len(word) > _SHORT,
+        "compared": is_compared(word),
+        "unknown": not known and stem == word,
+        "plural": base != word,
+        "form": stem != word or (word, "v") in irregular(),
+        "derived": stem != word,
+        "closed": word in _CLOSED,
+        "command": base in SETS["commands"],
+        **{ending: word.endswith(ending) for ending in ("ing", "ed", "ly", "s")},
+        **{name: word in SETS[name] for name in _ASKED},
+    }
+    told |= dict.fromkeys((name for name, holds in asked.items() if holds), 0.0)
+    if "n" in told:
+        told["n"] += next((less for name, less in GRAMMAR["seldom_nouns"].items() if name in told), 0.0)
+        told["n"] += GRAMMAR["gerund_noun"] if {"derived", "ing"} <= told.keys() else 0.0
+    return told
 
 
 def is_fixed(word: str) -> bool:
@@ -58,66 +88,3 @@ def is_plain_noun(word: str) -> bool:
 def is_content(word: str) -> bool:
     """Whether a word says something of the world."""
     return not (is_fixed(word) or word in _EMPTY or singular(word) in SETS["measures"] or not word[:1].isalpha())
-
-
-def _add(found: dict[str, float], weights: dict[str, float], less: float = 0.0) -> None:
-    for tag, weight in weights.items():
-        found[tag] = max(found.get(tag, -99.0), weight - less)
-
-
-def _add_color(found: dict[str, float], word: str) -> None:
-    name, rule = normal_color(word), "color_seldom" if word in SETS["color_seldom"] else "color_and_noun"
-    if name in single_colors():
-        _add(found, GRAMMAR["color" if name in SETS["basic_colors"] or "n" not in parts(word) else rule])
-
-
-def _add_open(found: dict[str, float], word: str) -> None:
-    step, known = _OPEN["step"], parts(word)
-    base, stem = singular(word), verb(word)
-    if base != word and "n" in parts(base):
-        known["n"] = max(known.get("n", 0), parts(base)["n"])
-    if is_compared(word) and not found:
-        _add(found, _OPEN["compared"])
-    if not known and base == word and stem == word:
-        if not found:
-            _add_unknown(found, word)
-        return
-    most = max(known.values(), default=0)
-    if "n" in known or (base != word and stem == word and not known):
-        less = step * (most - known.get("n", 0)) + _noun_penalty(word)
-        less += _OPEN["gerund_noun"] if stem != word and word.endswith("ing") else 0.0
-        rule = "plural" if is_plural(word) else "color_noun" if normal_color(word) in SETS["basic_colors"] else "noun"
-        _add(found, _OPEN[rule], less)
-    other = {"v": stem != word or word in SETS["commands"], "a": bool(found.keys() & {"COL", "MOD"}), "r": False}
-    for part in [part for part, told in other.items() if part in known and not told]:
-        _add(found, _OPEN[part], step * (most - known[part]))
-    if stem != word or (word, "v") in irregular():
-        _add_inflected(found, word)
-    if "N" not in found and not found.keys() & {"COL", "SIDE"} and word not in SETS["modifiers"]:
-        _add(found, _OPEN["no_noun"])
-
-
-def _add_unknown(found: dict[str, float], word: str) -> None:
-    if word.endswith("ly"):
-        _add(found, _OPEN["r"])
-    elif word.endswith(("ing", "ed")) and len(word) > len("ring"):
-        _add(found, _OPEN["unknown_participle"])
-    _add(found, _OPEN["unknown"])
-
-
-def _add_inflected(found: dict[str, float], word: str) -> None:
-    if word.endswith("s"):
-        _add(found, _OPEN["third_person"])
-        return
-    _add(found, _OPEN["inflected"])
-    _add(found, _OPEN["participle"])
-    if word.endswith("ing") and word not in SETS["modifiers"]:
-        _add(found, _OPEN["gerund"])
-
-
-def _noun_penalty(word: str) -> float:
-    if word in SETS["ordinals"]:
-        return float(_OPEN["ordinal_noun"])
-    if word in _CLOSED:
-        return float(_OPEN["closed_noun"])
-    return float(_OPEN["unused_noun"]) if singular(word) in SETS["commands"] else 0.0

@@ -6,13 +6,11 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, is_state
 from dcg_torch.language.lexicon import RELATION_VERBS, SETS
-from dcg_torch.language.predicates import is_state
 
 _BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})
-_CARRY_ON = frozenset({Kind.VERB, Kind.RELATIVE})
 
 
 @dataclass(slots=True, eq=False)
@@ -34,7 +32,12 @@ class Clause:
     @property
     def action(self) -> str:
         """The verb without its particle, empty if there is none."""
-        return self.verb.words[0].split()[0] if self.verb else ""
+        return self.verb.name.split()[0] if self.verb else ""
+
+    @property
+    def tells(self) -> bool:
+        """Whether it orders nothing: no verb, or "there is"."""
+        return self.verb is None or (self.action in SETS["be"] and not self.statement)
 
 
 def main_object(clause: Clause) -> Item | None:
@@ -81,7 +84,7 @@ def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
     first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
     sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
-    if any(item.kind in _CARRY_ON for item in sentence):
+    if any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence):
         return False
     # "Blue. Not the dark one."
     described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)
@@ -91,7 +94,7 @@ def _is_fragment(after: Sequence[Item]) -> bool:
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
     """ "The cone is behind the cube": the copula says something of the noun phrase before it."""
     verbs = [item for item in clause if item.kind is Kind.VERB]
-    if items[k].words[0] != "be" or any(verb.words[0] != "be" for verb in verbs):
+    if items[k].name != "be" or any(verb.name != "be" for verb in verbs):
         return False
     if verbs:  # "it is on the left and is touching the cone"
         first = clause[: clause.index(verbs[0])]
@@ -107,7 +110,7 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
 def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
     """ "Behind the cube is a cone": what follows the copula is where the beginning says."""
     kinds = [item.kind for item in clause if item.kind not in {Kind.COMMA, Kind.ADVERB, Kind.AND}]
-    return verb.words[0] == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
+    return verb.name == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
 
 
 def _subject(before: Item, item: Item, rest: Sequence[Item]) -> bool:
@@ -116,7 +119,7 @@ def _subject(before: Item, item: Item, rest: Sequence[Item]) -> bool:
     if before.kind is not Kind.NOUN or after.kind is not Kind.VERB or before.stop != item.start:
         return False
     if item.text in SETS["stands_for"]:
-        return after.words[0] == "be"  # "the ball it is on the cube"
+        return after.name == "be"  # "the ball it is on the cube"
     return item.is_a("someone") and before.noun not in SETS["robot"]
 
 
@@ -125,13 +128,13 @@ def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
     kinds = {other.kind for other in clause}
     if Kind.NOUN not in kinds or Kind.VERB in kinds:
         return False
-    return item.participle if before.kind is Kind.NEGATION else item.finite and item.words[0] in SETS["possessing"]
+    return item.participle if before.kind is Kind.NEGATION else item.finite and item.name in SETS["possessing"]
 
 
 def _tells(items: Sequence[Item], k: int) -> bool:
     """ "My grandmother gave us that painting": a verb tells what somebody did, unlike "the cup placed on the table"."""
     before, item, after = (END, *items, END)[k : k + 3]
-    past = item.participle and not item.text.endswith("ing") and item.words[0] not in RELATION_VERBS
+    past = item.participle and not item.text.endswith("ing") and item.name not in RELATION_VERBS
     done = item.stop == after.start and (after.determined or after.is_a("someone"))
     return past and done and before.kind is after.kind is Kind.NOUN
 
@@ -142,10 +145,10 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     if _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
     second, before = (END, END, *items[:k])[-2:]
-    lemma = item.words[0].split()[0]
+    lemma = item.name.split()[0]
     if before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
         return False
-    passive = item.participle and before.words[:1] == ("be",) and second.kind is Kind.NOUN
+    passive = item.participle and before.name == "be" and second.kind is Kind.NOUN
     if passive and second.text not in SETS["people"]:
         return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:

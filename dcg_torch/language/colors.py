@@ -10,9 +10,11 @@ from __future__ import annotations
 import functools
 from collections.abc import Sequence
 
-from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS, lines
+from dcg_torch.english.dictionary import lines
+from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS
 
 _BASIC, _SHADES = SETS["basic_colors"], SETS["shades"]
+_LONGEST = 3  # words of a colour's name beside its shades
 
 
 def normal_color(name: str) -> str:
@@ -27,7 +29,7 @@ def normal_color(name: str) -> str:
 @functools.cache
 def color_names() -> frozenset[str]:
     """Every colour name in normal form, of one word or several."""
-    return frozenset(name for name in lines("colors.txt") if name not in SETS["color_things"]) | _BASIC
+    return frozenset(name for name in lines("colors.txt", __package__) if name not in SETS["color_things"]) | _BASIC
 
 
 @functools.cache
@@ -41,21 +43,11 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
 
     "dark sky blue" is one colour; a closing "coloured" belongs to the colour.
     """
-    stop = next((i for i in range(start, len(words)) if words[i] not in _SHADES), None)
-    end = None if stop is None else _name_end(words, stop)
-    if end is None:
-        return None
-    name = normal_color(" ".join(words[start:end]))
-    if end < len(words) and words[end] in SETS["color_fillers"]:
-        end += 1
-    return name, end
-
-
-def _name_end(words: Sequence[str], start: int) -> int | None:
-    """The index behind the colour name without its shades that begins at `start`."""
-    for length in (3, 2):
-        part = [COLOR_SPELLINGS.get(word, word) for word in words[start : start + length]]
-        whole = len(part) == length and part[0] not in _BASIC and part[-1] in single_colors()
-        if whole and " ".join(part) in color_names():
-            return start + length
-    return start + 1 if normal_color(words[start]) in single_colors() else None
+    stop = next((i for i in range(start, len(words)) if words[i] not in _SHADES), len(words))
+    for end in range(min(stop + _LONGEST, len(words)), stop, -1):
+        parts = normal_color(" ".join(words[stop:end])).split(" ")
+        one = len(parts) == 1 or parts[0] not in _BASIC
+        if one and parts[-1] in single_colors() and " ".join(parts) in color_names():
+            name = normal_color(" ".join(words[start:end]))
+            return name, end + (end < len(words) and words[end] in SETS["color_fillers"])
+    return None

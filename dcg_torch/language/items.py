@@ -1,13 +1,17 @@
-"""The phrases of a command before they have a place in the tree, and what kinds of phrases there are."""
+"""The phrases of a command before they have a place in the tree: what kinds there are, what one is like, and small
+changes to a single noun phrase."""
 
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final
 
-from dcg_torch.language.lexicon import GRAMMAR, SETS, listed
+from dcg_torch.english.forms import parts
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
+
+_MOST: Final = "most"
 
 
 class Kind(enum.Enum):
@@ -42,9 +46,16 @@ class Item:
     finite: bool = False  # a verb's -s form
     determined: bool = False  # has an article
     negative: bool = False  # "no cube"
-    beside: bool = False  # "and" or a comma joins it to the noun phrase before
+    beside: bool = False  # "and" or a comma joins it to what stands before
     said: bool = False  # an adverb or participle that is said of a noun phrase
+    forced: bool = False  # a preposition that can only tell a noun phrase apart, as behind a relative pronoun
+    before: list[Item] = field(default_factory=list)  # the noun phrases that stand before a preposition
     children: list[Item] = field(default_factory=list)
+
+    @property
+    def name(self) -> str:
+        """The first word: of a verb its base form, of a preposition its normal form."""
+        return self.words[0] if self.words else ""
 
     def walk(self) -> Iterator[Item]:
         """The item and all below it."""
@@ -109,3 +120,123 @@ _KINDS: Final = {
     kind: [[_feature(text) for text in row.split()] for row in rows.split(";")]
     for kind, rows in GRAMMAR["kinds"].items()
 }
+
+
+def normal_words(words: Sequence[str]) -> tuple[str, ...]:
+    """The describing words of a noun phrase in normal form, each once.
+
+    An ordinal with what it counts along is two words of a noun phrase:
+
+        ("second", "from the left")   the second from the left, the second leftmost
+        ("second", "last")            the second to last, the next to last, the penultimate
+        ("second", "biggest")         the second biggest; so with every superlative
+        ("second",)                   with the preposition "closest to" below: the second closest to the sphere
+
+    >>> normal_words(["third", "leftmost"]), normal_words(["nearest", "big"])
+    (('third', 'from the left'), ('closest', 'big'))
+    """
+    out: list[str] = []
+    for word in words:
+        normal = NORMAL.get(word, word)
+        side = normal.removesuffix(_MOST)
+        if out and out[-1] in SETS["ordinals"] and normal.endswith(_MOST) and side in SETS["sides"]:
+            normal = f"from the {side}"
+        out.append(normal)
+    return tuple(dict.fromkeys(out))
+
+
+def is_superlative(word: str) -> bool:
+    """Whether a word names an end: "leftmost", "biggest"."""
+    return word.endswith(("est", _MOST)) and word not in SETS["ordinals"]
+
+
+def share_noun(first: Item, second: Item) -> None:
+    """ "the red and the blue cube": the noun stands but once."""
+    if first.noun is None and first.color is not None and not first.text.endswith(("one", "ones")):
+        first.noun, first.pronoun = second.noun, second.noun is None
+
+
+def last_thing(nouns: Sequence[Item]) -> Item:
+    """The last noun phrase that words can describe: no person and no side."""
+    apart = SETS["someone"] | SETS["places"]
+    return next((noun for noun in reversed(nouns) if noun.noun not in apart), nouns[-1])
+
+
+def deny(noun: Item, other: Item) -> None:
+    """ "The cube, but not the red one", "not the one on the left": what is said of the other does not hold."""
+    if noun.noun is None and other.determined and noun.text.endswith(" one"):
+        noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
+    if other.noun not in {None, noun.noun}:
+        return
+    of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
+    for word in (None if of_one else other.color, *other.words):
+        side = (word or "").removesuffix(_MOST)
+        if side in SETS["left_right"] and all(place.children[0].noun != side for place in noun.children):
+            noun.children.append(Item(noun.kind, other.start, other.stop, side, noun=side).behind("not on"))
+        elif word and word not in (noun.color, *noun.words):
+            noun.words += (f"not {word}",)
+    for place in other.children:
+        place.words = (f"not {place.name}",)
+        noun.children.append(place)
+
+
+def settle_words(noun: Item) -> None:
+    """Bring what is said of a noun phrase to one form, when all has been said."""
+    for place in list(noun.children):
+        below = place.children[0]
+        if place.words == ("except",) and below.pronoun and not noun.plural and "all" not in noun.words:
+            noun.children.remove(place)
+            deny(noun, below)
+        elif place.words == ("without",):
+            _settle_nothing(noun, place, below)
+        elif place.words == ("with",) and len(place.children) == 1 and below.is_a("colored_part") and not noun.color:
+            # "The screwdriver with the red handle": people and recognisers say that it is red.
+            noun.color, below.said = below.color, True
+            noun.children.remove(place)
+    if "each other" in noun.words[1:]:  # "side by side" becomes the preposition "next to" with another such thing
+        at = noun.words.index("each other")
+        other = Item(noun.kind, noun.stop, noun.stop, "", ("each other",), noun.noun, noun.color, pronoun=True)
+        noun.children.append(other.behind(noun.words[at - 1]))
+        noun.words = noun.words[: at - 1] + noun.words[at + 1 :]
+    _settle_row(noun)
+    noun.noun = "thing" if noun.noun in SETS["nothing"] else noun.noun
+
+
+def _settle_nothing(noun: Item, without: Item, thing: Item) -> None:
+    """ "with nothing on top of it" becomes the word "nothing on" of the noun phrase, "nothing behind it" another."""
+    if thing.noun in SETS["unnamed_things"] and len(thing.children) == 1:
+        (where,) = thing.children
+        if where.children[0].noun in {None, "top"}:
+            name = where.name
+            noun.words += (f"nothing {'on' if name in PLACING['upon'] else name}",)
+            noun.children.remove(without)
+
+
+def _settle_row(noun: Item) -> None:
+    """ "Three cubes in a row" are a row of three."""
+    for place in noun.children:
+        row = place.children[0]
+        alone = place.words == ("in",) and noun.plural and len(place.children) == 1
+        if alone and row.is_a("group") and not row.text.startswith("the ") and not noun.is_a("grouped"):
+            noun.words += (str(row.noun), *((f"of {noun.count}",) if noun.count else ()))
+            noun.count = None
+            noun.children.remove(place)
+            place.said = row.said = True
+            return
+
+
+def is_state(item: Item) -> bool:
+    """ "(The one in the middle is) sick": a noun phrase of an adjective that is hardly ever a noun."""
+    alone = item.noun is not None and not (item.determined or item.plural or item.children)
+    used = parts(str(item.noun)) if alone else {}
+    return used.get("a", 0) > used.get("n", 0)
+
+
+def is_edge_of(noun: Item, edge: Item, place: Item) -> bool:
+    """Whether the edge says from where something is counted: "the second from the left", "the third on the left"."""
+    ranked = any(is_superlative(word) for word in noun.words)
+    if place.words != ("from",):
+        # "The third on the left" counts from there, "the second highest on the left" does not.
+        along = ranked or any(word[:5] == "from " or word == "last" for word in noun.words)
+        return noun.is_a("ordered") and edge.is_a("sided") and not along
+    return (noun.is_a("ordered") or ranked) and edge.noun in SETS["ends"] | SETS["someone"]

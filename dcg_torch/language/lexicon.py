@@ -8,27 +8,18 @@ from __future__ import annotations
 import functools
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from importlib import resources
 from typing import Any, Final
 
 import yaml
 
+from dcg_torch.english.dictionary import lines, read
+
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 
 
-def read(name: str) -> str:
-    """The text of a file of `data/`."""
-    return resources.files(__package__).joinpath("data", name).read_text(encoding="utf-8")
-
-
-def lines(name: str) -> list[str]:
-    """The lines of a file of `data/` that are neither empty nor comments."""
-    return [line for line in read(name).splitlines() if line and not line.startswith("#")]
-
-
-_WORDS: Final[dict[str, Any]] = yaml.load(read("words.yaml"), Loader=_LOADER)
-GRAMMAR: Final[dict[str, Any]] = yaml.load(read("grammar.yaml"), Loader=_LOADER)
-_PATTERNS: Final[dict[str, Any]] = yaml.load(read("patterns.yaml"), Loader=_LOADER)
+_WORDS: Final[dict[str, Any]] = yaml.load(read("words.yaml", __package__), Loader=_LOADER)
+GRAMMAR: Final[dict[str, Any]] = yaml.load(read("grammar.yaml", __package__), Loader=_LOADER)
+_PATTERNS: Final[dict[str, Any]] = yaml.load(read("patterns.yaml", __package__), Loader=_LOADER)
 
 VERBS: Final[Mapping[str, frozenset[str]]] = {name: frozenset(text.split()) for name, text in _WORDS["verbs"].items()}
 """Verbs by what they do with their object."""
@@ -108,4 +99,4 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
 @functools.cache
 def compounds() -> frozenset[tuple[str, ...]]:
     """Nouns of several words whose words would be read one by one otherwise."""
-    return frozenset(tuple(line.split()) for line in lines("compounds.txt"))
+    return frozenset(tuple(line.split()) for line in lines("compounds.txt", __package__))

@@ -2,38 +2,37 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
-from dcg_torch.language.noun_phrases import NounPhrase
-from dcg_torch.language.tagging import Reader, Token
+from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
+from dcg_torch.language.tagging import BEHIND, Token
 
 _SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
-NOMINAL = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE", "ONE"})
 _VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
 
 
 def items(tokens: Sequence[Token]) -> list[Item]:
     """The phrases of a command. Tokens without a part in any are left out."""
-    reader = _Phrases(tokens)
+    reader = _Phrases([*tokens, BEHIND, BEHIND, BEHIND])
     i = 0
     while i < len(tokens):
         i = reader.step(i)
     return reader.out
 
 
-class _Phrases(Reader):
+class _Phrases:
     def __init__(self, tokens: Sequence[Token]) -> None:
-        super().__init__(tokens)
+        self.tokens = tokens
         self.out: list[Item] = []
-        self.first = True  # no noun phrase stands before in the sentence
         self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
         self.parts |= dict.fromkeys(_VERBAL, self.verb) | dict.fromkeys(NOMINAL, self.nominal)
 
     def step(self, i: int) -> int:
-        tag = self.tag(i)
+        tag = self.tokens[i].tag
         if tag in _SIMPLE:
             self.add(_SIMPLE[tag], i, i + 1)
         return self.parts[tag](i) if tag in self.parts else i + 1
@@ -43,7 +42,6 @@ class _Phrases(Reader):
         part = self.tokens[i:j]
         item = Item(kind, part[0].start, part[-1].stop, " ".join(token.text for token in part), words)
         self.out.append(item)
-        self.first = kind is Kind.STOP or (self.first and kind is not Kind.NOUN)
         return item
 
     @property
@@ -72,7 +70,7 @@ class _Phrases(Reader):
         item = self.add(Kind.VERB, i, i + 1, (base,))
         item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
-        after = self.text(i + 1)
+        after = self.tokens[i + 1].text
         if base in PARTICLE_VERBS.get(after, ()):
             item.words, item.stop = (f"{base} {after}",), self.tokens[i + 1].stop
             item.text += f" {after}"
@@ -89,7 +87,7 @@ class _Phrases(Reader):
         return i + 1
 
     def pronoun(self, i: int) -> int:
-        text = self.text(i)
+        text = self.tokens[i].text
         item = self.add(Kind.NOUN, i, i + 1, self.tokens[i].value if " " in text else ())  # "each other"
         item.noun = PRONOUNS.get(text)
         item.pronoun = item.noun is None
@@ -100,12 +98,12 @@ class _Phrases(Reader):
 
     def nominal(self, i: int) -> int:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
-        phrase = NounPhrase(self.tokens, i, self.first)
+        sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, reversed(self.out))
+        phrase = NounPhrase(self.tokens, i, all(item.kind is not Kind.NOUN for item in sentence))
         if phrase.is_measure:
             return phrase.at
         if phrase.named:
-            self.out.append(phrase.item())
-            self.first = False
+            self.out.append(phrase.item)
             return phrase.at
-        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.text(i),))
+        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.tokens[i].text,))
         return i + 1

@@ -8,93 +8,76 @@ where the other way is possible.
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import Item, Kind, last_thing, share_noun
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
-from dcg_torch.language.predicates import last_thing, share_noun
 
 _MOST_SUPPORTS = 3  # "on A on B on C": the second says where it goes
 
 
-@dataclass(slots=True, eq=False)
-class Pending:
-    """A prepositional phrase and what stands before it."""
-
-    item: Item
-    nouns: list[Item]
-    forced: bool  # follows a relative pronoun or a participle: it can only tell a noun phrase apart
-    joined: bool  # follows "and" or a comma
-
-    @property
-    def name(self) -> str:
-        """The preposition in its normal form."""
-        return self.item.words[0]
-
-
-def settle(clause: Clause, pending: list[Pending], supplied: bool, decisions: Decisions) -> None:
+def settle(clause: Clause, pending: list[Item], supplied: bool, decisions: Decisions) -> None:
     """Give each prepositional phrase its parent."""
     pending = _sought(clause, pending)
     for place, after in itertools.pairwise(pending):
-        if after.joined and not place.item.children and place.name not in PLACING["extremes"]:
-            place.item.children = [child.copy() for child in after.item.children]  # "above and touching the cone"
-    full = [place for place in pending if place.item.children]
+        if after.beside and not place.children and place.name not in PLACING["extremes"]:
+            place.children = [child.copy() for child in after.children]  # "above and touching the cone"
+    full = [place for place in pending if place.children]
     target = main_object(clause)
     goal = _goal(clause, full, supplied, decisions)
     last: Item | None = None
     for place in pending:
-        if not place.item.children:
-            if place.nouns:
-                place.nouns[-1].words += _bare(place)
+        if not place.children:
+            if place.before:
+                place.before[-1].words += _bare(place)
             continue
-        if place.name == "for" and place.item.children[0].is_a("someone"):
+        if place.name == "for" and place.children[0].is_a("someone"):
             continue  # "find it for me" says nothing of the thing
         owner: Item | None = None
-        if place is not goal and place.nouns:
-            if place.joined and last is not None and not place.forced and not (target is None and _is_path(place)):
+        if place is not goal and place.before:
+            if place.beside and last is not None and not place.forced and not (target is None and _is_path(place)):
                 owner = last
             elif not _belongs_to_verb(place, clause, target, full):
                 owner = _nearest(place, decisions)
-        if owner is None and clause.verb is None and not place.nouns and place.name not in PLACING["frames"]:
+        if owner is None and clause.verb is None and not place.before and place.name not in PLACING["frames"]:
             owner = target  # "in the top row the red one"
         if owner is None:
-            clause.places.append(place.item)
+            clause.places.append(place)
         elif not _compound(owner, place, decisions):
-            _below(owner, place.item)
+            _below(owner, place)
         last = owner
     if clause.verb is None and (target is None or (target.is_a("spot") and not target.children)):
         _unnamed(clause)
 
 
-def _bare(place: Pending) -> tuple[str, ...]:
+def _bare(place: Item) -> tuple[str, ...]:
     """What a preposition without a noun phrase says of the one before it."""
-    if place.name in PLACING["mutual"] and place.nouns[-1].plural:
+    if place.name in PLACING["mutual"] and place.before[-1].plural:
         return place.name, "each other"  # "the two cubes touching"
     if place.name in PLACING["bare"]:
-        return place.item.words
+        return place.words
     return (place.name.split()[0],) if place.name in PLACING["extremes"] else ()  # "the one farthest away"
 
 
-def _sought(clause: Clause, pending: list[Pending]) -> list[Pending]:
+def _sought(clause: Clause, pending: list[Item]) -> list[Item]:
     """Make what is looked for the object of "search the room for the cone", "look in the corner for the cone"."""
-    sought = next((place for place in pending if place.name == "for" and place.item.children), None)
-    if clause.action not in VERBS["seek"] or sought is None or sought.item.children[0].is_a("someone"):
+    sought = next((place for place in pending if place.name == "for" and place.children), None)
+    if clause.action not in VERBS["seek"] or sought is None or sought.children[0].is_a("someone"):
         return pending
-    thing = sought.item.children[0]
+    thing = sought.children[0]
     thing.children += [room.behind("in") for room in clause.objects]
     clause.objects = [thing]
     others = [place for place in pending if place is not sought]
     for place in others:
-        place.nouns = place.nouns or [thing]
+        place.before = place.before or [thing]
     return others
 
 
-def _compound(owner: Item, place: Pending, decisions: Decisions) -> bool:
+def _compound(owner: Item, place: Item, decisions: Decisions) -> bool:
     """Whether "a pallet of tires" is read as a tire pallet; then it has become one."""
-    child = place.item.children[0]
-    named = place.item.words == ("of",) and owner.stop == place.item.start and len(place.item.children) == 1
+    child = place.children[0]
+    named = place.words == ("of",) and owner.stop == place.start and len(place.children) == 1
     if not (named and child.is_a("bare_name") and child.is_a("named") and owner.is_a("named")):
         return False
     if decisions.choose("of", CHOICES["of"]) != "compound":
@@ -103,13 +86,13 @@ def _compound(owner: Item, place: Pending, decisions: Decisions) -> bool:
     return True
 
 
-def _goal(clause: Clause, full: list[Pending], supplied: bool, decisions: Decisions) -> Pending | None:
+def _goal(clause: Clause, full: list[Item], supplied: bool, decisions: Decisions) -> Item | None:
     """The prepositional phrase that says where the object is to go, if any does."""
     supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
     if main_object(clause) is None or supplied:
         return None
     if clause.acting:
-        return next((place for place in full if place.item.start >= clause.verb.start), None) if clause.verb else None
+        return next((place for place in full if place.start >= clause.verb.start), None) if clause.verb else None
     if clause.action in VERBS["put"]:
         goal = _destination(full)
         sure = goal is None or goal.name in PLACING["sure"]
@@ -120,16 +103,16 @@ def _goal(clause: Clause, full: list[Pending], supplied: bool, decisions: Decisi
     return None
 
 
-def _is_path(place: Pending) -> bool:
+def _is_path(place: Item) -> bool:
     return place.name in PLACING["strong"] | PLACING["paths"] - PLACING["no_paths"]
 
 
-def _belongs_to_verb(place: Pending, clause: Clause, target: Item | None, full: list[Pending]) -> bool:
+def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: list[Item]) -> bool:
     """Whether a phrase after a noun phrase still says where the motion goes."""
     if target is not None and clause.verb is not None and not place.forced:
-        moved = clause.acting and place.nouns[-1].start < clause.verb.start <= place.item.start
-        sideways = place.name in PLACING["toward"] and place.item.children[0].is_a("sided_place")
-        if moved or (sideways and place.joined and clause.action in VERBS["put"]):
+        moved = clause.acting and place.before[-1].start < clause.verb.start <= place.start
+        sideways = place.name in PLACING["toward"] and place.children[0].is_a("sided_place")
+        if moved or (sideways and place.beside and clause.action in VERBS["put"]):
             return True  # "the top box moves left and ...", "move the cube down and to the left"
     if target is not None or clause.verb is None or place.forced:
         return False
@@ -140,7 +123,7 @@ def _belongs_to_verb(place: Pending, clause: Clause, target: Item | None, full: 
 def _unnamed(clause: Clause) -> None:
     """ "closest to me", "in the corner", "my left", "top left corner": of the thing only the place is said."""
     telling = PLACING["extremes"] | PLACING["between"]
-    places = [p for p in clause.places if p.words[0] in telling or p.children[0].is_a("somewhere")]
+    places = [p for p in clause.places if p.name in telling or p.children[0].is_a("somewhere")]
     told = [side for side in clause.objects if side.is_a("side") and side.is_a("told_side")]
     places += [side.behind("in" if side.is_a("middle") else "on") for side in told]
     places += [spot.behind("in") for spot in clause.objects if spot.is_a("spot") and not spot.is_a("side")]
@@ -150,9 +133,9 @@ def _unnamed(clause: Clause) -> None:
         clause.objects = [Item(Kind.NOUN, first.start, first.start, "", pronoun=True, children=places)]
 
 
-def _about_noun(place: Pending) -> bool:
+def _about_noun(place: Item) -> bool:
     """ "the cone to your left", "the cube to the right": to a side is where a thing is."""
-    return place.name == "to" and place.item.children[0].is_a("sided_place") and bool(place.nouns)
+    return place.name == "to" and place.children[0].is_a("sided_place") and bool(place.before)
 
 
 def _below(owner: Item, place: Item) -> None:
@@ -161,19 +144,21 @@ def _below(owner: Item, place: Item) -> None:
         owner.children += child.children  # "the bigger cube of the two (on the table)"
         child.children = owner.children
         return
-    if place.words[0] in PLACING["sided"] and child.is_a("left_right"):
+    if place.name in PLACING["sided"] and child.is_a("left_right"):
         place.words = ("on",)
     elif place.words == ("towards",) and child.is_a("place"):
         place.words = ("in",)
     owner.children.append(place)
 
 
-def _nearest(place: Pending, decisions: Decisions) -> Item:
+def _nearest(place: Item, decisions: Decisions) -> Item:
     """The noun phrase just before, passing over "me", "you" and sides, which nobody describes further."""
-    candidates = [noun for noun in place.nouns if not noun.is_a("apart")] or place.nouns
+    candidates = [noun for noun in place.before if not noun.is_a("apart")] or place.before
     last = candidates[-1]
     if place.name == "of":
         return last
+    if place.name == "except":
+        return next((noun for noun in reversed(candidates) if noun.is_a("all") or noun.plural), last)
     solid = [noun for noun in candidates if not noun.is_a("not_solid")] or candidates
     if last.noun in SETS["groups"] and last is not solid[-1]:  # "the cube above the tower on the left"
         return last if decisions.choose("group_owner", CHOICES["group_owner"]) == "group" else solid[-1]
@@ -181,19 +166,19 @@ def _nearest(place: Pending, decisions: Decisions) -> Item:
     return solid[0] if far and decisions.choose("owner", CHOICES["owner"]) == "far" else solid[-1]
 
 
-def _destination(places: list[Pending]) -> Pending | None:
+def _destination(places: list[Item]) -> Item | None:
     """Which phrase says where the object goes: a sure goal, else the last that does not only place a landmark."""
     free = [place for place in places if not (place.forced or place.name in PLACING["no_goals"])]
-    free = [place for place in free if not place.item.text.startswith(("from", "off", "out"))]
+    free = [place for place in free if not place.text.startswith(("from", "off", "out"))]
     # Each list is a stronger sign than the next: "to ...", "on a thing", "next to a thing", "in the corner".
-    sure = [place for place in free if {place.item.text.split()[0], place.name} & PLACING["sure"]]
-    solid = [place for place in free if place.item.children[0].noun not in SETS["places"] - SETS["hand"]]
+    sure = [place for place in free if {place.text.split()[0], place.name} & PLACING["sure"]]
+    solid = [place for place in free if place.children[0].noun not in SETS["places"] - SETS["hand"]]
     support = [place for place in solid if place.name in PLACING["supports"]]
     last = support[1:2] if len(support) >= _MOST_SUPPORTS else support[-1:] or solid[-1:]
     return next(iter([*sure[:1], *last, *free]), None)
 
 
-def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Clause) -> None:
+def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause) -> None:
     """ "the cube and the cone": the second noun phrase stands beside one before it."""
     apart = nouns[-1].is_a("place") and not item.is_a("place")
     partner = last_thing(nouns) if apart else nouns[-1]  # "the cube on the left and the cone"
@@ -201,7 +186,7 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Pending], clause: Claus
     if not (apart and partner.is_a("place")):  # but "On the left, the red cone"
         share_noun(partner, item)
         item.words += ("no",) if item.negative else ()  # "(with) a tie and no beard"
-        places = (place.item.children for place in reversed(pending))
+        places = (place.children for place in reversed(pending))
         beside = next((below for below in places if any(child is partner for child in below)), beside)
     beside.append(item)
     nouns.append(item)

@@ -16,21 +16,18 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        there = exists(clause)
-        if clause is own or not clause.objects or not (clause.verb is None or there):
+        if clause is own or not (clause.objects and clause.tells):
             continue
+        there = exists(clause)
         more = clause.objects[0]
         landmark = named_again(clause, clauses)
         if landmark is not None:
             landmark.take_up(more)
         elif there and about_it(more) and more.noun is not None and more.start > noun.start:
             noun.children.append(more.behind("with"))
-        elif _the_same(noun, more) and (clause.statement or there or clause.verb is None):
-            noun.take_up(more)
-        elif more.is_a("again") and (clause.statement or there or len(clause.objects) == 1):
-            same = more.text in SETS["stands_for"] or None in (more.color, noun.color)
-            one_of_them = noun.plural and not more.plural and more.text not in SETS["stands_for"]
-            if same and not one_of_them and "other" not in more.words:
+        elif _the_same(noun, more) or (more.is_a("again") and (clause.statement or there or len(clause.objects) == 1)):
+            another = "other" in more.words or (noun.plural and not more.plural) or None not in (more.color, noun.color)
+            if more.text in SETS["stands_for"] or not another:
                 noun.take_up(more)
 
 
@@ -77,28 +74,15 @@ def hang_fragments(clauses: Sequence[Clause]) -> None:
             clause.objects, clause.places = [replace(asked, children=clause.places)], []
 
 
-def take_what_was_asked_of(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
-    """ "Is the red mug clean? Then I'll take that one."."""
-    if noun.noun is not None or not (noun.pronoun and noun.is_a("empty")):
-        return
-    asked = (main_object(clause) for clause in reversed(clauses[: clauses.index(own)]) if clause.refused)
-    meant = next((one for one in asked if one is not None and one.noun is not None and not one.pronoun), None)
-    if meant is not None:
-        noun.noun, noun.pronoun = meant.noun, False
-        noun.take_up(meant)
-
-
 def tells_of_neighbour(clause: Clause) -> bool:
     """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and (clause.verb is None or exists(clause)) else None
-    return thing is not None and thing.determined and not thing.definite and not thing.pronoun and about_it(thing)
+    thing = clause.objects[0] if len(clause.objects) == 1 and clause.tells else END
+    return thing.is_a("new") and about_it(thing)
 
 
 def exists(clause: Clause) -> bool:
     """A clause that says what is there: "There is a cone by the door", "beside it is a stand"."""
-    thing = clause.objects[0] if len(clause.objects) == 1 and clause.verb is None else END
-    beside = thing.determined and not (thing.definite or thing.pronoun) and about_it(thing)
-    return beside or (clause.action in SETS["be"] and not clause.statement)
+    return clause.tells and (clause.verb is not None or tells_of_neighbour(clause))
 
 
 def about_it(noun: Item) -> bool:
@@ -109,21 +93,18 @@ def about_it(noun: Item) -> bool:
 
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
-    for clause in later:
-        denied = main_object(clause) if clause.negated else None
-        if denied is not None and denied.noun == noun.noun is not None and not (denied.color or denied.children):
-            return not denied.words
-    return False
+    denied = (main_object(clause) for clause in later if clause.negated)
+    return noun.noun is not None and any(one and one.noun == noun.noun and one.is_a("empty") for one in denied)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     of = next((c for c in one.children if c.words == ("of",) and c.children[0].plural and c.children[0].noun), None)
-    if of is not None and one.noun is None and of.start < one.start:
-        one.children.remove(of)  # "of the cubes, the one behind the box"
     below = [node for child in one.children for node in child.children]
     named = [noun for noun in _mentions(clauses) if noun.noun and noun.start < one.start and noun not in below]
-    named += of.children if of is not None and of not in one.children else []
+    if of is not None and one.noun is None and of.start < one.start:
+        one.children.remove(of)  # "of the cubes, the one behind the box"
+        named += of.children
     named = [noun for noun in named if one not in noun.walk()]
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
@@ -163,17 +144,20 @@ def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:
     """Give the landmarks of an object that name again what an earlier sentence named ("it", "that one", "those
     blocks", "this group") all that was said of it there."""
+    before = clauses[: clauses.index(own)]
+    asked = [noun for clause in before if clause.refused and (noun := main_object(clause)) is not None]
     earlier: list[Item] = []
-    for clause in clauses[: clauses.index(own)]:
+    for clause in before:
         main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
         # What a sentence is about is rather meant again than what it only places that by.
         earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
         earlier += main
     nodes = [(node, node.start) for node in target.walk()]
-    for node, before in nodes:
-        if node.kind is not Kind.NOUN or not _names_again(node) or (node is target and node.pronoun):
+    for node, start in nodes:
+        if node.kind is not Kind.NOUN or not _names_again(node):
             continue
-        named = [noun for noun in reversed(earlier) if noun.start < before and _may_be(node, noun)]
+        mentions = asked if node is target and node.pronoun else earlier  # "Is the mug clean? I'll take that one."
+        named = [noun for noun in reversed(mentions) if noun.start < start and _may_be(node, noun)]
         named = [noun for noun in named if node not in noun.walk()]
         if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
             named = [noun for noun in named if noun.words or noun.color or noun.children]
@@ -199,7 +183,7 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     for clause in clauses[: clauses.index(own)] if own.action in VERBS["take"] else ():
         if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
             continue
-        led = [place.children[0] for place in clause.places if place.words[0] in PLACING["goals"] - PLACING["away"]]
+        led = [place.children[0] for place in clause.places if place.name in PLACING["goals"] - PLACING["away"]]
         named = [noun for noun in (main_object(clause), *led) if noun is not None and noun.noun not in apart]
         goal = next((noun for noun in named if noun.noun and not noun.plural), goal)
         turned = clause.action in VERBS["turn"] if goal in named else turned

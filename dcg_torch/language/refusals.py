@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
@@ -16,23 +17,14 @@ MOTION = "it says how to move and names no thing to go to"
 def talk(words: Sequence[str]) -> list[tuple[int, int, str]]:
     """The parts of a command that order nothing about a thing: first word, index behind the last, the reason."""
     out: list[tuple[int, int, str]] = []
-    for start, stop in sentences(words):
-        said = " ".join(words[start:stop])
-        reason = next((reason for pattern, reason in (MEETING, *REFUSALS) if pattern.search(said)), None)
-        if reason is not None:
-            out.append((start, stop, reason))
-    return out
-
-
-def sentences(words: Sequence[str]) -> list[tuple[int, int]]:
-    """Where sentences begin and end; an address ("robot, ...") and politeness are no part of them."""
-    out: list[tuple[int, int]] = []
-    start = 0
-    for i, word in enumerate([*words, "."]):
-        if word in SETS["stops"]:
-            said = [k for k in range(start, i) if words[k] not in SETS["before_sentences"]]
-            out += [(said[0], said[-1] + 1)] if said else []
-            start = i + 1
+    stops = [i for i, word in enumerate([*words, "."]) if word in SETS["stops"]]
+    for before, stop in itertools.pairwise([-1, *stops]):
+        # An address ("robot, ...") and politeness are no part of a sentence.
+        said = [k for k in range(before + 1, stop) if words[k] not in SETS["before_sentences"]]
+        text = " ".join(words[said[0] : said[-1] + 1]) if said else ""
+        reason = next((reason for pattern, reason in (MEETING, *REFUSALS) if pattern.search(text)), None)
+        if said and reason is not None:
+            out.append((said[0], said[-1] + 1, reason))
     return out
 
 

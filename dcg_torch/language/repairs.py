@@ -63,7 +63,7 @@ def _speak_of(was: Item, new: list[Item], old: Item) -> None:
     """What the first noun phrase said instead leaves open is what the old one was about: "it", "one", a bare side."""
     k = next((k for k, item in enumerate(new) if item.kind is Kind.NOUN), len(new))
     noun = (*new, END)[k]
-    if k == 1 and noun.is_a("sided") and old.words[:1] and old.words[0] in PLACING["beside"]:
+    if k == 1 and noun.is_a("sided") and old.name in PLACING["beside"]:
         new[0].words = (f"{noun.noun} of",)  # "left of the bowl, no, to the right"
         new[1] = was.copy()
     elif noun.is_a("back"):

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause
-from dcg_torch.language.items import END, Item, Kind
+from dcg_torch.language.items import END, Item, Kind, is_edge_of, is_state, last_thing, share_noun
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
-from dcg_torch.language.places import Pending, conjoin
-from dcg_torch.language.predicates import is_edge_of, is_state, last_thing, share_noun
+from dcg_torch.language.places import conjoin
 
 
 class NounPhrases:
@@ -17,7 +17,7 @@ class NounPhrases:
     def __init__(self, items: Sequence[Item]) -> None:
         self.items = items
         self.clause = Clause()
-        self.pending: list[Pending] = []
+        self.pending: list[Item] = []
         self.nouns: list[Item] = []  # noun phrases so far
         self.preposition: Item | None = None  # still waits for its noun phrase
         self.forced = False  # the next preposition tells the last noun phrase apart
@@ -52,7 +52,7 @@ class NounPhrases:
         elif self.nouns and item.noun and self.copula and not (self.clause.objects or self.relative):
             self.mention(item)  # "behind the cube is a cone"
             for pending in self.pending:
-                pending.nouns, pending.forced = [item], True
+                pending.before, pending.forced = [item], True
         elif self.nouns and ((self.copula and self.forced) or self.repeats(item) or self.names_it(item)):
             counts = item.pronoun and item.is_a("ordered")
             one = self.last.plural and item.text.endswith(" one") and not item.plural  # "by the two cups, the big one"
@@ -78,7 +78,7 @@ class NounPhrases:
         """Whether two lines, or a line and its end, name a place: "row 3, column 2", "far right, second row"."""
         line, end = (item, self.last) if item.is_a("line") else (self.last, item)
         both, alone = end.is_a("line") and end.noun != line.noun, self.clause.objects == [self.last]
-        apart = self.preposition is not None and self.preposition.words[0] not in PLACING["within"]
+        apart = self.preposition is not None and self.preposition.name not in PLACING["within"]
         if apart or not line.is_a("line") or not (both or (alone and end.is_a("side"))):
             return False
         if self.preposition is not None:
@@ -113,7 +113,7 @@ class NounPhrases:
     def is_about_color(self, item: Item) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
         place = self.preposition
-        inside = place is not None and not place.children and place.words[0] in PLACING["within"]
+        inside = place is not None and not place.children and place.name in PLACING["within"]
         aspect = item.noun in SETS["aspects"]  # "blue in color"
         if not (inside and (aspect or (self.nouns and item.is_a("color")))):
             return aspect and self.relative
@@ -126,7 +126,7 @@ class NounPhrases:
         place = self.preposition
         if place is None or not self.nouns:
             return False
-        near = (self.last, last_thing(self.nouns)) if place.words[0] in PLACING["ranks_from"] else ()
+        near = (self.last, last_thing(self.nouns)) if place.name in PLACING["ranks_from"] else ()
         counted = [noun for noun in near if is_edge_of(noun, item, place)]
         if counted:
             counted[0].words += (f"from {'the ' if item.noun in SETS['sides'] else ''}{item.noun}",)
@@ -148,7 +148,7 @@ class NounPhrases:
             place.words = ("without",)
         if place.children:
             share_noun(place.children[-1], item)
-        if place.children or place.words[0] not in PLACING["between"] or item.plural:
+        if place.children or place.name not in PLACING["between"] or item.plural:
             self.preposition = None
         place.children.append(item)
         if place.words != ("of",) or item.determined or not self.nouns:
@@ -181,9 +181,8 @@ class NounPhrases:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
             return
-        noun.pick(predicate)
-        noun.color = noun.color or predicate.color
-        self.say(noun, predicate.words)
+        noun.take_up(predicate)
+        self.was_denied = False
         if noun.noun is None and is_state(predicate):
             self.say(noun, (str(predicate.noun),))
         elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
@@ -205,7 +204,7 @@ class NounPhrases:
         noun = self.last if within else last_thing(self.nouns)
         item.said = True
         if not self.says_where():
-            self.pending.append(Pending(item.behind("to"), list(self.nouns), False, False))
+            self.pending.append(replace(item.behind("to"), before=list(self.nouns)))
         elif item.determined:
             noun.children.append(item.behind("on"))
         else:

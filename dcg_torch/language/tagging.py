@@ -37,6 +37,10 @@ class Token(NamedTuple):
     value: tuple[str, ...] = ()
 
 
+BEHIND: Final = Token(0, 0, "", "")
+"""What stands behind the last token."""
+
+
 class Path(NamedTuple):
     """Tokens that cover a command, and their log-weight."""
 
@@ -71,21 +75,6 @@ def _best(starts: Mapping[str, list[_Start]], tag: str, k: int) -> list[_Start]:
     found = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
     found = [(round(score, 6), path) for score, path in found]  # so that equal ones are equal, and stay as they come
     return sorted(found, key=itemgetter(0), reverse=True)[:k]
-
-
-class Reader:
-    """Reads tokens from left to right."""
-
-    def __init__(self, tokens: Sequence[Token]) -> None:
-        self.tokens = tokens
-
-    def tag(self, i: int) -> str:
-        """The tag of token `i`, empty outside the command."""
-        return self.tokens[i].tag if 0 <= i < len(self.tokens) else ""
-
-    def text(self, i: int) -> str:
-        """The text of token `i`, empty outside the command."""
-        return self.tokens[i].text if 0 <= i < len(self.tokens) else ""
 
 
 class _Lattice:

@@ -38,7 +38,7 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
                 continue
         for place in clause.places:
             if not place.children[0].is_a("no_goal"):
-                score = _place_score(place.words[0], clause.action, target is not None)
+                score = _place_score(place.name, clause.action, target is not None)
                 found.append(Mention(place.children[0], clause, score + penalty, place))
     return found
 
@@ -81,7 +81,6 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     if not found:
         return None
     chosen = _resolved(_choose(found, decisions), found)
-    references.take_what_was_asked_of(chosen.noun, chosen.clause, clauses)
     verb, places = chosen.clause.verb, chosen.clause.places
     if chosen.place is not None:
         children = [chosen.place, *(place for place in places if place is not chosen.place)]
@@ -90,7 +89,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
         chosen.noun.children += _listed(chosen)
     others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
     # "Facing the bed, take the lamp on your left".
-    children += [place for place in others if place.words[0] in PLACING["frames"] and place not in children]
+    children += [place for place in others if place.name in PLACING["frames"] and place not in children]
     references.describe_later(chosen.noun, chosen.clause, clauses)
     for one in [node for node in chosen.noun.walk() if node is chosen.noun or node.is_a("unnamed")]:
         references.one_of_several(one, clauses)
@@ -130,7 +129,7 @@ def _relation(other: Mention, chosen: Mention) -> str:
     order = "earlier" if (one.sentence, other.noun.start) < (two.sentence, chosen.noun.start) else "later"
     if one.sentence != two.sentence:
         return f"{order}_sentence"
-    reached = one.action in VERBS["go"] and other.place is not None and other.place.words[0] in PLACING["toward"]
+    reached = one.action in VERBS["go"] and other.place is not None and other.place.name in PLACING["toward"]
     reached = reached or (other.place is None and one.action in VERBS["arrive"])
     if not reached:
         return f"{order}_clause"

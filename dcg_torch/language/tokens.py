@@ -99,12 +99,8 @@ def is_english(word: str) -> bool:
 
 @functools.lru_cache(16)
 def _speller(known: frozenset[str]) -> Speller:
-    return Speller([known, lx.SETS["basic_colors"], _command_words()], is_english)
-
-
-@functools.cache
-def _command_words() -> frozenset[str]:
     words = lx.listed(lx.GRAMMAR["spelt_lists"].split())
     single = {name for names in lx.PLACING.values() for name in names if " " not in name}
     colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
-    return frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors
+    commands = frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors
+    return Speller([known, lx.SETS["basic_colors"], commands], is_english)

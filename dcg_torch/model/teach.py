@@ -45,9 +45,9 @@ CORPUS_L2 = 4.0
 """Penalty on what a corpus moves away from what was known before; weaker ones let one corpus undo what others need."""
 _NAMED = 6.0
 """Log-odds at most by which a word that was settled on a type speaks for it before the corpus is weighed."""
-_ON_THE_WAY, _SETTLED = 30, 60
-"""Steps of the fit in a round of lessons, and in the last: of tens of thousands of factors the optimum is far, and the
-landmarks move it anyway."""
+_ON_THE_WAY, _SETTLED = (30, 1e-3), (150, 1e-6)
+"""Steps at most of the fit in a round of lessons and the gradient at which it has arrived, and those of the last round:
+of tens of thousands of factors the optimum is far, and until then the landmarks move it anyway."""
 
 
 Progress = Callable[[int], None]
@@ -158,9 +158,17 @@ def _fit(
 
     def fit_once(choices: list[Choice], last: bool) -> None:
         nonlocal fired
-        steps = _SETTLED if last else _ON_THE_WAY
-        every = [*always, *choices]
-        fired = fit_choices(model.factor, every, model.features, free=free, l2=l2, prior=model.prior, max_steps=steps)
+        steps, tolerance = _SETTLED if last else _ON_THE_WAY
+        fired = fit_choices(
+            model.factor,
+            [*always, *choices],
+            model.features,
+            free=free,
+            l2=l2,
+            prior=model.prior,
+            max_steps=steps,
+            tolerance=tolerance,
+        )
 
     def ground_now() -> GroundEncoded:
         return solver(model.features, model.factor, beam=model.variant.beam)

@@ -112,6 +112,10 @@ SIDE_WORDS |= {
 }
 QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
 """Words that say how many are meant, and nothing of which."""
+DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", "our", "their"})
+"""Words before what is one thing in particular."""
+EXCEPT = "except"
+"""The preposition before what is left out."""
 EITHER_END = frozenset({"back", "front"})
 """Of a table or a room: people who face the robot and people who stand behind it mean opposite ends."""
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
@@ -166,7 +170,7 @@ LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": 
 LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "in line with": "next to"}
 """Prepositions, and those that say much the same: what is known of these holds for them too, until they are learned."""
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
-PICKED_FROM |= {"behind": "farthest", "in front of": "closest"}
+PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom of": "bottom"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""
 
 

@@ -1,0 +1,56 @@
+"""What a command leaves out: "all cups but the white one", "everything except what is on the table"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from dcg_torch.grounding.solution import target_of
+from dcg_torch.names.vocabulary import DEFINITE, EXCEPT
+from dcg_torch.types import ParseTree, WorldModel
+
+
+def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]:
+    """A command without the exceptions of its noun phrase, and for each of them the same command about what it names.
+
+    What is left out is one of those that are meant otherwise: it is called so and stands so, if nothing else is said.
+    """
+    noun = target_of(tree)
+    exceptions = () if noun is None else tuple(c for c in noun.children if c.phrase.words[:1] == (EXCEPT,))
+    if noun is None or not exceptions:
+        return tree, ()
+    named = [out for child in exceptions for out in child.children]
+    kept = replace(noun, children=tuple(c for c in noun.children if c not in exceptions))
+    if kept.phrase.noun is None and kept.phrase.color is None and any(map(_counts, named)):
+        of = named[0]  # "all but two of the cubes": they are cubes
+        kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=of.phrase.color), kept.children + of.children)
+    return _about(tree, noun, kept), tuple(_about(tree, noun, _of_those(out, kept)) for out in named)
+
+
+def without(world: WorldModel, ids: frozenset[str]) -> WorldModel:
+    """A world in which some things are there and are not meant."""
+    may_be = frozenset(o.id for o in world.things) if world.meant is None else world.meant
+    return replace(world, meant=may_be - ids)
+
+
+def _about(tree: ParseTree, noun: ParseTree, other: ParseTree) -> ParseTree:
+    """A command about another noun phrase."""
+    if tree is noun:
+        return other
+    return replace(tree, children=tuple(_about(child, noun, other) for child in tree.children))
+
+
+def _is_definite(out: ParseTree) -> bool:
+    return out.phrase.text.partition(" ")[0] in DEFINITE
+
+
+def _counts(out: ParseTree) -> bool:
+    """Is it so many of them, whichever: "two of the cubes", "one"?"""
+    return out.phrase.count is not None and not _is_definite(out)
+
+
+def _of_those(out: ParseTree, kept: ParseTree) -> ParseTree:
+    """What is left out, with what it shares with the rest. "A mug", "what is red": all that are so."""
+    phrase = out.phrase
+    several = phrase.plural or not (_is_definite(out) or _counts(out))
+    named = replace(phrase, noun=phrase.noun or kept.phrase.noun, plural=several)
+    return ParseTree(named, (*out.children, *(c for c in kept.children if c not in out.children)))
