@@ -29,5 +29,8 @@ def test_the_step_solves_the_whole_system(correspondences: tuple[Correspondence,
     assert isinstance(objective.rows, ArrowheadRows)
     assert len(objective.rows.entry) == words * types
     point = objective(rng.normal(size=q * len(objective.strength)) * 0.3)
-    step = objective.newton_step(point).reshape(q, -1)
-    assert objective.product(point, step).reshape(-1) == pytest.approx(-point.gradient, abs=1e-8)
+    towards, again = objective.newton_step(point)
+    assert objective.product(point, towards.reshape(q, -1)).reshape(-1) == pytest.approx(-point.gradient, abs=1e-8)
+    other = rng.normal(size=len(point.gradient))
+    assert again is not None
+    assert objective.product(point, again(other).reshape(q, -1)).reshape(-1) == pytest.approx(-other, abs=1e-8)

@@ -1,4 +1,4 @@
-"""What people say in rooms, on table-tops and in several turns; commands and scenes of ours, the shipped model."""
+"""What people say in rooms, on table-tops and in several turns: commands that we wrote."""
 
 from __future__ import annotations
 

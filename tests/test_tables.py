@@ -62,12 +62,13 @@ def test_patterns_tell_what_a_child_is_about(kinds: int) -> None:
         for about in ([(0,), (2,)] if kinds == 1 else [(0, 1), (2, 2)])
     ]
     patterns = Patterns({thing.id: j for j, thing in enumerate(things)})
-    keys, which, code = patterns.spread(children, 3)
+    keys, (choice, grounding, special) = patterns.spread(children)
+    which = np.repeat(np.array([[key[0]] for key in keys]), 3, axis=1)
+    which[choice, grounding] = special
     assert [set(key) for key in keys] == [set(row) for row in which.tolist()]
     known = list(patterns.known)
     for row, own in zip(which, children, strict=True):
         for thing, number in zip(things, row.tolist(), strict=True):
             assert known[number][1] == tuple(child.grounding.object is thing for child in own)
     about = {child.grounding.object.id for own in children for child in own}
-    assert [thing.id in about for thing in things] == (code > 0).tolist()
-    assert len(np.unique(code[code > 0])) == len(about)
+    assert {things[j].id for j in grounding.tolist()} == about

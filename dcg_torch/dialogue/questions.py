@@ -10,11 +10,12 @@ from dcg_torch.dialogue.events import Done, Understood
 from dcg_torch.dialogue.situation import Errand, Situation
 from dcg_torch.grounding.explanation import explain, rivalry
 from dcg_torch.grounding.marks import heard
-from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.learning.beliefs import UNMET
+from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_WORDS
 from dcg_torch.speech_acts.requests import Question
-from dcg_torch.types import Percept
+from dcg_torch.types import ParseTree, Percept, Phrase, PhraseKind
 
 _SURE = 0.5
 """Probability from which on a thing is said to be what a question is about."""
@@ -66,12 +67,29 @@ def _about_things(s: Situation, kind: str, about: str) -> Done:
         s.look()
         s.look_round()
     errand = s.find(about, said, first)
-    text, id_ = _count(s, errand) if kind == "count" else _found(s, errand, kind)
+    unseen = _unseen_landmark(s, said.tree, errand.solution)
+    if unseen is not None:
+        text, id_ = f"{'No, there' if kind == 'exists' else 'There'} is no {unseen} here, as far as I can see.", None
+    else:
+        text, id_ = _count(s, errand) if kind == "count" else _found(s, errand, kind)
     if answered:
         s.say(text)
     else:
         s.emit(Understood("question", text, id_))
     return Done(s.robot.pose, "done" if id_ else "absent", id_)
+
+
+def _unseen_landmark(s: Situation, asked: ParseTree, solution: Solution) -> str | None:
+    """What a question says its thing by ("of the same colour as the cone"), if that is not there itself."""
+    target = target_of(asked)
+    for landmark in (below for place in (target.children if target else ()) for below in place.children):
+        noun = landmark.phrase.noun
+        if noun is None or noun in PLACE_WORDS or noun in GROUP_WORDS or landmark.phrase.plural:
+            continue
+        found = s.model.ground(ParseTree(Phrase(PhraseKind.VERB, ""), (landmark,)), solution.world)
+        if found.object is None or found.object.hypothetical or found.named < _NAMED:
+            return f"{landmark.phrase.color} {noun}" if landmark.phrase.color else noun
+    return None
 
 
 def _read(s: Situation, text: str) -> Parse:
@@ -133,6 +151,9 @@ def _identify(s: Situation, about: str, pointing_at: str | None) -> Done:
         errand = s.find(about, said, first)
         id_ = errand.chosen
         text = "I see nothing there." if id_ is None else f"It is {name_of(s, s.memory[id_])}."
+        unseen = None if said.tree is None else _unseen_landmark(s, said.tree, errand.solution)
+        if unseen is not None:
+            text, id_ = f"There is no {unseen} here, as far as I can see.", None
         if moved:
             s.say(text)
         else:

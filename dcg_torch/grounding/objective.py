@@ -23,9 +23,10 @@ from functools import cached_property
 
 import numpy as np
 
+from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.rows import ArrowheadRows, GridRows, Rows
-from dcg_torch.grounding.solvers import Function, Point
+from dcg_torch.grounding.solvers import Direction, Function, Point
 
 _SETTLED = 1e-10
 """Variables of a block whose gradient is less stay where they are."""
@@ -94,7 +95,7 @@ class Objective:
         d[:, rows.patterns.shape[1] :] += (gap[1:] - gap[0]) / rows.entry
         return d.reshape(-1)
 
-    def newton_step(self, point: Point) -> Floats:
+    def newton_step(self, point: Point) -> Direction:
         """Minus the inverse Hessian times the gradient; for rows of the arrowhead.
 
         The rows' own variables are eliminated first: what is left is as if their rows were less curved.
@@ -102,39 +103,55 @@ class Objective:
         assert isinstance(self.rows, ArrowheadRows)
         rows, chances, r = self.rows, point.chances, len(self.rows.entry)
         q, shared = len(chances), rows.patterns.shape[1]
-        gradient = point.gradient.reshape(q, -1)
         curvature = self._curvature(chances)
         if not r:
-            return self._shared_step(curvature, -gradient).reshape(-1)
+            alone = self._shared_steps(curvature)
+            return Direction(alone(-point.gradient.reshape(q, -1)).reshape(-1))
         coupled = rows.entry * curvature[:, :, :r]
         inverse = _inverse(rows.entry * coupled + self._basis[:, :, None] * self.strength[shared:])
         across = _times(coupled, inverse)
         curvature[:, :, :r] -= _times(across, coupled)
-        pull = np.zeros((q, curvature.shape[2]))
-        pull[:, :r] = _times(across, gradient[:, None, shared:])[:, 0]
-        step = self._shared_step(curvature, rows.by_pattern(pull) @ rows.patterns - gradient[:, :shared])
-        moved = rows.by_row(step @ rows.patterns.T)[:, None, :r]
-        left = gradient[:, None, shared:] + _times(coupled, moved)
-        return np.concatenate([step, -_times(inverse, left)[:, 0]], axis=1).reshape(-1)
+        steps = self._shared_steps(curvature)
 
-    def _shared_step(self, curvature: Floats, downhill: Floats) -> Floats:
-        """(Q, S) the step of the shared variables, from the curvature (Q, Q, N) of each row."""
+        def step(flat: Floats) -> Floats:
+            gradient = flat.reshape(q, -1)
+            pull = np.zeros((q, curvature.shape[2]))
+            pull[:, :r] = _times(across, gradient[:, None, shared:])[:, 0]
+            found = steps(rows.by_pattern(pull) @ rows.patterns - gradient[:, :shared])
+            moved = rows.by_row(found @ rows.patterns.T)[:, None, :r]
+            left = gradient[:, None, shared:] + _times(coupled, moved)
+            return np.concatenate([found, -_times(inverse, left)[:, 0]], axis=1).reshape(-1)
+
+        return Direction(step(point.gradient), step)
+
+    def _shared_steps(self, curvature: Floats) -> Callable[[Floats], Floats]:
+        """(Q, S) the step of the shared variables along (Q, S), from the curvature (Q, Q, N) of each row."""
         assert isinstance(self.rows, ArrowheadRows)
-        q, step = len(downhill), np.zeros_like(downhill)
+        q, blocks, hessians = len(curvature), self.rows.blocks, dict[int, Floats]()
         pairs = [(a, b) for a in range(q) for b in range(a + 1)]  # the matrices are symmetric
-        curvature = self.rows.by_pattern(np.array([curvature[pair] for pair in pairs]))
-        for rows, columns, matrix in self.rows.blocks:
-            if np.abs(downhill[:, columns]).max() < _SETTLED:
-                continue
-            own, k = curvature.take(rows, axis=1), len(columns)
+        curvatures = self.rows.by_pattern(np.array([curvature[pair] for pair in pairs]))
+
+        def hessian_of(rows: Ints, columns: Ints, matrix: Floats) -> Floats:
+            own, k = curvatures.take(rows, axis=1), len(columns)
             products = ((matrix.T * own[:, None]).reshape(-1, len(rows)) @ matrix).reshape(-1, k, k)
             hessian = np.empty((q, k, q, k))
             for (a, b), product in zip(pairs, products, strict=True):
                 hessian[a, :, b] = hessian[b, :, a] = product
             diagonal = np.einsum("akbk->abk", hessian)  # a view
             diagonal += self._basis[:, :, None] * self.strength[columns]
-            whole, right = hessian.reshape(q * k, q * k), downhill[:, columns].reshape(-1)
-            step[:, columns] = np.linalg.solve(whole, right).reshape(q, k)
+            return hessian.reshape(q * k, q * k)
+
+        def step(downhill: Floats) -> Floats:
+            found = np.zeros_like(downhill)
+            for number, (rows, columns, matrix) in enumerate(blocks):
+                right = downhill[:, columns].reshape(-1)
+                if np.abs(right).max() < _SETTLED:
+                    continue
+                if number not in hessians:
+                    hessians[number] = hessian_of(rows, columns, matrix)
+                found[:, columns] = np.linalg.solve(hessians[number], right).reshape(q, -1)
+            return found
+
         return step
 
     @cached_property
@@ -167,7 +184,7 @@ class Objective:
         found: Floats = self.total * chances[:, None] * (np.eye(len(chances))[:, :, None] - chances)
         return found
 
-    def newton_cg_step(self, point: Point, tolerance: float = 0.0) -> Floats:
+    def newton_cg_step(self, point: Point, tolerance: float = 0.0) -> Direction:
         """An approximate Newton step by preconditioned conjugate gradients.
 
         The system is solved as well as the gradient is small: so the last steps converge superlinearly.
@@ -193,7 +210,7 @@ class Objective:
                 break
             towards *= size / before
             towards += eased
-        return step
+        return Direction(step)
 
     def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""

@@ -83,7 +83,7 @@ class DeviceObjective:
         back = gradient.cpu().numpy()
         return solvers.Point(flat, float(value), back.reshape(-1), max_norm(back), np.zeros((len(back), 0)))
 
-    def newton_cg_step(self, point: solvers.Point) -> Floats:
+    def newton_cg_step(self, point: solvers.Point) -> solvers.Direction:
         """An approximate Newton step by conjugate gradients, preconditioned by the diagonal."""
         _, gradient, chances = self.at(self._variables(point.at))
         inverse, residual = 1.0 / self.diagonal(chances), -gradient
@@ -101,8 +101,7 @@ class DeviceObjective:
             if size <= enough:
                 break
             towards = eased + size / before * towards
-        flat: Floats = step.cpu().numpy().reshape(-1)
-        return flat
+        return solvers.Direction(step.cpu().numpy().reshape(-1))
 
     def _variables(self, flat: Floats) -> torch.Tensor:
         return torch.tensor(flat, device=self.strength.device).reshape(len(self.offset), -1)

@@ -29,14 +29,12 @@ class Patterns:
     _index: dict[Pattern, int] = field(default_factory=dict)
     _single: dict[tuple[str, int], Key] = field(default_factory=dict)
 
-    def spread(
-        self, choices: Sequence[tuple[Child, ...]], groundings: int
-    ) -> tuple[list[Key], NDArray[np.int64], NDArray[np.int64]]:
+    def spread(self, choices: Sequence[tuple[Child, ...]]) -> tuple[list[Key], NDArray[np.int64]]:
         """The patterns under several choices of children.
 
         Returns:
-            The patterns that each choice has; (choices, groundings) the numbers of the patterns; and (groundings,) 0
-            for what no child is about, else a number of its own.
+            The patterns that each choice has; and (3, cells) where a child is about a grounding: the choice, the
+            grounding, and the number of its pattern. All other groundings of a choice have the first of its patterns.
         """
         if all(len(children) == 1 for children in choices):  # as nearly all have
             about, rows = [self.number[c.grounding.object.id] for (c,) in choices], list(range(len(choices)))
@@ -47,13 +45,7 @@ class Patterns:
             about, rows = [j for _, of in found for j in of], [row for row, (_, of) in enumerate(found) for _ in of]
             special = [number for _, of in found for number in of.values()]
             keys = [(rest, *of.values()) for rest, of in found]
-        which = np.empty((len(choices), groundings), dtype=np.int64)
-        which[:] = np.array([key[0] for key in keys])[:, None]
-        columns = np.array(about, dtype=np.int64)
-        which[np.array(rows, dtype=np.int64), columns] = special
-        code = np.zeros(groundings, dtype=np.int64)
-        code[columns] = columns + 1
-        return keys, which, code
+        return keys, np.array([rows, about, special], dtype=np.int64)
 
     def _of_one(self, children: tuple[Child, ...]) -> Key:
         kind = children[0].grounding.kind._value_, children[0].correspondence._value_  # hashed quickly

@@ -32,6 +32,7 @@ from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_i
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
 from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
+from dcg_torch.grounding.stacks import by_levels, with_levels
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
@@ -73,7 +74,7 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     ]
     trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
     roomed = [by_compounds(by_rooms(tree, world), world) for tree, _, _ in trees]
-    led = led_into_rooms([by_heights(by_corners(tree, world), world) for tree in roomed], world)
+    led = led_into_rooms([by_levels(by_heights(by_corners(tree, world), world), world) for tree in roomed], world)
     trees = [
         (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
         for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)
@@ -90,7 +91,7 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
 def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
     """The world whose things are told the cells, rooms and corners that readings speak of."""
     trees = [reading.tree for reading in readings]
-    return with_corners(with_rooms(with_cells(world, trees), trees), trees)
+    return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
@@ -232,11 +233,12 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     for share, solution in zip(shares, solutions, strict=True):
         for id_, p in solution.probabilities.items():
             total[id_] += share * p / whole
-    meant = [s.object.id if s.object is not None else None for s in solutions]
-    grounded = [k for k, id_ in enumerate(meant) if id_ is not None]
+    meant = [[o.id for o in (s.object, *s.objects) if o is not None] for s in solutions]
+    grounded = [k for k, ids in enumerate(meant) if ids]
     if not grounded:
         return solutions[0]
-    best = max(grounded, key=lambda k: (total[meant[k] or ""], shares[k]))
+    # Of several that one reading means alike any may be the likeliest.
+    best = max(grounded, key=lambda k: (max(total[id_] for id_ in meant[k]), shares[k]))
     own = {id_: total[id_] for id_ in solutions[best].probabilities}
     return replace(solutions[best], probabilities=own)
 

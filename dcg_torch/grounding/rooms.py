@@ -7,12 +7,13 @@ values of the key that gives the rooms ("room: kids room"), or else for what can
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
-from dcg_torch.names.rooms import room_named, told_rooms, within_words
+from dcg_torch.names.rooms import room_keys, room_named, told_rooms, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM
 from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.names.wordnet import nouns
@@ -88,11 +89,19 @@ def _is_room(word: str) -> bool:
 
 
 def _values(world: WorldModel) -> dict[str, list[str]]:
-    """Room -> the attributes that say that something is in it."""
+    """Room -> the attributes that say that something is in it.
+
+    Where several keys name rooms ("room", "belongs in"), those that say where a thing is, or else the commonest.
+    """
+    said = Counter(a.partition(OF_KEY)[::2] for o in world.objects for a in o.attributes)
+    told = {pair: room for pair in sorted(said) if pair[1] and (room := room_named(pair[1])) is not None}
+    times: Counter[str] = Counter()
+    for key, value in told:
+        times[key] += said[key, value]
+    where = {key for key in times if normalise(key) in room_keys()} or {key for key, _ in times.most_common(1)}
     found: dict[str, list[str]] = {}
-    for attribute in sorted({a for o in world.objects for a in o.attributes}):
-        key, _, value = attribute.partition(OF_KEY)
-        if value and (room := room_named(value)) is not None:
+    for (key, value), room in told.items():
+        if key in where:
             found.setdefault(room, []).append(f"{attribute_key(key)}{OF_KEY}{normalise(value)}")
     return found
 
@@ -184,6 +193,8 @@ class _Speaking:
         given = self.values.get(name)
         if given is None:
             return None
+        number = next((word for word in room.words if word.isdecimal()), None)
+        given = [one for one in given if number is None or one.split(" ")[-1] == number] or given
         key = given[0].partition(OF_KEY)[0]
         return f"{key}{OF_KEY}{'|'.join(one.partition(OF_KEY)[2] for one in given if one.startswith(key))}"
 

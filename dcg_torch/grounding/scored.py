@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
+from dcg_torch.scene.order import highest
 from dcg_torch.types import Correspondence, ParseTree, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -53,6 +54,30 @@ class Scored:
         _, first, which = np.unique(self.code, return_index=True, return_inverse=True)
         few: Floats = np.logaddexp.reduce(self.scores[:, first], axis=(0, 2))
         return few[which]
+
+    def highest(self, count: int, scores: Floats | None = None) -> list[tuple[int, int, int, float]]:
+        """The combo, the grounding, the number in `meant` and the score of the best configurations.
+
+        Equal scores stay in the order of the world's objects.
+
+        Args:
+            scores: others than its own, which differ from them for whole combos, if there are any.
+        """
+        scores = self.scores if scores is None else scores
+        columns = None
+        if self.code is not None and len(self.code) > _FEW and self.combos[0]:
+            # Of those whose scores are equal none but the first few can be among the best.
+            rest = (self.code == 0).nonzero()[0][:count]
+            columns = np.sort(np.concatenate([rest, self.code.nonzero()[0]]))
+            scores = scores[:, columns]
+        _, n, m = scores.shape
+        flat = scores.reshape(-1)
+        best = highest(flat, count)
+        number = range(n) if columns is None else columns.tolist()
+        return [
+            (at // (m * n), number[at // m % n], at % m, score)
+            for at, score in zip(best.tolist(), flat[best].tolist(), strict=True)
+        ]
 
     def about(self, meant: str, number: Mapping[str, int]) -> Bools:
         """(combos, groundings, 1) or what broadcasts to it: which configurations are about an object.

@@ -21,7 +21,6 @@ from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.names.vocabulary import counted
-from dcg_torch.scene.order import highest
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -59,6 +58,7 @@ class Search:
         self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
+        self._children: dict[tuple[str, int, int], Child] = {}
 
     def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
         """The best configuration, and the probabilities of all that it may be about.
@@ -225,14 +225,19 @@ class Search:
         correspondences = self._tables.factor.correspondences
         patterns = Patterns(self.encoder.number)
         choices = [tuple([h.child for h in combo]) for combo in combos]
-        keys, which, code = patterns.spread(choices, len(self.encoder.world.meanable))
+        keys, (row, about, special) = patterns.spread(choices)
         table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
         inactive = table[correspondences.index(Correspondence.INACTIVE)]
         base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, keys)
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        return Scored(tree, combos, meant, cells[np.arange(len(combos))[:, None], which], code)
+        scores = np.empty((len(combos), len(self.encoder.world.meanable), len(meant)))
+        scores[:] = cells[np.arange(len(combos)), [key[0] for key in keys]][:, None]
+        scores[row, about] = cells[row, special]
+        code = np.zeros(scores.shape[1], dtype=np.int64)
+        code[about] = about + 1
+        return Scored(tree, combos, meant, scores, code)
 
     def _sums(self, values: Floats, keys: Sequence[Key]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
@@ -301,19 +306,13 @@ class Search:
         return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
 
     def _best(self, scored: Scored, beam: int, scores: Floats | None = None) -> list[Hypothesis]:
-        """The best configurations of a phrase; equal scores stay in the order of the world's objects.
-
-        Args:
-            scores: others than its own.
-        """
+        """The best configurations of a phrase; see `Scored.highest`."""
         tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
-        kind, things = GROUNDING_OF[tree.phrase.kind], self.encoder.all
-        found, scores = [], (scored.scores if scores is None else scores).reshape(-1)
-        _, n, m = scored.scores.shape
-        best = highest(scores, beam)
-        for flat, score in zip(best.tolist(), scores[best].tolist(), strict=True):
-            c, j, p = flat // (m * n), flat // m % n, flat % m
-            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
+        kind, things, found = GROUNDING_OF[tree.phrase.kind], self.encoder.all, []
+        for c, j, p, score in scored.highest(beam, scores):
+            key, below = (kind._value_, j, meant[p]._value_), combos[c]  # hashed quickly
+            if (child := self._children.get(key)) is None:
+                child = self._children[key] = Child(Grounding(kind, things[j]), meant[p])
             if modifiers:
                 below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
             found.append(Hypothesis(tree, child, below, score))

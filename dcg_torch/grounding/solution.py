@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.names.vocabulary import ANY, FEW, GROUP_LIKE, HALF, SO_MANY
 from dcg_torch.types import Child, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 
@@ -122,6 +123,10 @@ _EXCLUDED = 1e-3
 """An object so much less probable than the best is no further one of a number: it has another name."""
 
 
+_MISCOUNTED = 0.4
+"""The probability that those are meant that are there, if there are fewer than are counted."""
+
+
 @dataclass(frozen=True)
 class Solution:
     """phi* and gamma* of a command, with the alternatives that were weighed.
@@ -177,14 +182,39 @@ class Solution:
             return tuple(o for o in self.world.objects if o.id in members)
         if self.object.hypothetical or (not noun.plural and (noun.count or 1) == 1):
             return (self.object,)
-        ranked = sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
         if noun.count is not None:
+            ranked = self._ranked
             least = _EXCLUDED * self.probabilities[ranked[0].id]
-            return tuple(o for o in ranked[: noun.count] if self.probabilities[o.id] >= least)
-        # What nothing fits well is told apart by the odds.
+            counted = ranked[: noun.count]  # what is not there is likelier than what is called otherwise
+            return tuple(o for o in counted if self.probabilities[o.id] >= least and not o.hypothetical)
+        found = self._described
+        if HALF in noun.words:
+            return found[: (len(found) + 1) // 2]
+        return found[: min((FEW[word] for word in noun.words if word in FEW), default=None)]
+
+    @property
+    def _ranked(self) -> list[Object]:
+        """All that may be there, the likeliest first."""
+        return sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
+
+    @property
+    def _described(self) -> tuple[Object, ...]:
+        """What is described about as well as the likeliest thing; what nothing fits well is told apart by the odds."""
+        ranked = [o for o in self._ranked if not o.hypothetical]
         fits = self.fits if self.fits[ranked[0].id] >= _AS_WELL else self.odds
         least, likely = _AS_WELL * fits[ranked[0].id], _LIKELY * self.probabilities[ranked[0].id]
         return tuple(o for o in ranked if fits[o.id] >= least and self.probabilities[o.id] >= likely)
+
+    @property
+    def _whichever(self) -> bool:
+        """Is any of those meant that are described: "one of the cubes", "any two cubes"?"""
+        noun = self.noun
+        if noun is None or not self.fits or not GROUP_LIKE.isdisjoint(noun.words):
+            return False
+        if HALF in noun.words or not FEW.keys().isdisjoint(noun.words):
+            return True
+        number, of, _ = noun.text.partition(" of ")
+        return number.partition(" ")[0] == ANY or bool(of and (number in SO_MANY or number.isdecimal()))
 
     @property
     def noun(self) -> Phrase | None:
@@ -209,11 +239,21 @@ class Solution:
         """Of the grounding, None where there is none; of several objects, that they and no others are meant."""
         if self.object is None:
             return None
-        meant = self._meant()
-        if len(meant) < 2 or self.object.members:
+        meant, noun = self._meant(), self.noun
+        if self.object.hypothetical or self.object.members:
+            own = self.probabilities[self.object.id]
+        elif self._whichever:
+            own = sum(self.probabilities[o.id] for o in self._described)
+        elif len(meant) < 2:
             own = self.probabilities[self.object.id]
         else:
             own = self._probability_of_set({o.id for o in meant})
+        if (
+            noun is not None
+            and len(meant) < (noun.count or 0)
+            and not (self.object.members or self.object.hypothetical)
+        ):
+            own *= _MISCOUNTED
         return math.prod((own, *(solution.probability or 0.0 for solution in self.further)))
 
     def _probability_of_set(self, inside: set[str]) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 import torch
@@ -46,6 +46,13 @@ class Point:
     chances: Floats
 
 
+class Direction(NamedTuple):
+    """A Newton step, and minus the inverse Hessian as a function of any gradient, where it is cheap to use again."""
+
+    towards: Floats
+    again: Callable[[Floats], Floats] | None = None
+
+
 Function = Callable[[Floats], Point]
 Status = Literal["converged", "step limit", "stalled"]
 
@@ -62,7 +69,7 @@ class Minimum:
 
 def newton(
     function: Function,
-    direction: Callable[[Point], Floats],
+    direction: Callable[[Point], Direction],
     start: Floats,
     *,
     tolerance: float,
@@ -71,8 +78,11 @@ def newton(
 ) -> Minimum:
     """Newton's method with halved steps where a whole one goes too far.
 
+    A further step by the Hessian of the point before shrinks the gradient about as much as the step from there did. So
+    where that is enough it is the last one, without a Hessian of its own.
+
     Args:
-        direction: minus the inverse Hessian times the gradient.
+        direction: where to go from a point.
         start: the variables at first.
         tolerance: stop at this `norm`.
         max_steps: at the most.
@@ -87,11 +97,14 @@ def newton(
             return Minimum(point, step, evaluations, "converged")
         if step == max_steps:
             break
-        towards = direction(point)
+        towards, again = direction(point)
         better, tried = _along(function, point, towards)
         evaluations += tried
         if better is None:
             return Minimum(point, step, evaluations, "stalled")
+        if again and better.norm > tolerance and better.norm * better.norm <= tolerance * point.norm:
+            last, evaluations = function(better.at + again(better.gradient)), evaluations + 1
+            better = last if last.norm < better.norm else better
         point = better
     return Minimum(point, max_steps, evaluations, "step limit")
 

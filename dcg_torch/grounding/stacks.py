@@ -1,12 +1,25 @@
-"""Blocks of a stack in plain words: "the second block from the ground"."""
+"""Blocks of a stack: "the second block from the ground", "the lowest one of the tower".
+
+Where there is a stack, a noun phrase that counts along it gets a word for the level ("level: 2 up"), which is compared
+with the level that each thing is at (`with_levels`).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, ORDINALS, PLACE_WORDS
-from dcg_torch.types import ParseTree, PhraseKind
+from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS
+from dcg_torch.scene.groups import stacks
+from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
+
+_ENDS = dict.fromkeys(("bottom", "bottommost", "lowest", "lower", "from the bottom"), "up")
+_ENDS |= dict.fromkeys(("top", "topmost", "highest", "upper", "from the top"), "down")
+_FEET = frozenset({"base", "foot", "bottom"})
+_AT_ENDS = {"at the bottom of": "up"}
+_TALL = 3
+"""Levels at least of the one stack that "the second from the bottom" is about where none is named."""
 
 
 def from_the_ground(tree: ParseTree) -> ParseTree:
@@ -35,3 +48,71 @@ def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tupl
 def _is_ground(place: ParseTree) -> bool:
     phrase = place.children[0].phrase if len(place.children) == 1 else place.phrase
     return PLACE_WORDS.get(phrase.noun or "", ("", None))[0] == "ground" and not phrase.words
+
+
+def by_levels(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in which what is said of the ends of a stack, and of what is counted from them, is words for levels."""
+    if not any(_counts(node) for node in tree.walk()):
+        return tree
+    found = _stacks(world)
+    return _told(tree, any(len(of) >= _TALL and 2 * len(of) > _seen(world) for of in found)) if found else tree
+
+
+def with_levels(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
+    """The world whose things have the levels of their stacks as attributes, if a tree speaks of levels."""
+    if not any(word.startswith(LEVEL) for tree in trees for node in tree.walk() for word in node.phrase.words):
+        return world
+    levels: dict[str, frozenset[str]] = defaultdict(lambda: frozenset({f"{LEVEL}none"}))
+    for of in _stacks(world):
+        levels |= {o.id: frozenset({f"{LEVEL}{k} up", f"{LEVEL}{len(of) + 1 - k} down"}) for k, o in enumerate(of, 1)}
+    objects = (replace(o, attributes=o.attributes | levels[o.id]) for o in world.objects)
+    return replace(world, objects=tuple(objects))
+
+
+def _seen(world: WorldModel) -> int:
+    return sum(not o.hypothetical for o in world.objects)
+
+
+def _stacks(world: WorldModel) -> list[list[Object]]:
+    return stacks(world.objects, world.unit, world.viewer or world.robot)
+
+
+def _told(tree: ParseTree, tall: bool) -> ParseTree:
+    tree = from_the_ground(replace(tree, children=tuple(_told(child, tall) for child in tree.children)))
+    phrase = tree.phrase
+    stack = next((c for c in tree.children if _is_in_stack(c)), None)
+    along = [word for word in phrase.words if word in _ENDS]
+    number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
+    if stack is None:
+        said = number is not None and along and along[0].startswith("from ") and tall and not tree.children
+        return ParseTree(_at(phrase, number or 1, _ENDS[along[0]])) if said else tree
+    if number is None and [_ENDS[word] for word in along] == ["down"]:
+        return tree  # the shipped weights know what the top of a stack is
+    end = _ENDS[along[0]] if along else _AT_ENDS.get(stack.phrase.words[0])
+    if phrase.noun in _FEET and not along:
+        phrase, end = replace(phrase, noun=None), "up"
+    if phrase.kind is not PhraseKind.NOUN or end is None or phrase.plural:
+        return tree
+    inside = replace(stack, phrase=replace(stack.phrase, words=("in",)))
+    return ParseTree(_at(phrase, number or 1, end), tuple(inside if c is stack else c for c in tree.children))
+
+
+def _at(phrase: Phrase, number: int, end: str) -> Phrase:
+    """A phrase for what is at a level, without what counts to it."""
+    words = tuple(word for word in phrase.words if word not in _ENDS and word not in ORDINALS)
+    return replace(phrase, words=(*words, f"{LEVEL}{number} {end}"), count=None)
+
+
+def _counts(node: ParseTree) -> bool:
+    phrase = node.phrase
+    return phrase.noun in _FEET or not (_ENDS.keys() | _AT_ENDS.keys()).isdisjoint(phrase.words)
+
+
+def _is_in_stack(place: ParseTree) -> bool:
+    """Does it say that a thing is one of a stack?"""
+    if place.phrase.kind is not PhraseKind.PREPOSITION or len(place.children) != 1:
+        return False
+    landmark = place.children[0].phrase
+    named = (landmark.noun or "", *landmark.words)
+    stack = any(GROUP_WORDS.get(word, ())[:1] == ("stack",) for word in named)
+    return stack and place.phrase.words[0] in INSIDE - {"on top of", "in the middle of"}

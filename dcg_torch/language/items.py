@@ -184,10 +184,7 @@ def settle_words(noun: Item) -> None:
     """Bring what is said of a noun phrase to one form, when all has been said."""
     for place in list(noun.children):
         below = place.children[0]
-        if place.words == ("except",) and below.pronoun and not noun.plural and "all" not in noun.words:
-            noun.children.remove(place)
-            deny(noun, below)
-        elif place.words == ("without",):
+        if place.words == ("without",):
             _settle_nothing(noun, place, below)
         elif place.words == ("with",) and len(place.children) == 1 and below.is_a("colored_part") and not noun.color:
             # "The screwdriver with the red handle": people and recognisers say that it is red.

@@ -54,7 +54,7 @@ class NounPhrase:
     def _determiner(self, token: Token) -> int:
         if self.at > self.start and self.tokens[self.at - 1].tag not in {"Q", "DET", "P"}:
             return 0
-        self.item.negative = self.item.negative or token.text in SETS["none"]
+        self.item.negative = self.item.negative or token.value[0] in SETS["none"]
         if token.value[0] in SETS["owned"]:
             self.item.words += (token.value[0],)
         self.item.determined = True
@@ -64,7 +64,7 @@ class NounPhrase:
         self.item.count = {"both": 2, "one of": 1}.get(token.value[0], self.item.count)
         if not self.picked:  # "the biggest of all the cubes"
             self.item.words += token.value
-            self.item.plural = self.item.plural or token.text in SETS["of_many"]
+            self.item.plural = self.item.plural or token.value[0] in SETS["of_many"]
         self.picked = self.picked or token.value == ("one of",)
         return 1
 

@@ -19,7 +19,7 @@ from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, VERBS
 from dcg_torch.language.phrases import items
-from dcg_torch.language.refusals import MOTION, NO_THING, refuse, talk
+from dcg_torch.language.refusals import MOTION, NO_THING, NONE, refuse, talk
 from dcg_torch.language.repairs import repair
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
@@ -181,6 +181,8 @@ class _Command:
         """Why there is no tree."""
         if self.parts:
             return self.parts[0][2]
+        if any(noun.negative for clause in self.clauses for noun in clause.objects):
+            return NONE
         motion = VERBS["go"] | VERBS["look"]
         return MOTION if any(clause.action in motion for clause in self.clauses) else NO_THING
 

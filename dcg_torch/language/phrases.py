@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
+from dcg_torch.language.lexicon import PARTICLE_VERBS, PRONOUNS, SETS
 from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
 from dcg_torch.language.tagging import BEHIND, Token
 
@@ -54,10 +54,11 @@ class _Phrases:
         if token.text in SETS["filler_words"] and self.before.kind in {Kind.PREPOSITION, Kind.VERB, Kind.STOP}:
             return i + 1  # "go to like the cone"
         normal = token.value[0]
-        if token.text.startswith("from the") and normal in PLACING["beside"] and self.before.is_a("counted"):
+        *_, end = token.text.split()[:3]
+        if token.text.startswith("from the ") and end in SETS["ends"] and self.before.is_a("counted"):
             self.add(Kind.PREPOSITION, i, i + 1, ("from",))  # "the second from the left of the row"
             side = self.add(Kind.NOUN, i, i + 1)
-            (side.noun, normal), side.determined = normal.split(), True
+            side.noun, side.determined, normal = end, True, "of"
         elif token.text.startswith("the ") and self.before.kind in {Kind.PREPOSITION, Kind.STOP}:
             bare = self.add(Kind.NOUN, i, i + 1)  # "go to the closest to you"
             bare.pronoun = bare.determined = True

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.language.lexicon import CHOICES, NTH, PLACING, SETS, VERBS
 from dcg_torch.names.rooms import room_named
 
 
@@ -61,10 +62,8 @@ def list_places(clauses: Sequence[Clause]) -> None:
 
 def hang_fragments(clauses: Sequence[Clause]) -> None:
     """ "The red car... is there one? Yes, by the bridge.": a place by itself is where what was named before it is."""
-    for k, clause in enumerate(clauses):
-        before = clauses[k - 1] if k else clause
-        parted = k > 0 and before.refused is not None and clause.refused is None
-        if not parted or clause.verb or clause.objects or not clause.places:
+    for k, (before, clause) in enumerate(itertools.pairwise(clauses)):
+        if not before.refused or clause.refused or clause.verb or clause.objects or not clause.places:
             continue
         named = [main_object(other) for other in clauses[:k] if other.refused is None and other.verb is None]
         if named and (noun := named[-1]) is not None and noun.noun is not None:
@@ -95,6 +94,15 @@ def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
     denied = (main_object(clause) for clause in later if clause.negated)
     return noun.noun is not None and any(one and one.noun == noun.noun and one.is_a("empty") for one in denied)
+
+
+def by_mention(one: Item, clauses: Sequence[Clause]) -> None:
+    """ "There is a lamp and a chair. Take the latter.": which of those that were named before, in their order."""
+    before = [noun for noun in _mentions(clauses) if noun.start < one.start and noun.is_a("mention")]
+    named = sorted(before, key=lambda noun: noun.start)
+    for word, noun in (*zip(NTH.values(), named, strict=False), *(("last", noun) for noun in named[-1:])):
+        if word in one.words:
+            _take_over(one, noun)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:

@@ -11,6 +11,7 @@ from dcg_torch.language.lexicon import MEETING, REFUSALS, SETS, TALK, VERBS
 
 _BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
 NO_THING = "it names no thing"
+NONE = "it asks for none of them"
 MOTION = "it says how to move and names no thing to go to"
 
 

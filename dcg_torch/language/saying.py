@@ -124,7 +124,7 @@ class NounPhrases:
     def is_rank(self, item: Item) -> bool:
         """Whether the noun phrase says along what is counted: "(the second) from the left", "on the rightmost"."""
         place = self.preposition
-        if place is None or not self.nouns:
+        if place is None or not self.nouns or place.name == "except":
             return False
         near = (self.last, last_thing(self.nouns)) if place.name in PLACING["ranks_from"] else ()
         counted = [noun for noun in near if is_edge_of(noun, item, place)]
@@ -148,8 +148,8 @@ class NounPhrases:
             place.words = ("without",)
         if place.children:
             share_noun(place.children[-1], item)
-        if place.children or place.name not in PLACING["between"] or item.plural:
-            self.preposition = None
+        if place.name != "except" and (place.children or place.name not in PLACING["between"] or item.plural):
+            self.preposition = None  # but "except the fork, the spoon and the knife"
         place.children.append(item)
         if place.words != ("of",) or item.determined or not self.nouns:
             self.nouns.append(item)  # what follows "a pallet of tires" is said of the pallet

@@ -90,6 +90,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
     # "Facing the bed, take the lamp on your left".
     children += [place for place in others if place.name in PLACING["frames"] and place not in children]
+    for node in chosen.noun.walk():
+        if "mentioned" in node.words:
+            references.by_mention(node, clauses)
     references.describe_later(chosen.noun, chosen.clause, clauses)
     for one in [node for node in chosen.noun.walk() if node is chosen.noun or node.is_a("unnamed")]:
         references.one_of_several(one, clauses)

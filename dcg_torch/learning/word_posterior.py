@@ -64,6 +64,10 @@ class Assumptions:
         if not (0.0 <= self.hidden < math.inf and 0.0 < self.strength < math.inf):
             raise ValueError("hidden must not be negative, strength must be positive, and both finite")
 
+    def with_names(self, *, evident: bool) -> Assumptions:
+        """With the names of types and colours as evidence for words, or without."""
+        return replace(self, nouns=replace(self.nouns, names=evident), colors=replace(self.colors, names=evident))
+
 
 @dataclass(frozen=True)
 class WordPosterior:
@@ -191,10 +195,10 @@ class WordPosterior:
         return replace(self, nouns=self.nouns.correct(word, type_))
 
     def with_names(self, *, evident: bool) -> WordPosterior:
-        """With the names of types as evidence for nouns, or without."""
-        prior = replace(self.nouns.prior, names=evident)
-        assumed = replace(self.assumed, nouns=prior)
-        return replace(self, nouns=replace(self.nouns, prior=prior), assumed=assumed)
+        """With the names of types and colours as evidence for words, or without."""
+        assumed = self.assumed.with_names(evident=evident)
+        nouns, colors = replace(self.nouns, prior=assumed.nouns), replace(self.colors, prior=assumed.colors)
+        return replace(self, nouns=nouns, colors=colors, assumed=assumed)
 
     def forget(self, word: str) -> WordPosterior:
         """As if a noun had never been heard."""

@@ -11,13 +11,12 @@ from importlib.resources import files
 from pathlib import Path
 
 from dcg_torch.grounding.features import PAPER, FeatureSet, Group
-from dcg_torch.learning.beliefs import Prior
 from dcg_torch.learning.word_posterior import Assumptions, WordPosterior
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.model.checkpoint import load
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam=12)
-_ASSUMED = Assumptions(nouns=Prior(names=True))
+_ASSUMED = Assumptions().with_names(evident=True)
 LESSONS = 2250
 _ROUNDS = 3
 SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"

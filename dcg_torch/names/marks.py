@@ -19,7 +19,7 @@ from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
 from dcg_torch.names.evidence import evidence, unheard_of
 from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
-from dcg_torch.names.rooms import room_named
+from dcg_torch.names.rooms import room_keys, room_named
 
 WORD: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 """A word of a text or of a name: letters, or a number with its unit."""
@@ -192,8 +192,9 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
 
     Where half of the values of a key are basic colours, they are looks. Names of rooms are places.
     """
+    rooms = {room_named(value) for key, value in given if key in room_keys()} - {None}
     for key in sorted({key for key, _ in given}):
-        values = sorted(value for of, value in given if of == key and not (key == "room" and room_named(value)))
+        values = sorted(value for of, value in given if of == key and room_named(value) not in rooms)
         numbers = [value for value in values if value.isdecimal()]
         if any(value not in "01" for value in numbers):
             yield from ((key, value) for value in numbers)

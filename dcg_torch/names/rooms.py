@@ -27,15 +27,21 @@ def within_words() -> frozenset[str]:
     return frozenset(_rooms()["within"].split())
 
 
+@functools.cache
+def room_keys() -> frozenset[str]:
+    """Keys that say where a thing is."""
+    return frozenset(normalise(key) for key in _rooms()["keys"].split())
+
+
 @functools.lru_cache(maxsize=4096)
 def room_named(noun: str) -> str | None:
-    """The room that a noun names; None for what names none.
+    """The room that a noun names, which may have a number ("bedroom 2"); None for what names none.
 
     >>> room_named("kids' room"), room_named("guest bedroom"), room_named("sofa")
     ('kids room', 'bedroom', None)
     """
     plain = normalise(noun.replace("'s", "").replace("'", ""))
-    words = plain.split(" ")
+    words = plain.rstrip("0123456789 ").split(" ")
     return next((found for k in range(len(words)) if (found := _named().get(" ".join(words[k:]))) is not None), None)
 
 

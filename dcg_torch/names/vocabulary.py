@@ -76,7 +76,9 @@ LIKELY_ROOM = "likely room: "
 """Begins the attribute that tells in which room of a home a thing is likely to be."""
 SPOT = "spot: "
 """Begins the attribute that tells whether a thing is in a corner of a room."""
-WORKED_OUT = (CELL, LIKELY_ROOM, SPOT)
+LEVEL = "level: "
+"""Begins the attributes that tell how many levels of its stack are below a thing, and how many above it."""
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, LEVEL)
 """Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
@@ -114,6 +116,12 @@ QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
 """Words that say how many are meant, and nothing of which."""
 DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", "our", "their"})
 """Words before what is one thing in particular."""
+GROUP_LIKE = frozenset({*GROUP_WORDS, "pair"})
+"""Words that make one whole of several things."""
+ANY, SO_MANY = "any", frozenset({*NUMBER_WORDS, "one", "a couple"})
+"""What begins a noun phrase that means some of several, whichever they are: "any two", "three of", "a couple of"."""
+HALF, FEW = "half", {"few": 3}
+"""Words for a share of what is described, and for how many are meant at most."""
 EXCEPT = "except"
 """The preposition before what is left out."""
 EITHER_END = frozenset({"back", "front"})

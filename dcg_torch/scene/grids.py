@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,6 +18,9 @@ _LEAST, _FULL = 6, 0.6
 """Things of a grid, and the share of its cells that they fill."""
 _EVEN, _ASIDE = 1.35, 0.2
 """Steps are at most so many times as long as others; a thing is beside its line by so much of a step at most."""
+
+_FEW, _CLEARLY = 64, 1.01
+"""Things up to which they are looked at one by one, and how far beyond a bound is clearly beyond it."""
 
 Cell = tuple[int, int]
 """Row from the top and column from the left, from 0."""
@@ -37,7 +42,7 @@ def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | Non
         objects: those without a position are nowhere.
     """
     there = [o for o in objects if o.position is not None]
-    if len(there) < _LEAST:
+    if len(there) < _LEAST or _lies_scattered([o.position for o in there if o.position is not None], viewer):
         return None
     position = np.array([o.position for o in there], dtype=np.float64)
     position[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), position[:, :2])
@@ -53,6 +58,23 @@ def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | Non
     if len(set(cells)) < len(cells) or min(rows, columns) < 2 or len(cells) < _FULL * rows * columns:
         return None
     return Grid({o.id: cell for o, cell in zip(there, cells, strict=True)}, rows, columns)
+
+
+def _lies_scattered(position: Sequence[tuple[float, float, float]], viewer: Pose | None) -> bool:
+    """Are few things on one level clearly on no even lines, from front to back? It takes little time to tell."""
+    if len(position) > _FEW or len({z for _, _, z in position}) > 1:
+        return False
+    yaw = 0.0 if viewer is None else viewer.yaw
+    c, s = math.cos(yaw), math.sin(yaw)
+    order = sorted([c * x + s * y for x, y, _ in position])
+    gaps = [after - before for before, after in itertools.pairwise(order)]
+    bound = 0.5 * max(gaps)
+    starts = [0, *(k + 1 for k, gap in enumerate(gaps) if gap > bound), len(order)]
+    middles = [sum(order[a:b]) / (b - a) for a, b in itertools.pairwise(starts)]
+    steps = [after - before for before, after in itertools.pairwise(middles)]
+    spread = max(order[b - 1] - order[a] for a, b in itertools.pairwise(starts))
+    least = _CLEARLY * min(steps, default=0.0)
+    return len(steps) > 1 and (max(steps) > _EVEN * least or spread > _ASIDE * least)
 
 
 def _numbered(values: Floats) -> Ints | None:

@@ -72,6 +72,14 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     )
 
 
+def stacks(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> list[list[Object]]:
+    """The things of each stack, from below; arguments as of `groups`."""
+    there = [o for o in objects if o.position is not None]
+    heights = [(o.position or (0.0, 0.0, 0.0))[2] for o in there]
+    found = _stacks(_seen(there, unit, robot)) if len(there) > 1 else ()
+    return [[there[j] for j in sorted(of, key=heights.__getitem__)] for of in found]
+
+
 def _compared(objects: Sequence[Object]) -> Iterable[tuple[Ints, Ints]]:
     """The numbers of objects and the class of each: one of all, those of one type, those of one type and colour.
 

@@ -28,6 +28,8 @@ Bools = NDArray[np.bool_]
 
 NEAREST = 3
 """Ranks that are told apart by their number."""
+_FEW = 64
+"""Things up to which it takes less time to look at one after another."""
 
 SETS = ("kind", "type", "color", "all", "row")
 """What a thing may be compared with: those of its type and colour, of its type, of its colour, all, or those in its row
@@ -138,7 +140,7 @@ class Layout:
     def alike(self, among: str) -> Alike:
         """Which of `SETS` each thing is compared with, by the name of the set."""
         if among not in self._alike:
-            self._alike[among] = self._row if among == "row" else Alike.by(self._class_of(among))
+            self._alike[among] = self._row if among == "row" else self._by_class(among)
         return self._alike[among]
 
     @functools.cached_property
@@ -149,8 +151,22 @@ class Layout:
     def _type(self) -> Ints:
         return numbered(o.type for o in self.things)
 
+    def _by_class(self, among: str) -> Alike:
+        """Groups are compared with those of their type alone."""
+        if len(self.things) > _FEW:
+            return Alike.by(self._class_of(among))
+        typed, colored = among in ("kind", "type"), among in ("kind", "color")
+        placed = len(self.things) - int(np.count_nonzero(self.place))  # places come last
+        return Alike.of(
+            [
+                (o.type if typed or o.members else None, o.color if colored else None, bool(o.members))
+                for o in self.things[:placed]
+            ]
+            + [None] * (len(self.things) - placed)
+        )
+
     def _class_of(self, among: str) -> Ints:
-        """(n,) groups are compared with those of their type alone."""
+        """(n,) the class of each of many things as a number."""
         code = np.where((among in ("kind", "type")) | self.group, self._type, 0)
         if among in ("kind", "color"):
             code = code * (len(self.colors) + 1) + self.color + 1
@@ -201,7 +217,9 @@ def layout(world: WorldModel) -> Layout:
     speaker = None
     if world.speaker is not None:
         speaker = to_robot_frame(viewer, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
-    own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
+    own = np.zeros(2)
+    if world.viewer is not None:
+        own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
     return Layout(

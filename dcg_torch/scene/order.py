@@ -30,20 +30,23 @@ class Alike:
 
     Attributes:
         code: (n,) the class of each, -1 for none.
-        members: of each class.
+        given: the members of each class, where others than those of its code.
     """
 
     code: Ints
-    members: Sequence[Ints]
+    given: Sequence[Ints] | None = None
+
+    @classmethod
+    def of(cls, keys: Sequence[Hashable | None]) -> Alike:
+        """The class of a thing is that of its key; None: it has none."""
+        number: dict[Hashable | None, int] = {None: -1}
+        return cls(np.array([number.setdefault(key, len(number) - 1) for key in keys], dtype=np.int64))
 
     @classmethod
     def by(cls, code: Ints) -> Alike:
         """The class of a thing is that of its code; -1: it has none."""
         if len(code) <= _FEW:
-            few = code.tolist()
-            number = {value: k for k, value in enumerate(sorted({*few} - {-1}))} | {-1: -1}
-            which = np.array([number[value] for value in few], dtype=np.int64)
-            return cls(which, [(which == k).nonzero()[0] for k in range(len(number) - 1)])
+            return cls.of([None if value < 0 else value for value in code.tolist()])
         known, which = np.unique(code, return_inverse=True)
         none = int(len(known) > 0 and known[0] < 0)
         order = np.argsort(which, kind="stable")
@@ -51,11 +54,22 @@ class Alike:
         return cls(which - none, [order[a:b] for a, b in itertools.pairwise(bounds)])
 
     @cached_property
+    def members(self) -> Sequence[Ints]:
+        """Of each class."""
+        if self.given is not None:
+            return self.given
+        return [(self.code == k).nonzero()[0] for k in range(int(self.code.max(initial=-1)) + 1)]
+
+    @cached_property
     def table(self) -> Bools:
         """(n, n) is j one of those that i is compared with? For few things."""
+        if self.given is None:
+            same: Bools = self.code[:, None] == self.code
+            same &= (self.code >= 0)[:, None]
+            return same
         inside = np.zeros((len(self.members) + 1, len(self.code)), dtype=np.bool_)
-        for k, members in enumerate(self.members):
-            inside[k, members] = True
+        for own, members in zip(inside, self.members, strict=False):  # the last is of what has no class
+            own[members] = True
         found: Bools = inside[self.code]
         return found
 
@@ -80,21 +94,14 @@ def numbered(values: Iterable[Hashable]) -> Ints:
 
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
     """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
-    n = len(columns[0])
-    if n <= _FEW:
-        rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
-        number: dict[Hashable, int] = {}
-        few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
-        return [few.index(k) for k in range(len(number))], np.array(few, dtype=np.int64)
-    code = np.zeros(n, dtype=np.int64)  # without a tuple for each of many things
-    for column in columns:
-        further = column if isinstance(column, np.ndarray) else numbered(column)
-        more = int(further.max()) + 1
-        if int(code.max()) + 1 > (1 << 62) // more:
-            code = np.unique(code, return_inverse=True)[1]
-        code = code * more + further
-    _, first, kind = np.unique(code, return_index=True, return_inverse=True)
-    return first.tolist(), kind
+    rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
+    number: dict[Hashable, int] = {}
+    few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
+    kind = np.array(few, dtype=np.int64)
+    if len(few) <= _FEW:
+        return [few.index(k) for k in range(len(number))], kind
+    highest_yet = np.maximum.accumulate(kind)
+    return np.flatnonzero(np.diff(highest_yet, prepend=-1)).tolist(), kind
 
 
 def before(values: Floats, alike: Alike, most: int) -> Ints:
@@ -108,8 +115,9 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
     """
     if values.shape[1] <= _FEW:
         with np.errstate(invalid="ignore"):
-            less = values[:, None, :] < values[:, :, None] - TIE
-        few: Ints = (less & alike.table[None]).sum(axis=2)
+            less = values[:, None, :] < (values - TIE)[:, :, None]
+        less &= alike.table
+        few: Ints = np.einsum("rij->ri", less.view(np.int8)).astype(np.int64)  # far faster than a sum of truth values
         return few
     with np.errstate(invalid="ignore"):
         bound = values - TIE

@@ -76,8 +76,7 @@ def read_question(text: str) -> Question | None:
     said = _plain(text, _data()["fillers"])
     for pattern, kind in _patterns("questions"):
         if (found := pattern.fullmatch(said)) is not None:
-            about = next((value for value in found.groupdict().values() if value), None)
-            return Question(kind, about)
+            return Question(kind, " ".join(filter(None, found.groupdict().values())) or None)
     return None
 
 
