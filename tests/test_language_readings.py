@@ -179,7 +179,7 @@ def test_selection_and_places(
     [
         ("the two cones", "cone", (), 2, True, []),
         ("both cones", "cone", ("both",), 2, True, []),
-        ("every cone except the red one", "cone", ("every", "not red"), None, True, []),
+        ("every cone except the red one", "cone", ("every",), None, True, [("except", None)]),
         ("everything but the cone", None, ("all",), None, True, [("except", "cone")]),
         ("anything but the cone", "thing", (), None, False, [("except", "cone")]),
         ("the two nearest cones", "cone", ("closest",), 2, True, []),

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.people import OF_PEOPLE
 from dcg_torch.names.attributes import (
     HAS,
     NOT_,
@@ -39,10 +40,6 @@ _OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
 """Keys whose values people use as nouns: "the woman", "the blonde", "the ball"; "the iron" is no thing of iron."""
 _OF_WHOLE = frozenset({"orientation", "gender", "age", "smiling"})
 """Keys that say how a whole thing is: of "a man in a suit looking left" the man looks left."""
-_OF_PEOPLE = frozenset(
-    {"gender", "age", "hair", "beard", "mustache", "glasses", "hat", "tie", "suit", "smiling", "bald"}
-)
-"""Keys that people have: where things carry two of them "the chap" is one of these, whatever their class is called."""
 _CLOTHES = frozenset(["clothes", "clothing", "cloth", "outfit", "attire", "dress", "wear", "garment"])
 """Nouns for whatever people wear."""
 _PICTURES = frozenset(["picture", "pic", "photo", "photograph", "image", "portrait", "face", "headshot"])
@@ -81,7 +78,7 @@ class _Speaking:
 
     def __init__(self, keys: frozenset[str], types: Sequence[str], colored: bool, worn: Sequence[str]) -> None:
         self.keys, self.types, self.colored, self.worn = keys, types, colored, worn
-        self.of_people = len(keys & _OF_PEOPLE) > 1
+        self.of_people = len(keys & OF_PEOPLE) > 1
 
     def root(self, tree: ParseTree) -> ParseTree:
         """The whole tree: "he has dark hair and a tie", "glasses, no beard" name the thing by what it has."""

@@ -19,7 +19,7 @@ from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.together import shades_among, so_many
+from dcg_torch.grounding.together import log_in_row, log_tidy, shaded, shades_among, so_many
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
@@ -86,6 +86,8 @@ def modifier_factor(
         log_psi = log_psi if outside is None else log_psi + outside
         if tree.phrase.plural and not denied and tree.phrase.words[0] in AROUND:
             log_psi = within_reach(log_psi, [of[0] for of in landmarks], encoder)
+        if not denied and tree.phrase.words[0] in _MEMBER and counted(tree.children[0].phrase.words):
+            log_psi = np.minimum(log_psi, log_in_row([of[0] for of in landmarks], encoder))
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -105,6 +107,9 @@ def _fewer(beams: Sequence[Sequence[Hypothesis]]) -> list[Sequence[Hypothesis]]:
     """The beams of several landmarks, cut so that combinations stay few: "between the bed and the desk and ..."."""
     most = max(1, int(_COMBINATIONS ** (1.0 / max(1, len(beams))) + 1e-9))
     return [beam[:most] if len(beams) > 2 else beam for beam in beams]
+
+
+_MEMBER = frozenset({"in", "of"})
 
 
 def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
@@ -173,17 +178,18 @@ def comparison_set(
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
     of_color = own >= own.max() - _NEAR if phrase.color is not None else np.isfinite(own)
-    counts = np.where(of_color, own if close else fit, -np.inf)
+    counts = np.where(of_color, own if close else fit + log_size, -np.inf)
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
         log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
-    log_size = log_size + _of_so_many(phrase, encoder)
+    log_size = log_size + _of_so_many(phrase, encoder) + log_tidy(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
     described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
-    return Comparison(described, log_size, phrase)
+    phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
+    return Comparison(described, log_size + log_shade, phrase)
 
 
 def _sized(
@@ -276,7 +282,9 @@ def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floa
         known = logs[among[: len(logs)] & np.isfinite(logs)]
         if len(known) > least and np.ptp(known) > max(_SAME_SIZE, _LIKE_SIZES * differ[-1]):
             place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
-            off = [2.0 * np.abs(place - 0.5) if not side else 1.0 - place if side > 0 else place for side in sides]
+            wide = np.expm1((logs - known.min()) / 3.0) / np.expm1(np.ptp(known) / 3.0)
+            short = 1.0 - np.clip(np.minimum(place, wide), 0.0, 1.0)
+            off = [2.0 * np.abs(place - 0.5) if not side else short if side > 0 else place for side in sides]
             return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))
     return None
 

@@ -63,7 +63,7 @@ def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
 
 
 def _words(text: str) -> tuple[str, ...]:
-    return tuple(re.findall(r"\w+|[^\w\s]", text.lower()))
+    return tuple(re.findall(r"\w+|[^\w\s]", re.sub(r"n't\b", " not", text.lower())))
 
 
 def _each_told(tree: ParseTree, *, compared: bool) -> ParseTree:

@@ -6,9 +6,11 @@ from dataclasses import dataclass, replace
 from typing import Final
 
 from dcg_torch.english.forms import parts
+from dcg_torch.names.evidence import unheard_of
 from dcg_torch.names.marks import MARK_WORDS, WORD, Mark, Marks, mark_words
 from dcg_torch.names.normal import singular
 
+_NAME: Final = 2  # letters of a name
 _SHORTENED: Final = ("no", "nr", "num")
 
 
@@ -76,7 +78,26 @@ class _Finder:
             other = self._is_place(i, n) or self._is_verb(i, n)
             if mark is not None and not other and (not mark.short or self._is_name(i, i + n)):
                 return self._extended(i, i + n, mark, owned)
-        return None
+        missing = self.marks.missing(self.words[i]) if self._may_be_missing(i) else None
+        return None if missing is None else self._extended(i, i + 1, missing, False)
+
+    def _may_be_missing(self, i: int) -> bool:
+        """Is a word a name that none there bears: "15" where there are 14, "Pepsi" among other logos?"""
+        word, lists = self.words[i], mark_words()
+        if word.isdecimal() or word in lists["numbers"]:
+            return word != "ones" and self._is_name(i, i + 1)
+        plain = word in self.marks.heads | lists["carriers"] | lists["common"] | lists["before"] | lists["after"]
+        titles = sum(raw[0].isupper() for raw in self.raw)
+        if (
+            plain
+            or len(word) < _NAME
+            or not word.isalpha()
+            or not self.raw[i][0].isupper()
+            or 2 * titles > len(self.raw) > 3
+        ):
+            return False
+        begins = i == 0 or not set(".,;:!?").isdisjoint(self.text[self.tokens[i - 1].end() : self.tokens[i].start()])
+        return (unheard_of(word) and not parts(word)) or (not begins and self.words[i - 1] not in ("the", "to", "of"))
 
     def _is_place(self, i: int, n: int) -> bool:
         """Is it a place and no shape: "in the corner", "the top right corner"?"""
@@ -107,7 +128,7 @@ class _Finder:
         lists, before, after = mark_words(), self.word(i - 1), self.word(stop)
         if (
             self.words[i] == "ones"
-            or before in lists["lines"]
+            or (before in lists["lines"] and not (before == "line" and after == "up"))
             or (before in lists["before"] and self.word(i - 2) in lists["lines"])
         ):
             return False
@@ -119,7 +140,12 @@ class _Finder:
         if self.words[i].isalpha() and len(self.words[i]) == 1:
             return self._is_letter(i)
         plural = singular(after) != after and singular(after) in self.marks.heads
-        if after in lists["units"] or after == "of" or plural or before in lists["counted_after"]:
+        if (
+            after in lists["units"]
+            or after == "of"
+            or plural
+            or (before in lists["counted_after"] and not (before == "both" and after == "and"))
+        ):
             return False
         if self.words[i] == "one":
             ends = after not in self.marks.heads | lists["after"] or not after

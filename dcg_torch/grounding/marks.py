@@ -16,10 +16,11 @@ from dataclasses import replace
 from typing import Any, Final, TypeVar
 
 from dcg_torch.grounding.mark_finder import FoundMark, find_marks
+from dcg_torch.grounding.people import of_people
 from dcg_torch.grounding.spoken import ParsedCommand
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.marks import Marks, is_strange, mark_words, marks_of, words_of
+from dcg_torch.names.marks import OF_CLASS, Marks, is_strange, mark_words, marks_of, words_of
 from dcg_torch.names.normal import singular
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 
@@ -28,8 +29,6 @@ _LONGEST: Final = 1000  # characters of a text whose marks are looked for; longe
 _STAND_IN: Final = "quorb"
 _STAND_INS: Final = tuple(f"{_STAND_IN}{one}{two}" for two in "bcdfgklmnpqrtvw" for one in "abcdefghijklmnopqrstuvwxyz")
 """More than a command has words; with another letter at their ends they might be plurals of one another."""
-_OF_CLASS = "class"
-"""The key of marks that are parts of the names of classes."""
 _BEARING = frozenset({"with", "of", "have"})
 
 
@@ -47,6 +46,7 @@ def heard(
         things: what is there.
     """
     things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
+    text = of_people(text, things)
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
     if marks is None or len(text) > _LONGEST or _STAND_IN in text.lower():
         return parse(text, vocabulary)
@@ -182,7 +182,7 @@ class _Restored:
         strange = bool(before) and (all(map(is_strange, before)) or self._is_name(before[0]))
         if not (strange and singular(head) in self.marks.heads):
             return noun, []
-        key = self.marks.keys[0] if self.marks.keys else _OF_CLASS
+        key = self.marks.keys[0] if self.marks.keys else OF_CLASS
         return head, [f"{key}{OF_KEY}{' '.join(before)}"]
 
     def _is_name(self, word: str) -> bool:

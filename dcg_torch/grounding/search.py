@@ -58,7 +58,6 @@ class Search:
         self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
-        self._children: dict[tuple[str, int, int], Child] = {}
 
     def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
         """The best configuration, and the probabilities of all that it may be about.
@@ -232,10 +231,11 @@ class Search:
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        scores = np.empty((len(combos), len(self.encoder.world.meanable), len(meant)))
-        scores[:] = cells[np.arange(len(combos)), [key[0] for key in keys]][:, None]
-        scores[row, about] = cells[row, special]
-        code = np.zeros(scores.shape[1], dtype=np.int64)
+        n, k, flat = len(self.encoder.world.meanable), cells.shape[1], cells.reshape(-1, len(meant))
+        scores = np.empty((len(combos), n, len(meant)))
+        scores[:] = flat.take([k * c + key[0] for c, key in enumerate(keys)], axis=0)[:, None]
+        scores.reshape(-1, len(meant))[n * row + about] = flat.take(k * row + special, axis=0)
+        code = np.zeros(n, dtype=np.int64)
         code[about] = about + 1
         return Scored(tree, combos, meant, scores, code)
 
@@ -310,9 +310,7 @@ class Search:
         tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
         kind, things, found = GROUNDING_OF[tree.phrase.kind], self.encoder.all, []
         for c, j, p, score in scored.highest(beam, scores):
-            key, below = (kind._value_, j, meant[p]._value_), combos[c]  # hashed quickly
-            if (child := self._children.get(key)) is None:
-                child = self._children[key] = Child(Grounding(kind, things[j]), meant[p])
+            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
             if modifiers:
                 below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
             found.append(Hypothesis(tree, child, below, score))

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,8 +17,12 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features.said import look_scores
 from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.grounding.solution import ModifierFactor
-from dcg_torch.names.vocabulary import LATERAL, WITHIN
+from dcg_torch.names.attributes import size_side
+from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, ORDINALS, WITHIN, counted
+from dcg_torch.scene.groups import ROW
 from dcg_torch.scene.order import highest
+from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -29,10 +34,17 @@ _ALIKE = 0.7
 """Nats by which things differ that are described alike."""
 _SHADED = 2.0
 """Nats for each unit by which a colour's score stays behind the best of those that are compared."""
+_COUNTED = 3.0
+"""Nats for each place by which a thing stays behind "the second darkest"."""
 _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
 """The most that it loses."""
+_OUTSIDE = -6.0
+"""Nats that a thing loses that is none of a row of so many in which it is said to be."""
+_BENT = 8.0
+"""Nats that a row loses for each step by which one of it stands aside."""
+_ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
 _TOUCHING = 0.02
 """Share of the diagonal of the box around all below which distances are alike."""
 
@@ -93,6 +105,46 @@ def closest_together(position: Floats, candidates: Bools, log_fit: Floats, sever
     return found, np.where(found, 0.0, log_close)
 
 
+def log_tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what rows lose that are wider and less even than the tidiest, to "the row of three".
+
+    Any three things by chance lie about in a line: people mean by a row what is plainly one.
+    """
+    lost = np.zeros(len(encoder.all))
+    number = counted(phrase.words)
+    if number is None or _ROWS.isdisjoint({phrase.noun, *phrase.words}):
+        return lost
+    many = [j for j, o in enumerate(encoder.all) if ROW in o.attributes and len(o.members) == number]
+    if len(many) < 2:
+        return lost
+    at = {o.id: place for o, place in zip(encoder.all, encoder.layout.position, strict=True)}
+    rows = [_tidiness(np.array([at[i] for i in encoder.all[j].members])) for j in many]
+    steps, bent = np.array(rows).T
+    loss = -_TIGHT * np.log(steps) - _BENT * bent
+    lost[many] = np.maximum(_FAR, loss - loss.max())
+    return lost
+
+
+def log_in_row(groups: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(groups, things) what things lose that are none of a row to "the red one in the row of four"; 0 of all else."""
+    lost = np.zeros((len(groups), len(encoder.all)))
+    for k, j in enumerate(groups):
+        members = encoder.all[j].members
+        if members and ROW in encoder.all[j].attributes:
+            lost[k] = [0.0 if o.id in members or o.members else _OUTSIDE for o in encoder.all]
+    return lost
+
+
+def _tidiness(points: Floats) -> tuple[float, float]:
+    """The step of a row (n, 3), and how far at most, in steps, one stands from where it is due."""
+    centred = points - points.mean(axis=0)
+    along = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
+    order = np.argsort(along)
+    due = np.linspace(points[order[0]], points[order[-1]], len(points))
+    step = float(np.linalg.norm(points[order[-1]] - points[order[0]])) / (len(points) - 1) + 1e-9
+    return step, float(np.linalg.norm(points[order] - due, axis=1).max()) / step
+
+
 def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
     """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
 
@@ -108,6 +160,36 @@ def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: Wor
     y = encoder.layout.position[:, 1]
     described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
     return np.where(described, y if side == "left" else -y, fit - _BEYOND)
+
+
+def shaded(said: Phrase, phrase: Phrase, described: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+    """ "The darkest of the small ones" is compared with these, not with all in view; "the second darkest" is counted.
+
+    Args:
+        said: the phrase with all its words.
+        phrase: the same without those that are taken up.
+        described: (things,) what the rest of it describes.
+
+    Returns:
+        The phrase without what compares colours, and the log-factor of each thing; both as before where colours are
+        compared among all.
+    """
+    nothing = np.zeros(len(described))
+    number = next((ORDINALS[word] for word in said.words if word in ORDINALS), None)
+    shades = tuple(word for word in comparing_words(said.look) if word.endswith("est"))
+    if not shades or (number is None and all(size_side(word) is None for word in said.words)):
+        return phrase, nothing
+    among = described & encoder.perceived
+    log_shade = shades_among(shades, among, encoder)
+    members = np.flatnonzero(among & np.array([o.color is not None or o.rgb is not None for o in encoder.all]))
+    if not log_shade.any() or len(members) < (number or 1):
+        return phrase, nothing
+    if number is not None:
+        place = np.argsort(np.argsort(-log_shade[members], kind="stable"))
+        log_shade[members] = -_COUNTED * np.abs(place + 1 - number)
+    log_shade[~among] = log_shade.min()
+    words = tuple(w for w in phrase.words if w not in shades and w not in ORDINALS)
+    return replace(phrase, words=words, look=tuple(w for w in phrase.look if w not in shades)), log_shade
 
 
 def shades_among(words: tuple[str, ...], among: Bools, encoder: WorldEncoder) -> Floats:

@@ -34,7 +34,8 @@ How a noun phrase is written down, beside its noun, colour and number:
                         "penultimate"; ("second", "biggest"); ("third", "from me"). A rank from a landmark has the
                         ordinal as its word and "closest to" or "farthest from" below: "second closest to the sphere"
     sets                "all", "every", "each", "both" (count 2), "any", "one of" (count 1) are words; "the two cubes"
-                        has the count 2. What is left out is below the preposition "except": "everything but the cone"
+                        has the count 2. What is left out is below the preposition "except": "everything but the cone",
+                        "all cups apart from the white one"
     names               "cube 3" and "cube number 3" are the noun cube with the word "3"
     lines               "row 3" is the noun row with the word "third"; "row 3, column 2" has the column below the row
     isolation           "by itself", "isolated", "on its own" behind a noun phrase are the word "alone"

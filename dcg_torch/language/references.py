@@ -121,7 +121,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
     if not several or one.noun is not None:
         return
-    group = max(several, key=lambda noun: noun.start).copy()
+    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in several)]
+    group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
     for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
@@ -129,7 +130,9 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.words += ("middle",)
     if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
         pair = (word for word in group.words if word in SETS["close_pairs"])
-        one.words = tuple(dict.fromkeys((*one.words, *pair, f"of {group.count}")))
+        sized = not SETS["sizes"].isdisjoint(one.words)
+        looks = [w for w in group.words if _describes(w) and not (sized and w in SETS["sizes"])]
+        one.words = tuple(dict.fromkeys((*one.words, *looks, *pair, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 
@@ -147,6 +150,12 @@ def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]
     counts = [noun for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
     count = next((noun.count for noun in counts if (noun.count or 0) > 1), None)
     return [] if count is None else [replace(named, count=count, plural=True)]
+
+
+def _describes(word: str) -> bool:
+    """Does a word tell of each of several, and neither counts nor picks?"""
+    counts = SETS["ordinals"] | SETS["quantifiers"] | SETS["others"] | SETS["pairs"] | SETS["sides"] | SETS["groups"]
+    return word.isalpha() and word not in counts and not word.endswith(("est", "most"))
 
 
 def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> None:

@@ -177,6 +177,22 @@ def _told_from_grays(of: Region, colors: Array) -> Array:
     return rival
 
 
+@functools.lru_cache(maxsize=4096)
+def looks_like(word: str, rgb: tuple[float, float, float]) -> bool:
+    """Is a word for a colour the best of the basic words, or of those for grays, for what something looks like?
+
+    >>> looks_like("black", (20, 20, 20)), looks_like("black", (80, 80, 80)), looks_like("red", (200, 30, 30))
+    (True, False, True)
+    """
+    of, colors = region(normalise(word)), lab(np.array([rgb], dtype=np.float64))
+    if of is None:
+        return False
+    if math.hypot(*of.mean[1:]) <= _GRAYISH:
+        return bool(_told_from_grays(of, colors)[0] > math.log(0.5))
+    others = [other for name in color_words().basic if (other := region(name)) is not None]
+    return all(of.log_density(colors)[0] >= other.log_density(colors)[0] for other in others)
+
+
 def _narrow(of: Region) -> Region:
     wide, red, yellow = of.spread
     return Region(of.mean, (wide / 2.0, red / 2.0, yellow / 2.0))

@@ -25,6 +25,8 @@ WORD: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 """A word of a text or of a name: letters, or a number with its unit."""
 MARK_WORDS: Final = 4  # words at most of a text that are one mark
 _SPELT, _LONG = 5, 8  # letters from which one slip, and two, may be in a name
+OF_CLASS: Final = "class"
+"""The key of marks that are parts of the names of classes."""
 _PART = 3  # letters of a part of a mark
 _BOARD = 3  # classes at least that are told apart by marks
 _MOST, _SOME = 0.8, 0.3  # share of them that have a word in common, or of those that are no words but names
@@ -86,6 +88,15 @@ class Marks:
             found = self.parts.get(solid_name(words)) or self._nearly(last)
             several = False
         return None if found is None else _mark(found, _is_short(words), several)
+
+    def missing(self, word: str) -> Mark | None:
+        """The mark that a word names where others of its kind are there, numbers or names, and it is not."""
+        number = solid_name([word])
+        alike = sum(name.isdecimal() == number.isdecimal() for name in self.full.values())
+        if alike < max(_BOARD, _MOST * len(self.full)):
+            return None
+        key = self.keys[0] if self.keys else OF_CLASS
+        return Mark(f"{key}{OF_KEY}{number if number.isdecimal() else word}", (), number.isdecimal())
 
     def _nearly(self, word: str) -> frozenset[tuple[str, str]] | None:
         """What a word means that is no name there: another name of one, or one with a slip."""
@@ -229,6 +240,17 @@ def _told_apart(types: Sequence[str]) -> tuple[dict[str, list[str]], str]:
         return board, head
     strange = [type_ for type_ in types if len(type_) == 1 or all(map(is_strange, words_of(type_)))]
     return {type_: words_of(type_) for type_ in types if len(strange) >= max(_BOARD, _SOME * len(types))}, ""
+
+
+@functools.lru_cache(256)
+def kinds_of(types: frozenset[str]) -> dict[str, str]:
+    """Class -> what kind of thing it is, where classes are of one kind and told apart by marks: "shell block".
+
+    >>> kinds_of(frozenset({"shell block", "bmw block", "esso block", "table"}))["bmw block"]
+    'block'
+    """
+    board, head = _told_apart(sorted(types))
+    return dict.fromkeys(board, head) if head else {}
 
 
 def is_strange(word: str) -> bool:

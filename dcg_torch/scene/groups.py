@@ -17,6 +17,7 @@ from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
 from dcg_torch.scene.clusters import clusters
 from dcg_torch.scene.layout import Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.scene.order import TIE
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
 from dcg_torch.types.geometry import to_robot_frame
@@ -59,6 +60,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         return ()
     position = _seen(there, unit, robot)
     found: dict[str, set[tuple[int, ...]]] = {ROW: set(), STACK: set(_stacks(position)), CLUSTER: set()}
+    position = _drawn_apart(position)
     for numbers, code in _compared(there):
         points = position[numbers]
         found[ROW].update(_numbers_of(_even_rows(points, code), numbers))
@@ -78,6 +80,16 @@ def stacks(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     heights = [(o.position or (0.0, 0.0, 0.0))[2] for o in there]
     found = _stacks(_seen(there, unit, robot)) if len(there) > 1 else ()
     return [[there[j] for j in sorted(of, key=heights.__getitem__)] for of in found]
+
+
+def _drawn_apart(position: Floats) -> Floats:
+    """Positions (n, 3); where all is on one level none is over another, and the nearest two are drawn apart so far."""
+    if np.ptp(position[:, 2]) > TIE:
+        return position
+    from scipy.spatial import cKDTree  # here: few commands speak of groups, and it takes a while
+
+    nearest = float(cKDTree(position[:, :2]).query(position[:, :2], k=2)[0][:, 1].min())
+    return position * (1.01 * SAME_SPOT / nearest) if TIE < nearest <= SAME_SPOT else position
 
 
 def _compared(objects: Sequence[Object]) -> Iterable[tuple[Ints, Ints]]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.names.marks import kinds_of
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG
 from dcg_torch.scene.bodies import Bodies, bodies
 from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
@@ -69,6 +70,7 @@ class Layout:
         robot: (2,) where the robot is.
         speaker: (2,) where the speaker is, or None.
         bodies: how large the objects are, or None.
+        picture: does it show a page or a wall, where none is over another?
     """
 
     things: tuple[Object, ...]
@@ -85,6 +87,7 @@ class Layout:
     robot: Floats
     speaker: Floats | None
     bodies: Bodies | None = None
+    picture: bool = False
 
     @functools.cached_property
     def solid(self) -> Bools:
@@ -149,7 +152,9 @@ class Layout:
 
     @functools.cached_property
     def _type(self) -> Ints:
-        return numbered(o.type for o in self.things)
+        there = zip(self.things, self.solid.tolist(), strict=True)
+        kind = kinds_of(frozenset(o.type for o, solid in there if solid and o.type is not None and not o.hypothetical))
+        return numbered(kind.get(o.type or "", o.type) for o in self.things)
 
     def _by_class(self, among: str) -> Alike:
         """Groups are compared with those of their type alone."""
@@ -223,7 +228,21 @@ def layout(world: WorldModel) -> Layout:
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
     return Layout(
-        things, position, half, heading, group, place, direction, ground, edge, members, middle, own, speaker, sized
+        things,
+        position,
+        half,
+        heading,
+        group,
+        place,
+        direction,
+        ground,
+        edge,
+        members,
+        middle,
+        own,
+        speaker,
+        sized,
+        picture=not on_floor,
     )
 
 

@@ -111,6 +111,8 @@ def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
     if covers is not None and apart is not None:
         near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
         near = np.where(covers, np.minimum(near, 0.0), near)
+    if where.picture:
+        near = np.where(place | ~where.solid[None], near, np.maximum(near, _BESIDE_IT))
     steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),

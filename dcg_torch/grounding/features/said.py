@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.colors import color_scores
+from dcg_torch.names.colors import color_scores, looks_like
 from dcg_torch.names.evidence import evidence
 from dcg_torch.names.palette import named_rgb
 from dcg_torch.names.weights import FACTS, fact_weights, log_odds
@@ -118,6 +118,8 @@ def _denies(word: str, thing: Object, named: bool) -> bool:
     if denied == word:
         return False
     of_color = named and thing.color is not None and not _SAME_COLOR.isdisjoint(color_evidence(denied, thing.color))
+    if named and thing.color is None and thing.rgb is not None:
+        of_color = looks_like(denied, thing.rgb)
     return of_color or (
         thing.type is not None and not thing.type.startswith(OPAQUE) and log_odds(denied, thing.type) > 0.0
     )
