@@ -53,6 +53,8 @@ STUDY = (
         ("there is a tall plant and a short one, the short one", "short"),
         ("there's a tall plant and a short plant. bring me the tall one", "tall"),
         ("something to sit on that is not a stool", "sofa"),
+        ("the lamp that isn't on any desk", "on floor"),
+        ("the bin that is not under a desk", "at wall"),
     ],
 )
 def test_what_people_say_in_a_study(text: str, wanted: str) -> None:
@@ -92,6 +94,45 @@ BEDROOM = (
 )
 def test_who_faces_a_bed_means_what_is_by_it(text: str, wanted: str) -> None:
     assert meant(text, BEDROOM, (-2.0, -1.0, 0.0)) == {wanted}
+
+
+HOME = (
+    thing("stove", "stove", (4.0, 2.5, 0.45), (0.6, 0.6, 0.9)),
+    thing("table", "kitchen table", (2.8, 2.0, 0.37), (1.2, 0.8, 0.74)),
+    thing("cup", "mug", (2.8, 2.1, 0.8), (0.09, 0.09, 0.1)),
+    thing("fridge", "fridge", (4.0, 1.4, 0.9), (0.7, 0.7, 1.8)),
+    thing("bed", "bed", (3.0, -3.5, 0.27), (1.6, 2.0, 0.55)),
+    thing("stand", "nightstand", (4.2, -4.2, 0.3), (0.45, 0.45, 0.6)),
+    thing("other cup", "mug", (4.2, -4.2, 0.65), (0.09, 0.09, 0.1)),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("the kitchen mug", {"cup"}),
+        ("where i sleep there is a mug, get it", {"other cup"}),
+        ("all the mugs in the house", {"cup", "other cup"}),
+    ],
+)
+def test_rooms_that_are_named_before_a_thing_or_by_what_is_done_there(text: str, wanted: set[str]) -> None:
+    assert meant(text, HOME) == wanted
+
+
+BOWLS = (
+    thing("table", "table", (1.0, 0.0, 0.37), (0.9, 1.6, 0.74)),
+    thing("bowl", "bowl", (0.9, 0.3, 0.78), (0.2, 0.2, 0.08)),
+    thing("inside", "apple", (0.92, 0.3, 0.79), (0.07, 0.07, 0.07)),
+    thing("outside", "apple", (1.1, -0.4, 0.78), (0.07, 0.07, 0.07)),
+    thing("spoon", "spoon", (0.7, -0.1, 0.75), (0.03, 0.17, 0.02)),
+)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"), [("the thing in the bowl", "inside"), ("the apple outside the bowl", "outside")]
+)
+def test_what_holds_a_bowl_is_not_in_it(text: str, wanted: str) -> None:
+    assert meant(text, BOWLS) == {wanted}
 
 
 SMALL = (0.08, 0.08, 0.08)
@@ -145,6 +186,7 @@ LINE = tuple(
         ("see the star? one to the right of it", "cross"),
         ("start at the star and go two to the left", "moon"),
         ("the right neighbor of the heart", "star"),
+        ("the one two to the left of the cross", "heart"),
     ],
 )
 def test_steps_from_a_thing(text: str, wanted: str) -> None:
@@ -173,6 +215,7 @@ MUGS = (
         ("A: i need the mug. B: there are two of them. A: the left one.", "by kettle"),
         ("of those two mugs i'd take the left one", "by kettle"),
         ("first i wanted the plate, but now the kettle", "kettle"),
+        ("is the toaster there? good. get me the mug next to it", "by toaster"),
     ],
 )
 def test_what_is_said_in_several_turns(text: str, wanted: str) -> None:

@@ -15,6 +15,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
@@ -81,8 +82,10 @@ def modifier_factor(
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
         asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
         log_psi = table[tables.factor.correspondences.index(asserted)]
-        if tree.phrase.plural and not denied and tree.phrase.words[0] in _AROUND:
-            log_psi = _within_reach(log_psi, [of[0] for of in landmarks], encoder)
+        outside = None if denied else inside_of(tree.phrase.words[0], landmarks, encoder)
+        log_psi = log_psi if outside is None else log_psi + outside
+        if tree.phrase.plural and not denied and tree.phrase.words[0] in AROUND:
+            log_psi = within_reach(log_psi, [of[0] for of in landmarks], encoder)
         if not denied and tree.phrase.words[0] in _MEMBER and counted(tree.children[0].phrase.words):
             log_psi = np.minimum(log_psi, log_in_row([of[0] for of in landmarks], encoder))
     of_each = several > 0 and len(combos) >= several
@@ -92,6 +95,8 @@ def modifier_factor(
         landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+    if denied and len(beams) == 1 and not of_each:
+        log_psi = of_none(log_psi, scores)
     if of_each or len(beams) > 1:
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
@@ -104,29 +109,7 @@ def _fewer(beams: Sequence[Sequence[Hypothesis]]) -> list[Sequence[Hypothesis]]:
     return [beam[:most] if len(beams) > 2 else beam for beam in beams]
 
 
-def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
-    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
-
-    Where extents are known, by the gap between the two; the rest as it was.
-    """
-    where = encoder.layout
-    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
-        return log_psi
-    n = len(where.bodies.half)
-    at, half = where.position[:n, :2], where.bodies.half
-    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
-    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
-    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
-    found = log_psi.copy()
-    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
-    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
-    return found
-
-
 _MEMBER = frozenset({"in", "of"})
-_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
-_REACH, _VAGUE = 0.6, 0.12
-"""Units of a gap up to which things stand around another, and how vague that is."""
 
 
 def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:

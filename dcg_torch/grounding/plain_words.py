@@ -18,6 +18,7 @@ from dcg_torch.names.vocabulary import (
     FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
+    HOME,
     INSIDE,
     LATERAL,
     LIKE_RELATION,
@@ -140,7 +141,7 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         return tree
     for k, place in enumerate(tree.children):
         side = place.children[0] if len(place.children) == 1 else tree
-        if place.phrase.words[:1] and place.phrase.words[0] in _COUNTED_FROM and side.phrase.noun not in SIDED:
+        if place.phrase.words[:1] and place.phrase.words[0] in _COUNTED_FROM and side.phrase.noun not in PLACE_WORDS:
             # "The second one to the right of the cup" is the second that one comes to.
             return replace(tree, phrase=replace(phrase, words=(*phrase.words, _COUNTED_FROM[place.phrase.words[0]])))
         beside = place.phrase.words[:1] == ("from",) or place.phrase.text.split()[:1] == ["to"]
@@ -256,6 +257,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
+    if phrase.noun in HOME and name in _WITHIN and not any(head.startswith(phrase.noun) for head in there):
+        return ()
     if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):

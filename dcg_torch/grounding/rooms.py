@@ -207,7 +207,7 @@ class _Speaking:
             room, thing = replace(phrase, noun=" ".join(words[:k])), " ".join(words[k:])
             if _room(room) is None or not names_one_of(thing, self.types):
                 continue
-            if any(word in normalise(type_).split(" ") for type_ in self.types for word in words[:k]):
+            if any(log_odds(phrase.noun or "", type_) > _NAMED and normalise(type_) != thing for type_ in self.types):
                 continue
             word = self.word(room)
             return (phrase, []) if word is None else (replace(phrase, noun=thing), [word])

@@ -129,6 +129,8 @@ EITHER_END = frozenset({"back", "front"})
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
 WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 """What people call all of a scene, where nothing that is there is called so."""
+HOME = frozenset({"house", "home", "apartment", "flat"})
+"""The same of a home: what is in it is anywhere."""
 GROUND_WORD = "board"
 VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
 """Who sees the scene, where nothing that is there is called so."""
@@ -172,6 +174,7 @@ SAME_RELATION |= {
     "after": "behind",
     "along": "on",
     "without": "not with",
+    "outside": "not in",
 }
 """Prepositions, and those that say the same."""
 LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": "near", "around": "near"}

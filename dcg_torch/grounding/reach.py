@@ -1,0 +1,79 @@
+"""What extents say of where things can be: within reach of others, in others; and what is at none of several."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+
+Floats = NDArray[np.float64]
+
+
+def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
+
+    Where extents are known, by the gap between the two; the rest as it was.
+    """
+    where = encoder.layout
+    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+        return log_psi
+    n = len(where.bodies.half)
+    at, half = where.position[:n, :2], where.bodies.half
+    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
+    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
+    found = log_psi.copy()
+    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_REACH, _VAGUE = 0.6, 0.12
+"""Units of a gap up to which things stand around another, and how vague that is."""
+
+
+def of_none(log_psi: Floats, scores: Floats) -> Floats:
+    """(combos, things) what is not at a desk is at none of them: of landmarks that are named alike the worst counts."""
+    alike = scores >= scores.max() - _ALIKE
+    found = log_psi.copy()
+    found[alike] = log_psi[alike].min(axis=0)
+    return found
+
+
+_ALIKE = 1.0
+"""Nats by which the scores of landmarks of one name may differ."""
+
+
+def inside_of(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats | None:
+    """(combos, things) what things lose that are too large to be in a landmark, or are not above the floor it covers.
+
+    Returns:
+        None where nobody says how large the landmarks are, and for all other prepositions.
+    """
+    where = encoder.layout
+    if name not in _INSIDE or where.bodies is None:
+        return None
+    half = where.bodies.half
+    if any(len(of) != 1 or of[0] >= len(half) for of in landmarks):
+        return None
+    mark = [of[0] for of in landmarks]
+    area, at = half.prod(axis=1), where.position[: len(half), :2]
+    with np.errstate(invalid="ignore"):
+        larger = area[None] > _LARGER * area[mark][:, None]
+        within = (np.abs(at[mark][:, None] - at[None]) <= half[mark][:, None] + _RIM).all(axis=2) & ~larger
+    within[np.arange(len(mark)), mark] = False
+    out = np.isfinite(area[mark])[:, None] & within.any(axis=1)[:, None] & ~within
+    return np.pad(np.where(larger | out, -_NOT_IN, 0.0), ((0, 0), (0, len(encoder.all) - len(area))))
+
+
+_INSIDE = frozenset({"in", "inside", "into"})
+_NOT_IN = 5.0
+"""Nats that a thing loses that can't be in a landmark."""
+_LARGER = 1.5
+"""How much more floor than a landmark a thing covers at most that is in it."""
+_RIM = 0.05
+"""Units that the middle of what is in a thing may be beyond its rim."""
