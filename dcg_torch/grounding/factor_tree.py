@@ -14,6 +14,7 @@ from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,
     LATERAL,
+    LEVEL,
     NTH,
     ORDINALS,
     PLACE_WORDS,
@@ -160,7 +161,8 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     described = _within_parts(phrase, described)
     among = comparison_set(phrase, described)
     # What can be taken has no part in which is the middle one of a stack.
-    placed = among == "row" and any(is_superlative(word) or word in ORDINALS for word in phrase.words)
+    told = (is_superlative(word) or word in ORDINALS or word.startswith(LEVEL) for word in phrase.words)
+    placed = among == "row" and any(told)
     phrase = replace(phrase, context=() if placed else context, among=among)
     return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
 
