@@ -130,7 +130,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if not several or one.noun is not None:
         return
-    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in several)]
+    whole = [noun for noun in several if noun.plural]
+    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
     group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
