@@ -121,7 +121,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
     if not several or one.noun is not None:
         return
-    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in several)]
+    whole = [noun for noun in several if noun.plural]
+    tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
     group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
