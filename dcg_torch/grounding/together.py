@@ -40,6 +40,7 @@ _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
 """The most that it loses."""
+_INSIDE = -0.05
 _OUTSIDE = -6.0
 """Nats that a thing loses that is none of a row of so many in which it is said to be."""
 _BENT = 8.0
@@ -125,14 +126,22 @@ def log_tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     return lost
 
 
-def log_in_row(groups: Sequence[int], encoder: WorldEncoder) -> Floats:
-    """(groups, things) what things lose that are none of a row to "the red one in the row of four"; 0 of all else."""
-    lost = np.zeros((len(groups), len(encoder.all)))
+def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
+    """(groups, things) what "in the group" says: all that are in it are in it alike, however far from its middle.
+
+    Args:
+        row: is it said how many are in a row? Then what is outside of one is not meant.
+    """
+    found = log_psi.copy()
     for k, j in enumerate(groups):
-        members = encoder.all[j].members
-        if members and ROW in encoder.all[j].attributes:
-            lost[k] = [0.0 if o.id in members or o.members else _OUTSIDE for o in encoder.all]
-    return lost
+        inside = encoder.layout.members.get(j)
+        if inside is None:
+            continue
+        if row and ROW in encoder.all[j].attributes:
+            outside = [i for i, o in enumerate(encoder.all) if not o.members and i not in inside]
+            found[k, outside] = np.minimum(found[k, outside], _OUTSIDE)
+        found[k, inside] = np.maximum(found[k, inside], _INSIDE)
+    return found
 
 
 def _tidiness(points: Floats) -> tuple[float, float]:
