@@ -151,10 +151,11 @@ class Layout:
         return {}
 
     @functools.cached_property
-    def _type(self) -> Ints:
+    def _kinds(self) -> list[str | None]:
+        """The type of each thing; of those that marks alone tell apart, what they are called alike."""
         there = zip(self.things, self.solid.tolist(), strict=True)
         kind = kinds_of(frozenset(o.type for o, solid in there if solid and o.type is not None and not o.hypothetical))
-        return numbered(kind.get(o.type or "", o.type) for o in self.things)
+        return [kind.get(o.type or "", o.type) for o in self.things]
 
     def _by_class(self, among: str) -> Alike:
         """Groups are compared with those of their type alone."""
@@ -164,15 +165,15 @@ class Layout:
         placed = len(self.things) - int(np.count_nonzero(self.place))  # places come last
         return Alike.of(
             [
-                (o.type if typed or o.members else None, o.color if colored else None, bool(o.members))
-                for o in self.things[:placed]
+                (kind if typed or o.members else None, o.color if colored else None, bool(o.members))
+                for o, kind in zip(self.things[:placed], self._kinds, strict=False)
             ]
             + [None] * (len(self.things) - placed)
         )
 
     def _class_of(self, among: str) -> Ints:
         """(n,) the class of each of many things as a number."""
-        code = np.where((among in ("kind", "type")) | self.group, self._type, 0)
+        code = np.where((among in ("kind", "type")) | self.group, numbered(self._kinds), 0)
         if among in ("kind", "color"):
             code = code * (len(self.colors) + 1) + self.color + 1
         return np.where(self.place, -1, 2 * code + self.group)
