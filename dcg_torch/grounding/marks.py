@@ -172,7 +172,8 @@ class _Restored:
                 (word for word in phrase.words if word.isdecimal() and singular(noun) in self.marks.heads), ""
             )
             phrase = replace(phrase, words=tuple(word for word in plain if word != number))
-            noun, words = self._without_strange_mark(f"{number} {noun}".strip())
+            noun, strange = self._without_strange_mark(f"{number} {noun}".strip())
+            words += strange
         text = self.said(phrase.text)
         return replace(phrase, text=text, noun=noun, words=tuple(dict.fromkeys((*phrase.words, *words))))
 
