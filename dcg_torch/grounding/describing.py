@@ -242,9 +242,9 @@ def _of_a_whole(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     lost = np.zeros(len(encoder.all))
     if not in_group(phrase) or counted(phrase.words) is not None:
         return lost
-    groups = [(j, frozenset(o.members), ROW in o.attributes) for j, o in enumerate(encoder.all) if o.members]
-    for j, members, shape in groups:
-        lost[j] = -_A_PART if any(members < more and shape == other for _, more, other in groups) else 0.0
+    rows = [(j, frozenset(o.members)) for j, o in enumerate(encoder.all) if ROW in o.attributes]
+    for j, members in rows:
+        lost[j] = -_A_PART if any(members < more for _, more in rows) else 0.0
     return lost
 
 
