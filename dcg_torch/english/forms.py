@@ -83,12 +83,6 @@ def verb(word: str) -> str:
     return word
 
 
-@functools.lru_cache(4096)
-def is_plural(word: str) -> bool:
-    """Whether a noun is a plural form."""
-    return singular(word) != word
-
-
 def is_compared(word: str) -> bool:
     """Whether a word is an adjective's comparative or superlative."""
     if irregular().get((word, "a"), "") in english():

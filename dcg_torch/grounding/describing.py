@@ -14,18 +14,18 @@ from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
+from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.together import log_tidy, of_members, shaded, shades_among, so_many
+from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.scene.groups import ROW
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -46,8 +46,6 @@ _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
 _LIKE_SIZES = 0.15
 """Sizes that differ by no more than this share of the differences among all of a kind are not told apart."""
-_A_PART = 3.0
-"""Nats that a group loses which is a part of a larger one of its shape, where no number is said."""
 _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
@@ -190,7 +188,7 @@ def comparison_set(
     if among is not None:
         log_size = log_size + shades_among(shades, among[0], encoder)
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
-    log_size = log_size + _of_so_many(phrase, encoder) + _of_a_whole(phrase, encoder) + log_tidy(phrase, encoder)
+    log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
     described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
     if phrase.color is not None:
@@ -227,25 +225,6 @@ def _sized(
             log_size = log_size - _SIZED * (1.0 - off) ** 2
             out = np.where(off < _OFF, -_BEHIND - 1.0, out)
     return phrase, log_size, out
-
-
-def _of_so_many(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what groups of another number lose to "the stack of three", where there is a group of three."""
-    number, counts = counted(phrase.words), np.array([len(o.members) for o in encoder.all])
-    if number is None or not in_group(phrase) or number not in counts:
-        return np.zeros(len(counts))
-    return np.where((counts > 0) & (counts != number), -_SIZED, 0.0)
-
-
-def _of_a_whole(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what a row loses to "the row of blocks" that is a part of a longer one."""
-    lost = np.zeros(len(encoder.all))
-    if not in_group(phrase) or counted(phrase.words) is not None:
-        return lost
-    rows = [(j, frozenset(o.members)) for j, o in enumerate(encoder.all) if ROW in o.attributes]
-    for j, members in rows:
-        lost[j] = -_A_PART if any(members < more for _, more in rows) else 0.0
-    return lost
 
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:

@@ -59,9 +59,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = _counted_from_a_side(
-        _farthest_to_a_side(middle_of_set(of_a_pair(one_of_those(_sided(from_the_ground(tree))))))
-    )
+    for in_other_words in _FIRST:
+        tree = in_other_words(tree)
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
@@ -176,6 +175,9 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     who = ParseTree(replace(phrase, noun=owner, words=()))
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
+
+
+_FIRST = (from_the_ground, _sided, one_of_those, of_a_pair, middle_of_set, _farthest_to_a_side, _counted_from_a_side)
 
 
 def _seen_from_it(place: ParseTree) -> str | None:

@@ -19,8 +19,7 @@ from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.grounding.solution import ModifierFactor
 from dcg_torch.names.attributes import size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, ORDINALS, WITHIN, counted
-from dcg_torch.scene.groups import ROW
+from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
 from dcg_torch.scene.order import highest
 from dcg_torch.types import Phrase
 
@@ -40,12 +39,6 @@ _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
 """The most that it loses."""
-_INSIDE = -0.05
-_OUTSIDE = -6.0
-"""Nats that a thing loses that is none of a row of so many in which it is said to be."""
-_BENT = 8.0
-"""Nats that a row loses for each step by which one of it stands aside."""
-_ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
 _TOUCHING = 0.02
 """Share of the diagonal of the box around all below which distances are alike."""
 
@@ -104,54 +97,6 @@ def closest_together(position: Floats, candidates: Bools, log_fit: Floats, sever
     log_close = np.full(len(position), _FAR)
     log_close[at] = np.maximum(_FAR, np.minimum(0.0, loss - loss[first]))
     return found, np.where(found, 0.0, log_close)
-
-
-def log_tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what rows lose that are wider and less even than the tidiest, to "the row of three".
-
-    Any three things by chance lie about in a line: people mean by a row what is plainly one.
-    """
-    lost = np.zeros(len(encoder.all))
-    number = counted(phrase.words)
-    if number is None or _ROWS.isdisjoint({phrase.noun, *phrase.words}):
-        return lost
-    many = [j for j, o in enumerate(encoder.all) if ROW in o.attributes and len(o.members) == number]
-    if len(many) < 2:
-        return lost
-    at = {o.id: place for o, place in zip(encoder.all, encoder.layout.position, strict=True)}
-    rows = [_tidiness(np.array([at[i] for i in encoder.all[j].members])) for j in many]
-    steps, bent = np.array(rows).T
-    loss = -_TIGHT * np.log(steps) - _BENT * bent
-    lost[many] = np.maximum(_FAR, loss - loss.max())
-    return lost
-
-
-def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
-    """(groups, things) what "in the group" says: all that are in it are in it alike, however far from its middle.
-
-    Args:
-        row: is it said how many are in a row? Then what is outside of one is not meant.
-    """
-    found = log_psi.copy()
-    for k, j in enumerate(groups):
-        inside = encoder.layout.members.get(j)
-        if inside is None:
-            continue
-        if row and ROW in encoder.all[j].attributes:
-            outside = [i for i, o in enumerate(encoder.all) if not o.members and i not in inside]
-            found[k, outside] = np.minimum(found[k, outside], _OUTSIDE)
-        found[k, inside] = np.maximum(found[k, inside], _INSIDE)
-    return found
-
-
-def _tidiness(points: Floats) -> tuple[float, float]:
-    """The step of a row (n, 3), and how far at most, in steps, one stands from where it is due."""
-    centred = points - points.mean(axis=0)
-    along = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
-    order = np.argsort(along)
-    due = np.linspace(points[order[0]], points[order[-1]], len(points))
-    step = float(np.linalg.norm(points[order[-1]] - points[order[0]])) / (len(points) - 1) + 1e-9
-    return step, float(np.linalg.norm(points[order] - due, axis=1).max()) / step
 
 
 def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:

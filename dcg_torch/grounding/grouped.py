@@ -1,0 +1,105 @@
+"""Groups that a phrase names: of so many, the whole row, the tidiest one; and what it says of a thing to be in one.
+
+That is measured, not learned. A group loses nats where another is meant rather.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.names.vocabulary import GROUP_WORDS, counted
+from dcg_torch.scene.groups import ROW
+from dcg_torch.types import Phrase
+
+Floats = NDArray[np.float64]
+
+_OTHER = 5.0
+"""Nats that a group of another number loses."""
+_A_PART = 3.0
+"""Nats that a row loses which is a part of a longer one, where no number is said."""
+_WIDE, _BENT = 4.0, 8.0
+"""Nats that a row loses for each e-fold by which its steps are wider, and for each step by which one stands aside."""
+_FAR = -8.0
+"""The most that a row loses for these."""
+_INSIDE = -0.05
+"""The most that a thing loses that is in the group in which it is said to be."""
+_OUTSIDE = -6.0
+"""Nats that a thing loses that is none of a row of so many in which it is said to be."""
+_ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
+
+
+def log_of_group(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what groups lose to the one that a phrase names; 0 of all else."""
+    return _of_so_many(phrase, encoder) + _of_a_whole(phrase, encoder) + _tidy(phrase, encoder)
+
+
+def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
+    """(groups, things) what "in the group" says: all that are in it are in it alike, however far from its middle.
+
+    Args:
+        row: is it said how many are in a row? Then what is outside of one is not meant.
+    """
+    found = log_psi.copy()
+    for k, j in enumerate(groups):
+        inside = encoder.layout.members.get(j)
+        if inside is None:
+            continue
+        if row and ROW in encoder.all[j].attributes:
+            outside = [i for i, o in enumerate(encoder.all) if not o.members and i not in inside]
+            found[k, outside] = np.minimum(found[k, outside], _OUTSIDE)
+        found[k, inside] = np.maximum(found[k, inside], _INSIDE)
+    return found
+
+
+def _of_so_many(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what groups of another number lose to "the stack of three", where there is a group of three."""
+    number, counts = counted(phrase.words), np.array([len(o.members) for o in encoder.all])
+    if number is None or not in_group(phrase) or number not in counts:
+        return np.zeros(len(counts))
+    return np.where((counts > 0) & (counts != number), -_OTHER, 0.0)
+
+
+def _of_a_whole(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what a row loses to "the row of blocks" that is a part of a longer one."""
+    lost = np.zeros(len(encoder.all))
+    if not in_group(phrase) or counted(phrase.words) is not None:
+        return lost
+    rows = [(j, frozenset(o.members)) for j, o in enumerate(encoder.all) if ROW in o.attributes]
+    for j, members in rows:
+        lost[j] = -_A_PART if any(members < more for _, more in rows) else 0.0
+    return lost
+
+
+def _tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what rows lose that are wider and less even than the tidiest, to "the row of three".
+
+    Any three things by chance lie about in a line: people mean by a row what is plainly one.
+    """
+    lost = np.zeros(len(encoder.all))
+    number = counted(phrase.words)
+    if number is None or _ROWS.isdisjoint({phrase.noun, *phrase.words}):
+        return lost
+    many = [j for j, o in enumerate(encoder.all) if ROW in o.attributes and len(o.members) == number]
+    if len(many) < 2:
+        return lost
+    at = {o.id: place for o, place in zip(encoder.all, encoder.layout.position, strict=True)}
+    rows = [_tidiness(np.array([at[i] for i in encoder.all[j].members])) for j in many]
+    steps, bent = np.array(rows).T
+    loss = -_WIDE * np.log(steps) - _BENT * bent
+    lost[many] = np.maximum(_FAR, loss - loss.max())
+    return lost
+
+
+def _tidiness(points: Floats) -> tuple[float, float]:
+    """The step of a row (n, 3), and how far at most, in steps, one stands from where it is due."""
+    centred = points - points.mean(axis=0)
+    along = centred @ np.linalg.svd(centred, full_matrices=False)[2][0]
+    order = np.argsort(along)
+    due = np.linspace(points[order[0]], points[order[-1]], len(points))
+    step = float(np.linalg.norm(points[order[-1]] - points[order[0]])) / (len(points) - 1) + 1e-9
+    return step, float(np.linalg.norm(points[order] - due, axis=1).max()) / step
