@@ -212,6 +212,7 @@ class EvaluateSettings:
     explain: str | None = _setting(None, "id of a test episode whose grounding is to be explained")
     rounds: int = _setting(4, "of expectation-maximisation over the landmarks", Bounds(1, 1_000))
     folds: int = _setting(0, "instead of test: cross-validate train in so many parts, by group", Bounds(0, 1_000))
+    halves: bool = _setting(False, "instead of test: train on half of each file's groups, test on the others")
     baseline: list[str] = _setting([], "also: overlap, nearest, outcomes, bow, minilm, on the same episodes")
     certify: bool = _setting(False, "change test episodes a little, and count how often the answer follows")
     device: str = _setting("cpu", "of torch, for Psi and the fits' sums: cpu, cuda, cuda:1")

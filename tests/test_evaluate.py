@@ -44,6 +44,8 @@ WRONG = [
     pytest.param(["explain=nobody"], ["explain=nobody", "no test episode", "e0"], id="unknown episode"),
     pytest.param(["rounds=0"], ["rounds=0", "from 1 to"], id="no rounds"),
     pytest.param(["folds=3"], ["folds=3", "no test file"], id="folds and a test"),
+    pytest.param(["halves=true"], ["halves=true", "no test file"], id="halves and a test"),
+    pytest.param(["halves=true", "folds=3", "test=null"], ["folds=3", "halves=true"], id="folds and halves"),
     pytest.param(["model.l2=0"], ["model.l2=0", "from 1e-06 to 1e+06"], id="no penalty"),
     pytest.param(["learm=true"], ["learm", "did you mean learn?"], id="misspelt key"),
     pytest.param(["+learm=true"], ["learm", "did you mean learn?"], id="added key"),

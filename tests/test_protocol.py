@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from episode_making import COLORS, episode
 
-from dcg_torch.evaluation.episodes import Episode, EpisodeError, split_folds
+from dcg_torch.evaluation.episodes import Episode, EpisodeError
 from dcg_torch.evaluation.protocol import Answer, Seconds, Training, answers, train
+from dcg_torch.evaluation.splits import split_folds, split_halves
 from dcg_torch.evaluation.summary import summarise
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.grounding.graph import FactorGraph
@@ -156,6 +157,20 @@ def test_no_group_is_in_two_folds() -> None:
     assert sum(map(len, groups)) == len(set().union(*groups))
     with pytest.raises(EpisodeError, match="ask for fewer"):
         split_folds(episodes, 8, np.random.default_rng(0))
+
+
+def test_a_group_is_in_the_same_half_alone_or_with_others() -> None:
+    rng = np.random.default_rng(0)
+    episodes = [made(k, rng, "cube", "cube", "red").model_copy(update={"group": str(k % 40)}) for k in range(120)]
+    split = split_halves({"a": episodes, "b": episodes[:60]})
+    taught, tested = ({e.group for e in part["a"]} for part in (split.train, split.test))
+    assert not taught & tested
+    assert taught | tested == {str(k) for k in range(40)}
+    assert 10 <= len(taught) <= 30  # a fair coin falls outside once in 500 times
+    assert {e.group for e in split.train["b"]} == taught  # the first 60 have every group
+    assert split_halves({"b": episodes[:60]}).test["b"] == split.test["b"]
+    with pytest.raises(EpisodeError, match="needs more groups"):
+        split_halves({"one": episodes[:1]})
 
 
 @pytest.mark.parametrize(

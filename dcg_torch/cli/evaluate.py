@@ -6,12 +6,10 @@ import gc
 import json
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import hydra
-import numpy as np
 import torch
 from hydra.core.hydra_config import HydraConfig
 from omegaconf import DictConfig
@@ -22,12 +20,14 @@ from rich.table import Table
 from dcg_torch.cli.application import one_line_errors, run_application
 from dcg_torch.cli.config import evaluate_settings_of, save_composed
 from dcg_torch.cli.console import Bar, make_console
+from dcg_torch.cli.splits import read_splits
 from dcg_torch.evaluation.baselines import make_baseline, run_baseline
 from dcg_torch.evaluation.baselines.base import Baseline
 from dcg_torch.evaluation.baselines.run import Outcome
 from dcg_torch.evaluation.certify import certify
-from dcg_torch.evaluation.episodes import Episode, read_episodes, split_folds, unused_note
+from dcg_torch.evaluation.episodes import Episode, unused_note
 from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
+from dcg_torch.evaluation.splits import Split
 from dcg_torch.evaluation.summary import by_file, summarise
 from dcg_torch.evaluation.summary import figures as of_all
 from dcg_torch.experiment.factory import make_model
@@ -39,21 +39,12 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import EvaluateSettings, SettingsError
 from dcg_torch.storage.claim import claim
-from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 
 PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
 MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")
 _REASONS = 8  # shown for each phrase
-
-
-@dataclass(frozen=True)
-class Split:
-    """What one model is taught and tested on: files by their stems."""
-
-    train: dict[str, list[Episode]]
-    test: dict[str, list[Episode]]
 
 
 def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> dict[str, object]:
@@ -174,46 +165,6 @@ def _answers(model: GroundingModel, split: Split, settings: EvaluateSettings, co
             if answer.episode.id == settings.explain:
                 _print_reasons(model, answer, console)
             yield answer
-
-
-def read_splits(settings: EvaluateSettings) -> list[Split]:
-    """What to train and test on; a split for each fold if there are folds.
-
-    Raises:
-        EpisodeError: an episode file is missing or not valid.
-        SettingsError: files are missing or too many, or two have one name.
-    """
-    files = {key: _read(key, getattr(settings, key)) for key in ("train", "test")}
-    if not settings.folds:
-        if not files["test"]:
-            raise SettingsError("test: no file given; write test=FILE, or train=FILE folds=5 to cross-validate one")
-        return [Split(files["train"], files["test"])]
-    if files["test"] or not files["train"] or settings.folds < 2:
-        wrong = "is too few; give at least 2" if settings.folds < 2 else "goes with train=FILE and no test file"
-        raise SettingsError(f"folds={settings.folds}: {wrong}")
-    rng = np.random.default_rng(0)
-    parts = {name: split_folds(episodes, settings.folds, rng) for name, episodes in files["train"].items()}
-    return [
-        Split(
-            {name: [e for other in of if other is not of[k] for e in other] for name, of in parts.items()},
-            {name: of[k] for name, of in parts.items()},
-        )
-        for k in range(settings.folds)
-    ]
-
-
-def _read(key: str, given: object) -> dict[str, list[Episode]]:
-    """The files of a setting that names none, one or several."""
-    named = [] if given is None else list(given) if isinstance(given, list | tuple) else [given]
-    if not all(isinstance(one, str) and one for one in named):
-        raise SettingsError(f"{key}: write {key}=FILE, or {key}=[FILE,FILE]")
-    found: dict[str, list[Episode]] = {}
-    for one in named:
-        path = at_home(str(one))
-        if path.stem in found:
-            raise SettingsError(f"{key}: two files are called {path.stem}; rename one")
-        found[path.stem] = read_episodes(path)
-    return found
 
 
 def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:

@@ -299,19 +299,3 @@ def _nearest(episode: Episode) -> list[float]:
     apart = np.linalg.norm(points[None] - points[:, None], axis=2)
     np.fill_diagonal(apart, np.inf)
     return [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]
-
-
-def split_folds(episodes: Sequence[Episode], folds: int, rng: np.random.Generator) -> list[list[Episode]]:
-    """Parts of about equal size, in which no group is in two; an episode without a group is one of its own.
-
-    Raises:
-        EpisodeError: there are fewer groups than parts.
-    """
-    groups: dict[str, list[Episode]] = {}
-    for episode in episodes:
-        groups.setdefault(episode.group or f"episode {episode.id}", []).append(episode)
-    if len(groups) < folds:
-        raise EpisodeError(f"folds={folds}, but the episodes are of {len(groups)} groups; ask for fewer")
-    names = sorted(groups)
-    order = rng.permutation(len(names))
-    return [[e for k in order[fold::folds] for e in groups[names[k]]] for fold in range(folds)]
