@@ -18,9 +18,7 @@ _RULES: Final = [
     *(([name], tags) for name, tags in GRAMMAR["lists"].items()),
     *((row.split(), tags) for row, tags in GRAMMAR["words"]),
 ]
-_ASKED: Final = (
-    SETS.keys() & {name.lstrip("-") for row, _ in _RULES for name in row} | GRAMMAR["seldom_nouns"].keys() & SETS
-)
+_ASKED: Final = SETS.keys() & {*GRAMMAR["seldom_nouns"], *(name.lstrip("-") for row, _ in _RULES for name in row)}
 _CLOSED: Final = listed(GRAMMAR["lists"].keys() - GRAMMAR["open_lists"].split())
 _FIXED: Final = listed(GRAMMAR["fixed_lists"].split())
 _EMPTY: Final = listed(GRAMMAR["empty_lists"].split())

@@ -132,9 +132,8 @@ def _relation(other: Mention, chosen: Mention) -> str:
     order = "earlier" if (one.sentence, other.noun.start) < (two.sentence, chosen.noun.start) else "later"
     if one.sentence != two.sentence:
         return f"{order}_sentence"
-    reached = one.action in VERBS["go"] and other.place is not None and other.place.name in PLACING["toward"]
-    reached = reached or (other.place is None and one.action in VERBS["arrive"])
-    if not reached:
+    reached = one.action in VERBS["go" if other.place else "arrive"]
+    if not reached or (other.place and other.place.name not in PLACING["toward"]):
         return f"{order}_clause"
     return f"{order}_goal" if chosen.score >= TARGETS["take"] else f"{order}_way"
 
@@ -150,8 +149,7 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
-        found_by = beside and chosen.place is None and handled and handled[-1].score < TARGETS["take"]
-        if handled and chosen.place is None and not fronted and not found_by:
+        if handled and chosen.place is None and not (fronted or (beside and handled[-1].score < TARGETS["take"])):
             return handled[-1]
         if beside:
             return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
@@ -189,10 +187,8 @@ def _listed(chosen: Mention) -> list[Item]:
 
 def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:
     """ "pick up the cube and put it on the block": where a later clause puts "it"."""
-    for clause in clauses[clauses.index(chosen.clause) + 1 :]:
-        if clause.action in VERBS["put"] and clause.places and all(noun.pronoun for noun in clause.objects):
-            return clause.places
-    return []
+    puts = (clause for clause in clauses[clauses.index(chosen.clause) + 1 :] if clause.action in VERBS["put"])
+    return next((put.places for put in puts if put.places and all(noun.pronoun for noun in put.objects)), [])
 
 
 def freeze(item: Item) -> ParseTree:
