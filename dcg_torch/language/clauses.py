@@ -72,7 +72,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
-        elif item.kind is Kind.NOUN and _subject(items[k - 1] if k else END, item, items[k + 1 :]):
+        elif item.kind is Kind.NOUN and _subject(items, k):
             relative = True  # "the block you are holding"
         clauses[-1].append(item)
     return [clause for clause in clauses if clause]
@@ -82,11 +82,10 @@ def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
     first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
     sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
-    if any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence):
-        return False
+    whole = any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence)
     # "Blue. Not the dark one."
     described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)
-    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or described
+    return not whole and (described or first.kind in {Kind.PREPOSITION, Kind.ADVERB})
 
 
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
@@ -111,14 +110,12 @@ def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
     return verb.name == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
 
 
-def _subject(before: Item, item: Item, rest: Sequence[Item]) -> bool:
-    """The "you" of "the block you are holding"."""
-    after = rest[0] if rest else END
-    if before.kind is not Kind.NOUN or after.kind is not Kind.VERB or before.stop != item.start:
-        return False
-    if item.text in SETS["stands_for"]:
-        return after.name == "be"  # "the ball it is on the cube"
-    return item.is_a("someone") and before.noun not in SETS["robot"]
+def _subject(items: Sequence[Item], k: int) -> bool:
+    """The "you" of "the block you are holding", the "it" of "the ball it is on the cube"."""
+    before, item, after = (END, *items, END)[k : k + 3]
+    person = item.is_a("someone") and before.noun not in SETS["robot"]
+    acts = after.name == "be" if item.text in SETS["stands_for"] else person
+    return acts and before.kind is Kind.NOUN and after.kind is Kind.VERB and before.stop == item.start
 
 
 def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:

@@ -154,8 +154,7 @@ def share_noun(first: Item, second: Item) -> None:
 
 def last_thing(nouns: Sequence[Item]) -> Item:
     """The last noun phrase that words can describe: no person and no side."""
-    apart = SETS["someone"] | SETS["places"]
-    return next((noun for noun in reversed(nouns) if noun.noun not in apart), nouns[-1])
+    return next((noun for noun in reversed(nouns) if not noun.is_a("somewhere")), nouns[-1])
 
 
 def deny(noun: Item, other: Item) -> None:
@@ -200,8 +199,7 @@ def _settle_nothing(noun: Item, without: Item, thing: Item) -> None:
     if thing.noun in SETS["unnamed_things"] and len(thing.children) == 1:
         (where,) = thing.children
         if where.children[0].noun in {None, "top"}:
-            name = where.name
-            noun.words += (f"nothing {'on' if name in PLACING['upon'] else name}",)
+            noun.words += (f"nothing {'on' if where.name in PLACING['upon'] else where.name}",)
             noun.children.remove(without)
 
 

@@ -56,8 +56,7 @@ class NounPhrase:
         if self.at > self.start and self.tokens[self.at - 1].tag not in {"Q", "DET", "P"}:
             return 0
         self.item.negative = self.item.negative or token.value[0] in SETS["none"]
-        if token.value[0] in SETS["owned"]:
-            self.item.words += (token.value[0],)
+        self.item.words += token.value if token.value[0] in SETS["owned"] else ()
         self.item.determined = True
         return 1
 

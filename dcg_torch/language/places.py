@@ -87,8 +87,8 @@ def _compound(owner: Item, place: Item, decisions: Decisions) -> bool:
 
 def _goal(clause: Clause, full: list[Item], supplied: bool, decisions: Decisions) -> Item | None:
     """The prepositional phrase that says where the object is to go, if any does."""
-    supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
-    if main_object(clause) is None or supplied:
+    # "Bring me the cup on the table" needs no other goal.
+    if supplied or main_object(clause) is None or any(noun.noun == "me" for noun in clause.objects):
         return None
     if clause.acting:
         return next((place for place in full if place.start >= clause.verb.start), None) if clause.verb else None

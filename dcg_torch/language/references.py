@@ -140,16 +140,14 @@ def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
     """ "There is a tall plant and a short one": plants, of which nothing else is said."""
     told = next((clause.objects for clause in clauses if clause.action in SETS["be"] and len(clause.objects) > 1), [])
     nouns = {noun.noun for noun in told if noun.noun is not None}
-    if len(nouns) != 1 or any(noun.definite or noun.children for noun in told):
-        return []
-    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)]
+    alike = len(nouns) == 1 and not any(noun.definite or noun.children for noun in told)
+    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)] if alike else []
 
 
 def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]:
     """ "The cup. There are two of them.": two cups."""
-    counts = [noun for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
-    count = next((noun.count for noun in counts if (noun.count or 0) > 1), None)
-    return [] if count is None else [replace(named, count=count, plural=True)]
+    counts = [noun.count for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
+    return [replace(named, count=count, plural=True) for count in counts if (count or 0) > 1][:1]
 
 
 def _describes(word: str) -> bool:

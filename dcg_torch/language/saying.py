@@ -23,8 +23,7 @@ class NounPhrases:
         self.forced = False  # the next preposition tells the last noun phrase apart
         self.joined = False  # "and" or a comma stands before
         self.and_joined = False  # the last of these was "and"
-        self.relative = False
-        self.copula = False
+        self.relative = self.copula = False
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
