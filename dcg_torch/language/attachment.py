@@ -44,7 +44,7 @@ class _Builder(NounPhrases):
             self.relative = self.forced = True
         elif item.text == "but" and after.kind is Kind.NOUN and any(noun.is_a("all") for noun in self.nouns):
             # "Anything (on the table) but the cone".
-            self.place(Item(Kind.PREPOSITION, item.start, item.stop, item.text, ("except",)))
+            self.place(replace(item, kind=Kind.PREPOSITION, words=("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
@@ -63,15 +63,14 @@ class _Builder(NounPhrases):
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
-        contrast = any(other.text == "but" for other in self.items)  # "go not to the cube but to the cone"
+        place = after.kind is Kind.PREPOSITION
+        told = place or after.kind is Kind.ADVERB or after.participle
         if self.nouns and (self.forced or item.text == "nor"):
             self.denied = self.forced = True  # "the cube that is not ...", "neither red nor blue"
-        elif after.kind is Kind.PREPOSITION and (self.nouns or contrast):
-            self.denied = True  # "the cube not on the table"
+        elif (self.nouns and told) or (place and any(other.text == "but" for other in self.items)):
+            self.denied = True  # "the cube not on the table", "not wearing glasses", "go not to the cube but to ..."
         elif after.kind is Kind.NOUN and after.noun not in SETS["someone"]:
             self.excluded = True  # "the cube, not the sphere"
-        elif self.nouns and (after.kind is Kind.ADVERB or after.participle):
-            self.denied = True  # "the blonde, not wearing glasses"
         else:
             self.clause.negated = True
 
@@ -115,17 +114,14 @@ class _Builder(NounPhrases):
 
     def is_subject(self, item: Item, after: Item) -> bool:
         """The "you" of "the block that you hold", with and without "that"."""
-        acts = after.kind is Kind.VERB
         if self.preposition is not None:
             return False
-        if item.text in SETS["stands_for"] and self.nouns and acts:
-            self.relative = self.relative or after.name == "be"
-            return self.relative
-        if item.noun in SETS["holders"] and self.relative and self.forced and acts:
-            return True  # "the block that the arm is holding"
-        if item.noun not in SETS["someone"]:
-            return False
-        self.relative = self.relative or (bool(self.nouns) and not self.joined and acts)
+        acts = after.kind is Kind.VERB
+        it = item.text in SETS["stands_for"] and bool(self.nouns) and acts
+        if not it and item.noun not in SETS["someone"]:  # "the block that the arm is holding"
+            return item.noun in SETS["holders"] and self.relative and self.forced and acts
+        begins = after.name == "be" if it else bool(self.nouns) and not self.joined and acts
+        self.relative = self.relative or begins
         return self.relative
 
     def verb(self, item: Item, after: Item) -> None:
@@ -151,17 +147,15 @@ class _Builder(NounPhrases):
             self.forced = False
         elif name in VERBS["paint"] and self.nouns:
             self.copula = self.forced = item.said = True  # "the ball coloured dark blue"
+        elif direct:
+            self.relation(item)
         else:
             self.forced = True
-            if direct:
-                self.relation(item)
 
     def relation(self, item: Item) -> None:
         """ "The cube that has a cone on it", "the box facing the wall": a verb between two noun phrases."""
         name = RELATION_VERBS.get(item.name, item.name)
-        if self.denied:
-            name = "without" if name == "with" else f"not {name}"
-        self.denied, item.said = False, True
-        place = Item(Kind.PREPOSITION, item.start, item.stop, item.text, (name,), forced=True, before=list(self.nouns))
-        self.preposition = place
-        self.pending.append(place)
+        if self.denied and name == "with":
+            name, self.denied = "without", False
+        self.forced = item.said = True
+        self.place(replace(item, kind=Kind.PREPOSITION, words=(name,)))

@@ -12,15 +12,13 @@ from typing import Final
 from dcg_torch.english.dictionary import irregular
 from dcg_torch.english.forms import is_compared, parts, singular, verb
 from dcg_torch.language.colors import normal_color, single_colors
-from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, PLACING, PRONOUNS, SETS, listed
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 
 _RULES: Final = [
     *(([name], tags) for name, tags in GRAMMAR["lists"].items()),
     *((row.split(), tags) for row, tags in GRAMMAR["words"]),
 ]
-_ASKED: Final = (
-    SETS.keys() & {name.lstrip("-") for row, _ in _RULES for name in row} | GRAMMAR["seldom_nouns"].keys() & SETS
-)
+_ASKED: Final = SETS.keys() & {*GRAMMAR["seldom_nouns"], *(name.lstrip("-") for row, _ in _RULES for name in row)}
 _CLOSED: Final = listed(GRAMMAR["lists"].keys() - GRAMMAR["open_lists"].split())
 _FIXED: Final = listed(GRAMMAR["fixed_lists"].split())
 _EMPTY: Final = listed(GRAMMAR["empty_lists"].split())
@@ -47,10 +45,8 @@ def _features(word: str) -> dict[str, float]:
     told = {part: GRAMMAR["step"] * (max(known.values()) - often) for part, often in known.items()}
     color, plain = normal_color(word), word.replace("'", "").isalnum() and word.isascii() and len(word) <= _LONGEST
     asked = {
-        "pronoun": word in PRONOUNS,
         "digits": word.isdecimal(),
         "letter": len(word) == 1 and word.isalpha(),
-        "number": word in NUMBERS,
         "normal": word in NORMAL,
         "color": color in single_colors(),
         "basic_color": color in SETS["basic_colors"],
@@ -75,7 +71,7 @@ def _features(word: str) -> dict[str, float]:
 
 def is_fixed(word: str) -> bool:
     """Whether a word is grammar and nothing else: "the", "and", "me"."""
-    return word in _FIXED or word in PRONOUNS or word in NUMBERS or word in PLACING["single"]
+    return word in _FIXED or word in PLACING["single"]
 
 
 @functools.lru_cache(4096)

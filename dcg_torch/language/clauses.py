@@ -58,10 +58,8 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             else:
                 clauses.append([])
             continue
-        if item.kind is Kind.RELATIVE:
-            relative = True
-        elif item.kind is Kind.COMMA and relative:
-            relative = False
+        if item.kind in {Kind.RELATIVE, Kind.COMMA}:
+            relative = item.kind is Kind.RELATIVE
         elif item.kind is Kind.VERB and _is_main(items, k, relative, clauses[-1]):
             relative = False
             item.words = ("be",) if _tells(items, k) else item.words
@@ -74,7 +72,7 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
                 tail.insert(0, clauses[-1].pop())
             clauses.append([*tail, item])
             continue
-        elif item.kind is Kind.NOUN and _subject(items[k - 1] if k else END, item, items[k + 1 :]):
+        elif item.kind is Kind.NOUN and _subject(items, k):
             relative = True  # "the block you are holding"
         clauses[-1].append(item)
     return [clause for clause in clauses if clause]
@@ -84,11 +82,10 @@ def _is_fragment(after: Sequence[Item]) -> bool:
     """ "The ball. Green. On the left.": a sentence without a verb or a noun of its own goes on with the one before."""
     first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
     sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
-    if any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence):
-        return False
+    whole = any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence)
     # "Blue. Not the dark one."
     described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)
-    return first.kind in {Kind.PREPOSITION, Kind.ADVERB} or described
+    return not whole and (described or first.kind in {Kind.PREPOSITION, Kind.ADVERB})
 
 
 def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool:
@@ -113,22 +110,19 @@ def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
     return verb.name == "be" and kinds[:2] == [Kind.PREPOSITION, Kind.NOUN] and Kind.VERB not in kinds
 
 
-def _subject(before: Item, item: Item, rest: Sequence[Item]) -> bool:
-    """The "you" of "the block you are holding"."""
-    after = rest[0] if rest else END
-    if before.kind is not Kind.NOUN or after.kind is not Kind.VERB or before.stop != item.start:
-        return False
-    if item.text in SETS["stands_for"]:
-        return after.name == "be"  # "the ball it is on the cube"
-    return item.is_a("someone") and before.noun not in SETS["robot"]
+def _subject(items: Sequence[Item], k: int) -> bool:
+    """The "you" of "the block you are holding", the "it" of "the ball it is on the cube"."""
+    before, item, after = (END, *items, END)[k : k + 3]
+    person = item.is_a("someone") and before.noun not in SETS["robot"]
+    acts = after.name == "be" if item.text in SETS["stands_for"] else person
+    return acts and before.kind is Kind.NOUN and after.kind is Kind.VERB and before.stop == item.start
 
 
 def _goes_on(item: Item, before: Item, clause: Sequence[Item]) -> bool:
     """ "(The blonde,) not wearing glasses", "(no hair,) has a beard": more of what a noun phrase by itself is like."""
     kinds = {other.kind for other in clause}
-    if Kind.NOUN not in kinds or Kind.VERB in kinds:
-        return False
-    return item.participle if before.kind is Kind.NEGATION else item.finite and item.name in SETS["possessing"]
+    more = item.participle if before.kind is Kind.NEGATION else item.finite and item.name in SETS["possessing"]
+    return more and Kind.NOUN in kinds and Kind.VERB not in kinds
 
 
 def _tells(items: Sequence[Item], k: int) -> bool:
@@ -142,11 +136,10 @@ def _tells(items: Sequence[Item], k: int) -> bool:
 def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Item]) -> bool:
     """Whether a clause begins with the verb at `k`."""
     item = items[k]
-    if _is_statement(clause, items, k) or _is_inverted(clause, item):
-        return False
     second, before = (END, END, *items[:k])[-2:]
     lemma = item.name.split()[0]
-    if before.kind in _BEFORE_VERB and _goes_on(item, before, clause):
+    goes_on = before.kind in _BEFORE_VERB and _goes_on(item, before, clause)
+    if goes_on or _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
     passive = item.participle and before.name == "be" and second.kind is Kind.NOUN
     if passive and second.text not in SETS["people"]:
@@ -157,10 +150,8 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         return joined and not item.participle and lemma in SETS["commands"]
     before = second if before.kind is Kind.ADVERB else before
     after_noun = before.kind is Kind.NOUN and not before.is_a("someone")
-    if lemma == "be" and after_noun:
-        # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
-        since = items[max((j for j in range(k) if items[j].kind in {Kind.STOP, Kind.AND}), default=-1) + 1 : k]
-        if any(other.kind is Kind.VERB for other in since):
-            return False
-    said_of = (item.participle and not _tells(items, k)) or item.finite or lemma == "have"
+    since = itertools.takewhile(lambda other: other.kind not in {Kind.STOP, Kind.AND}, reversed(items[:k]))
+    # "whichever cube is nearest": of the noun phrase, once the clause has its verb.
+    predicate = lemma == "be" and any(other.kind is Kind.VERB for other in since)
+    said_of = predicate or (item.participle and not _tells(items, k)) or item.finite or lemma == "have"
     return not (after_noun and said_of)

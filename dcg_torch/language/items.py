@@ -73,21 +73,17 @@ class Item:
         return replace(self, children=[child.copy() for child in self.children])
 
     def take_up(self, more: Item) -> None:
-        """Say what another noun phrase says of the same thing, or which of several is meant."""
-        self.pick(more)
-        self.color = self.color or more.color
-        self.words += tuple(word for word in more.words if word not in self.words)
-        self.children += [child for child in more.children if child not in self.children]
-
-    def pick(self, one: Item) -> None:
-        """Mean one of several, if a singular says which: "a pair of dots, the paler of them"."""
-        told = one.words and (one.determined or one.text in SETS["stands_for"])
-        if self.plural and told and not one.plural:
+        """Say what another noun phrase says of the same thing, or which of several: "a pair of dots, the paler one"."""
+        told = more.words and (more.determined or more.text in SETS["stands_for"])
+        if self.plural and told and not more.plural:
             if self.count:
                 self.words += (f"of {self.count}",)
             elif self.is_a("grouped"):
                 self.words, self.children = (), [self.copy().behind("in")]
             self.plural, self.count = False, 1
+        self.color = self.color or more.color
+        self.words += tuple(word for word in more.words if word not in self.words)
+        self.children += [child for child in more.children if child not in self.children]
 
     def behind(self, preposition: str) -> Item:
         """A preposition with this noun phrase, which nobody said so."""
@@ -158,8 +154,7 @@ def share_noun(first: Item, second: Item) -> None:
 
 def last_thing(nouns: Sequence[Item]) -> Item:
     """The last noun phrase that words can describe: no person and no side."""
-    apart = SETS["someone"] | SETS["places"]
-    return next((noun for noun in reversed(nouns) if noun.noun not in apart), nouns[-1])
+    return next((noun for noun in reversed(nouns) if not noun.is_a("somewhere")), nouns[-1])
 
 
 def deny(noun: Item, other: Item) -> None:
@@ -204,8 +199,7 @@ def _settle_nothing(noun: Item, without: Item, thing: Item) -> None:
     if thing.noun in SETS["unnamed_things"] and len(thing.children) == 1:
         (where,) = thing.children
         if where.children[0].noun in {None, "top"}:
-            name = where.name
-            noun.words += (f"nothing {'on' if name in PLACING['upon'] else name}",)
+            noun.words += (f"nothing {'on' if where.name in PLACING['upon'] else where.name}",)
             noun.children.remove(without)
 
 

@@ -25,6 +25,7 @@ VERBS: Final[Mapping[str, frozenset[str]]] = {name: frozenset(text.split()) for 
 """Verbs by what they do with their object."""
 SETS: Final[Mapping[str, frozenset[str]]] = {
     **{name: frozenset(text.split()) for name, text in _WORDS.items() if isinstance(text, str)},
+    **{name: frozenset(_WORDS[name]) for name in ("pronouns", "numbers")},
     "commands": frozenset().union(*(VERBS[name] for name in ("put", "take", "go", "reach", "look"))),
 }
 """Closed classes of words by name."""

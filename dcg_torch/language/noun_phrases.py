@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 
 from dcg_torch.english.forms import parts, singular
@@ -55,8 +56,7 @@ class NounPhrase:
         if self.at > self.start and self.tokens[self.at - 1].tag not in {"Q", "DET", "P"}:
             return 0
         self.item.negative = self.item.negative or token.value[0] in SETS["none"]
-        if token.value[0] in SETS["owned"]:
-            self.item.words += (token.value[0],)
+        self.item.words += token.value if token.value[0] in SETS["owned"] else ()
         self.item.determined = True
         return 1
 
@@ -100,10 +100,8 @@ class NounPhrase:
         return 1 + (after in SETS["color_fillers"])
 
     def _noun(self, token: Token) -> int:
-        filler = (
-            token.text in SETS["color_fillers"] and self.tokens[self.at + 1].tag in _STARTS
-        )  # "the dark coloured ball"
-        if not (filler and (self.item.words or self.item.color)):
+        described = self.item.words or self.item.color  # "the dark coloured ball"
+        if not (described and token.text in SETS["color_fillers"] and self.tokens[self.at + 1].tag in _STARTS):
             self.nouns.append(token)
         return 1
 
@@ -139,9 +137,7 @@ class NounPhrase:
             return 0
         at = self.at + 1 + (self.tokens[self.at + 1].text == "and")
         follows = self.tokens[at + 1].tag in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
-        if self.tokens[at].tag not in _DESCRIBING or not follows:
-            return 0
-        return at - self.at
+        return at - self.at if self.tokens[at].tag in _DESCRIBING and follows else 0
 
     def _possessive(self, token: Token) -> int:
         """ "The robot's cube" is the cube."""
@@ -152,9 +148,7 @@ class NounPhrase:
 
     def _of(self, token: Token) -> int:
         """What "of" makes of a group ("the row of cubes"), a place ("the position of the cube"), a pick."""
-        if token.text != "of" or self.at == self.start:
-            return 0
-        return self._group_of() or self._pick_of()
+        return (self._group_of() or self._pick_of()) if token.text == "of" else 0
 
     def _group_of(self) -> int:
         if not self.headed or self.tokens[self.at + 1].tag not in _STARTS:
@@ -181,19 +175,15 @@ class NounPhrase:
 
     def _behind_determiners(self) -> int:
         """The token behind this one and the determiners that follow it."""
-        after = self.at + 1
-        while self.tokens[after].tag == "DET":
-            after += 1
-        return after
+        return next(k for k in itertools.count(self.at + 1) if self.tokens[k].tag != "DET")
 
     def _pick_of(self) -> int:
         """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
         picker = self.tokens[self.at - 1]
         # "The middle of the three cones", but "the middle of the table".
         counted = self.tokens[self._behind_determiners()].tag == "NUM" and picker.text in SETS["counted_middles"]
-        if self.headed and not (picker.tag == "SIDE" and counted):
-            return 0
-        if not self.headed and (self.nouns or picker.tag not in {"Q", "NUM", "ORD", "MOD", "ONE"}):
+        bare = not self.nouns and picker.tag in {"Q", "NUM", "ORD", "MOD", "ONE"}
+        if not (picker.tag == "SIDE" and counted if self.headed else bare):
             return 0
         after = self._behind_determiners()
         bare_group = self.tokens[after].text in SETS["groups"] and self.tokens[after + 1].text != "of"

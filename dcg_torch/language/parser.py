@@ -30,7 +30,6 @@ MAX_CHARACTERS = 600
 MAX_WORDS = 120  # four times the longest of most thousand human commands; the time goes with the number of words
 _PATHS = 3
 _RUNS_A_READING = 2
-_CONTENT = frozenset({Kind.ADVERB, Kind.NOUN, Kind.VERB})
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,21 +112,18 @@ class Parser:
             return Parse(text, problem="the command is empty")
         if len(text) > MAX_CHARACTERS:
             return Parse(text, problem=f"the command is longer than {MAX_CHARACTERS} characters")
-        known = frozenset(normal_noun(noun) for noun in vocabulary)
         words = tokens(text)
         if len(words) > MAX_WORDS:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
-        command = _Command(words, known, names(text))
+        command = _Command(words, frozenset(map(normal_noun, vocabulary)), names(text))
         found: dict[Hashable, Reading] = {}
         reason = NO_THING
         nothing = -math.inf  # the log-weight of the likeliest reading that means no thing
-        for tree, decisions in best_first(command.read, _RUNS_A_READING * k):
-            if tree is not None and _shape(tree) not in found:
-                unread = command.unread()
-                weight = decisions.log_weight + CHOICES["unread"] * len(unread)
-                found[_shape(tree)] = Reading(tree, weight, decisions.rules, unread)
-            elif tree is None and nothing == -math.inf:
-                nothing, reason = decisions.log_weight, command.reason()
+        for read, decisions in best_first(command.read, _RUNS_A_READING * k):
+            if isinstance(read, Reading):
+                found.setdefault(_shape(read.tree), read)
+            elif nothing == -math.inf:
+                nothing, reason = decisions.log_weight, read
             if len(found) == k:
                 break
         if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing:
@@ -138,53 +134,51 @@ class Parser:
 class _Command:
     """The words of a command, and what of them is the same in all readings."""
 
-    def __init__(self, words: Sequence[str], known: frozenset[str], names: frozenset[str]) -> None:
+    def __init__(self, words: list[str], known: frozenset[str], names: frozenset[str]) -> None:
         self.known, self.names = known, names
-        self.kept = list(words)
-        self.mended = mend(words, known | names)
+        self.kept, self.mended = words, mend(words, known | names)
         self.tagged: dict[bool, tuple[dict[str, Path], list[tuple[int, int, str]]]] = {}
-        self.words: Sequence[str] = words
-        self.items: list[Item] = []
-        self.clauses: list[Clause] = []
-        self.parts: list[tuple[int, int, str]] = []
 
-    def read(self, decisions: Decisions) -> ParseTree | None:
-        """The tree of one reading, None if it has none."""
-        mended = True
-        if len(self.mended) == len(self.kept) and self.mended != self.kept:
-            mended = decisions.choose("spelling", CHOICES["spelling"]) == "mended"
-        words = self.words = self.mended if mended else self.kept
+    def read(self, decisions: Decisions) -> Reading | str:
+        """One reading, its weight not yet normalised; where the command has no tree, why not."""
+        doubtful = len(self.mended) == len(self.kept) and self.mended != self.kept
+        mended = not doubtful or decisions.choose("spelling", CHOICES["spelling"]) == "mended"
+        words = self.mended if mended else self.kept
         if mended not in self.tagged:
             self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), talk(words)
-        tagged, self.parts = self.tagged[mended]
+        tagged, parts = self.tagged[mended]
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
         path = tagged[decisions.choose("words", weights)]
-        self.items = items(path.tokens)
-        groups = split(repair(self.items), self.parts)
+        said = items(path.tokens)
+        groups = split(repair(said), parts)
         last = _supplied(groups)
-        self.clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
-        stops = [item.start for item in self.items if item.kind is Kind.STOP]
-        for clause, group in zip(self.clauses, groups, strict=True):
+        clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]
+        stops = [item.start for item in said if item.kind is Kind.STOP]
+        for clause, group in zip(clauses, groups, strict=True):
             clause.sentence = bisect.bisect(stops, group[0].start)
-            refuse(clause, group, self.parts, words)
-        return root(self.clauses, decisions)
+            refuse(clause, group, parts, words)
+        tree = root(clauses, decisions)
+        if tree is None:
+            return parts[0][2] if parts else _reason(clauses)
+        unread = _unread(words, said, clauses)
+        return Reading(tree, decisions.log_weight + CHOICES["unread"] * len(unread), decisions.rules, unread)
 
-    def unread(self) -> tuple[str, ...]:
-        """The content words of the last reading that are in no phrase."""
-        nodes = [item for item in self.items if item.said or item.kind not in _CONTENT]
-        for clause in self.clauses:
-            nodes += [node for top in (clause.verb or END, *clause.objects, *clause.places) for node in top.walk()]
-        used = {i for node in nodes for i in range(node.start, node.stop)}
-        return tuple(word for i, word in enumerate(self.words) if i not in used and is_content(word))
 
-    def reason(self) -> str:
-        """Why there is no tree."""
-        if self.parts:
-            return self.parts[0][2]
-        if any(noun.negative for clause in self.clauses for noun in clause.objects):
-            return NONE
-        motion = VERBS["go"] | VERBS["look"]
-        return MOTION if any(clause.action in motion for clause in self.clauses) else NO_THING
+def _unread(words: Sequence[str], said: Sequence[Item], clauses: Sequence[Clause]) -> tuple[str, ...]:
+    """The content words that are in no phrase."""
+    nodes = [item for item in said if item.said or item.kind not in {Kind.ADVERB, Kind.NOUN, Kind.VERB}]
+    for clause in clauses:
+        nodes += [node for top in (clause.verb or END, *clause.objects, *clause.places) for node in top.walk()]
+    used = {i for node in nodes for i in range(node.start, node.stop)}
+    return tuple(word for i, word in enumerate(words) if i not in used and is_content(word))
+
+
+def _reason(clauses: Sequence[Clause]) -> str:
+    """Why clauses have no tree."""
+    if any(noun.negative for clause in clauses for noun in clause.objects):
+        return NONE
+    motion = VERBS["go"] | VERBS["look"]
+    return MOTION if any(clause.action in motion for clause in clauses) else NO_THING
 
 
 def _named(found: Sequence[Path]) -> dict[str, Path]:

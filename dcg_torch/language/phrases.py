@@ -101,10 +101,9 @@ class _Phrases:
         """A noun phrase; words that are none by themselves are adverbs: "(the cube that is) biggest"."""
         sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, reversed(self.out))
         phrase = NounPhrase(self.tokens, i, all(item.kind is not Kind.NOUN for item in sentence))
-        if phrase.is_measure:
-            return phrase.at
-        if phrase.named:
+        if phrase.named and not phrase.is_measure:
             self.out.append(phrase.item)
-            return phrase.at
-        self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value or (self.tokens[i].text,))
-        return i + 1
+        elif not phrase.is_measure:
+            self.add(Kind.ADVERB, i, i + 1, self.tokens[i].value)
+            return i + 1
+        return phrase.at

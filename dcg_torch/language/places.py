@@ -78,9 +78,8 @@ def _compound(owner: Item, place: Item, decisions: Decisions) -> bool:
     """Whether "a pallet of tires" is read as a tire pallet; then it has become one."""
     child = place.children[0]
     named = place.words == ("of",) and owner.stop == place.start and len(place.children) == 1
-    if not (named and child.is_a("bare_name") and child.is_a("named") and owner.is_a("named")):
-        return False
-    if decisions.choose("of", CHOICES["of"]) != "compound":
+    named = named and child.is_a("bare_name") and owner.is_a("named")
+    if not named or decisions.choose("of", CHOICES["of"]) != "compound":
         return False
     owner.noun, owner.stop = f"{child.noun} {owner.noun}", child.stop
     return True
@@ -88,8 +87,8 @@ def _compound(owner: Item, place: Item, decisions: Decisions) -> bool:
 
 def _goal(clause: Clause, full: list[Item], supplied: bool, decisions: Decisions) -> Item | None:
     """The prepositional phrase that says where the object is to go, if any does."""
-    supplied = supplied or any(noun.noun == "me" for noun in clause.objects)  # "bring me the cup on the table"
-    if main_object(clause) is None or supplied:
+    # "Bring me the cup on the table" needs no other goal.
+    if supplied or main_object(clause) is None or any(noun.noun == "me" for noun in clause.objects):
         return None
     if clause.acting:
         return next((place for place in full if place.start >= clause.verb.start), None) if clause.verb else None
@@ -109,13 +108,12 @@ def _is_path(place: Item) -> bool:
 
 def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: list[Item]) -> bool:
     """Whether a phrase after a noun phrase still says where the motion goes."""
-    if target is not None and clause.verb is not None and not place.forced:
+    if clause.verb is None or place.forced:
+        return False
+    if target is not None:  # "the top box moves left and ...", "move the cube down and to the left"
         moved = clause.acting and place.before[-1].start < clause.verb.start <= place.start
         sideways = place.name in PLACING["toward"] and place.children[0].is_a("sided_place")
-        if moved or (sideways and place.beside and clause.action in VERBS["put"]):
-            return True  # "the top box moves left and ...", "move the cube down and to the left"
-    if target is not None or clause.verb is None or place.forced:
-        return False
+        return moved or (sideways and place.beside and clause.action in VERBS["put"])
     goals = any(other.name in PLACING["goals"] for other in full[: full.index(place)])
     return (_is_path(place) and not _about_noun(place)) or not goals or clause.action in VERBS["look"]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
@@ -130,10 +130,9 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         one.children.remove(place)  # "(there are five cones,) the one in the middle" is the middle one of the five
         one.words += ("middle",)
     if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
-        pair = (word for word in group.words if word in SETS["close_pairs"])
         sized = not SETS["sizes"].isdisjoint(one.words)
         looks = [w for w in group.words if _describes(w) and not (sized and w in SETS["sizes"])]
-        one.words = tuple(dict.fromkeys((*one.words, *looks, *pair, f"of {group.count}")))
+        one.words = tuple(dict.fromkeys((*one.words, *looks, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 
@@ -141,16 +140,14 @@ def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
     """ "There is a tall plant and a short one": plants, of which nothing else is said."""
     told = next((clause.objects for clause in clauses if clause.action in SETS["be"] and len(clause.objects) > 1), [])
     nouns = {noun.noun for noun in told if noun.noun is not None}
-    if len(nouns) != 1 or any(noun.definite or noun.children for noun in told):
-        return []
-    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)]
+    alike = len(nouns) == 1 and not any(noun.definite or noun.children for noun in told)
+    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)] if alike else []
 
 
 def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]:
     """ "The cup. There are two of them.": two cups."""
-    counts = [noun for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
-    count = next((noun.count for noun in counts if (noun.count or 0) > 1), None)
-    return [] if count is None else [replace(named, count=count, plural=True)]
+    counts = [noun.count for noun in _mentions(clauses) if noun.noun is None and named.start < noun.start < one.start]
+    return [replace(named, count=count, plural=True) for count in counts if (count or 0) > 1][:1]
 
 
 def _describes(word: str) -> bool:
@@ -164,21 +161,17 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
     blocks", "this group") all that was said of it there."""
     before = clauses[: clauses.index(own)]
     asked = [noun for clause in before if clause.refused and (noun := main_object(clause)) is not None]
-    earlier: list[Item] = []
-    for clause in before:
-        main = [noun for noun in clause.objects if noun.noun not in SETS["directions"]]
-        # What a sentence is about is rather meant again than what it only places that by.
-        earlier = [*(noun for noun in _mentions([clause]) if noun not in main), *earlier]
-        earlier += main
+    main = [noun for clause in before for noun in clause.objects if noun.noun not in SETS["directions"]]
+    # What a sentence is about is rather meant again than what it only places that by.
+    earlier = [noun for clause in reversed(before) for noun in _mentions([clause]) if noun not in main] + main
     nodes = [(node, node.start) for node in target.walk()]
     for node, start in nodes:
         if node.kind is not Kind.NOUN or not _names_again(node):
             continue
         mentions = asked if node is target and node.pronoun else earlier  # "Is the mug clean? I'll take that one."
+        vague = node.noun in {None, *SETS["groups"], *SETS["anything"]}
         named = [noun for noun in reversed(mentions) if noun.start < start and _may_be(node, noun)]
-        named = [noun for noun in named if node not in noun.walk()]
-        if node.noun not in {None, *SETS["groups"], *SETS["anything"]}:
-            named = [noun for noun in named if noun.words or noun.color or noun.children]
+        named = [noun for noun in named if node not in noun.walk() and (vague or not noun.is_a("empty"))]
         if named:
             options = {f"mention {k}": -CHOICES["mention_step"] * k for k in range(len(named))}
             meant = named[int(decisions.choose("mention", options).split()[1])]
@@ -216,11 +209,10 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     return facing
 
 
-def _mentions(clauses: Sequence[Clause]) -> Iterator[Item]:
+def _mentions(clauses: Sequence[Clause]) -> list[Item]:
     """The noun phrases of clauses, without those that are places or persons."""
-    for clause in clauses:
-        for top in (*clause.objects, *clause.places):
-            yield from (n for n in top.walk() if n.kind is Kind.NOUN)
+    tops = [top for clause in clauses for top in (*clause.objects, *clause.places)]
+    return [node for top in tops for node in top.walk() if node.kind is Kind.NOUN]
 
 
 def _names_again(node: Item) -> bool:

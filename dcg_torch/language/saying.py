@@ -23,8 +23,7 @@ class NounPhrases:
         self.forced = False  # the next preposition tells the last noun phrase apart
         self.joined = False  # "and" or a comma stands before
         self.and_joined = False  # the last of these was "and"
-        self.relative = False
-        self.copula = False
+        self.relative = self.copula = False
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
         self.excluded = False  # "not" stands before a noun phrase: "not the cube"
@@ -66,12 +65,14 @@ class NounPhrases:
             item.beside = True
             conjoin(item, self.nouns, self.pending, self.clause)
         elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
-            self.leading_place(item)
             self.mention(item)
 
     def mention(self, item: Item) -> None:
-        """A noun phrase that the clause is about."""
-        self.clause.objects.append(item)
+        """A noun phrase that the clause is about. "Top left corner, red cube": a place before it is where it is."""
+        objects = self.clause.objects
+        if self.clause.verb is None and len(objects) == 1 and objects[0].is_a("place"):
+            item.children.append(objects.pop().behind("in"))
+        objects.append(item)
         self.nouns.append(item)
 
     def meets(self, item: Item) -> bool:
@@ -154,12 +155,6 @@ class NounPhrases:
         if place.words != ("of",) or item.determined or not self.nouns:
             self.nouns.append(item)  # what follows "a pallet of tires" is said of the pallet
 
-    def leading_place(self, item: Item) -> None:
-        """ "Top left corner, red cube": the place named first is where the thing is."""
-        objects = self.clause.objects
-        if self.clause.verb is None and len(objects) == 1 and objects[0].is_a("place"):
-            item.children.append(objects.pop().behind("in"))
-
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
         last = self.last
@@ -170,9 +165,8 @@ class NounPhrases:
             return False
         if last.is_a("place") or last.noun in SETS["robot"] or (last.pronoun and not ordered):
             return False
-        if not item.determined:
-            return item.is_a("color_word")
-        return not self.and_joined and (item.is_a("color_word") or item.text.endswith(" one"))
+        one = item.determined and item.text.endswith(" one")
+        return (one or item.is_a("color_word")) and not (item.determined and self.and_joined)
 
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""

@@ -20,9 +20,8 @@ from dcg_torch.language.colors import match_color, normal_color
 _NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
 _DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer
 START, END = "START", "END"
-_TAGS: Final = tuple(lx.GRAMMAR["tags"])
 _AFTER: Final = {
-    before: {tag: float(row.get(tag, row["default"])) for tag in (*_TAGS, END)}
+    before: {tag: float(row.get(tag, row["default"])) for tag in (*lx.GRAMMAR["tags"], END)}
     for before, row in lx.GRAMMAR["transitions"].items()
 }
 
@@ -72,9 +71,9 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
 
 def _best(starts: Mapping[str, list[_Start]], tag: str, k: int) -> list[_Start]:
     """The `k` likeliest beginnings before a token of a tag."""
-    found = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
-    found = [(round(score, 6), path) for score, path in found]  # so that equal ones are equal, and stay as they come
-    return sorted(found, key=itemgetter(0), reverse=True)[:k]
+    ends = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
+    # Rounded, so that equal ones are equal, and stay as they come.
+    return sorted(((round(score, 6), path) for score, path in ends), key=itemgetter(0), reverse=True)[:k]
 
 
 class _Lattice:
@@ -99,8 +98,7 @@ class _Lattice:
         if found is not None and found[1] > i + 1:
             text = " ".join(self.words[i : found[1]])
             out.append((Token(i, found[1], "COL", text, (found[0],)), lx.GRAMMAR["long_color"]))
-        for part in (self._patterns, self._compounds):
-            out += part(i)
+        out += self._patterns(i) + self._compounds(i)
         return out or [(Token(i, i + 1, "ADV", word, (word,)), 0.0)]
 
     def _value(self, tag: str, word: str) -> tuple[str, ...]:

@@ -45,10 +45,9 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
 
 def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found: Sequence[Mention]) -> float:
     verb, told = clause.action, references.exists(clause)
-    if clause.acting:
-        return TARGETS["acting"]
-    if verb and not (told or clause.statement):
-        return TARGETS[next((name for name in CHOICES["target_verbs"].split() if verb in VERBS[name]), "other")]
+    if clause.acting or (verb and not (told or clause.statement)):
+        does = (name for name in CHOICES["target_verbs"].split() if verb in VERBS[name])
+        return TARGETS["acting" if clause.acting else next(does, "other")]
     again = references.named_again(clause, clauses) is not None
     if target.definite and not target.plural and (target.noun or any(m.noun.plural for m in found)) and not again:
         # "Until you see the window, then it is the plant next to it", or "Is the oven off? The stove by the sink."
@@ -100,8 +99,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
     said = verb or chosen.clause.statement  # "are" of "the scissors are in the drawer" tells, and is no action
-    phrase = Phrase(PhraseKind.VERB, said.text if said else "", words)
-    return ParseTree(phrase, tuple(freeze(child) for child in children))
+    return ParseTree(Phrase(PhraseKind.VERB, said.text if said else "", words), tuple(map(freeze, children)))
 
 
 def _choose(found: list[Mention], decisions: Decisions) -> Mention:
@@ -112,16 +110,12 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            leads = not references.about_it(found[first].noun)  # but "go to the table and take the cup on it"
-            if name == "earlier_goal" and leads and not any(_leads(other, choice, found[first]) for other in found[:k]):
+            # Not "go to the table and take the cup on it", nor "enter the hall, go to the desk and take the cup".
+            others = (other.clause is choice.clause or _relation(other, found[first]) == name for other in found[:k])
+            if name == "earlier_goal" and not (references.about_it(found[first].noun) or any(others)):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
-
-
-def _leads(before: Mention, goal: Mention, chosen: Mention) -> bool:
-    """Is a goal not the first, or not alone in its clause: "enter the hall, go to the desk and take the cup"?"""
-    return before.clause is goal.clause or _relation(before, chosen) == "earlier_goal"
 
 
 def _relation(other: Mention, chosen: Mention) -> str:
@@ -132,9 +126,8 @@ def _relation(other: Mention, chosen: Mention) -> str:
     order = "earlier" if (one.sentence, other.noun.start) < (two.sentence, chosen.noun.start) else "later"
     if one.sentence != two.sentence:
         return f"{order}_sentence"
-    reached = one.action in VERBS["go"] and other.place is not None and other.place.name in PLACING["toward"]
-    reached = reached or (other.place is None and one.action in VERBS["arrive"])
-    if not reached:
+    reached = one.action in VERBS["go" if other.place else "arrive"]
+    if not reached or (other.place and other.place.name not in PLACING["toward"]):
         return f"{order}_clause"
     return f"{order}_goal" if chosen.score >= TARGETS["take"] else f"{order}_way"
 
@@ -150,8 +143,7 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
-        found_by = beside and chosen.place is None and handled and handled[-1].score < TARGETS["take"]
-        if handled and chosen.place is None and not fronted and not found_by:
+        if handled and chosen.place is None and not (fronted or (beside and handled[-1].score < TARGETS["take"])):
             return handled[-1]
         if beside:
             return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
@@ -172,8 +164,7 @@ def _beside(chosen: Mention) -> list[Item]:
     objects = chosen.clause.objects
     later = objects[objects.index(chosen.noun) + 1 :]
     later = later[: max((k + 1 for k, noun in enumerate(later) if noun.beside), default=0)]
-    named = [noun for noun in later if not noun.pronoun or noun.is_a("color_word")]
-    return [noun for noun in named if not noun.is_a("direction")]
+    return [n for n in later if (n.is_a("color_word") or not n.pronoun) and not n.is_a("direction")]
 
 
 def _listed(chosen: Mention) -> list[Item]:
@@ -189,10 +180,8 @@ def _listed(chosen: Mention) -> list[Item]:
 
 def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]:
     """ "pick up the cube and put it on the block": where a later clause puts "it"."""
-    for clause in clauses[clauses.index(chosen.clause) + 1 :]:
-        if clause.action in VERBS["put"] and clause.places and all(noun.pronoun for noun in clause.objects):
-            return clause.places
-    return []
+    puts = (clause for clause in clauses[clauses.index(chosen.clause) + 1 :] if clause.action in VERBS["put"])
+    return next((put.places for put in puts if put.places and all(noun.pronoun for noun in put.objects)), [])
 
 
 def freeze(item: Item) -> ParseTree:

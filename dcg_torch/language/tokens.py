@@ -92,7 +92,7 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
 @functools.lru_cache(8192)
 def is_english(word: str) -> bool:
     """Whether a word is English: in the dictionary, an inflection of a word there, or of a closed class."""
-    closed = (lx.PRONOUNS, lx.NUMBERS, lx.NORMAL, *lx.SETS.values(), *lx.PLACING.values())
+    closed = (lx.NORMAL, *lx.SETS.values(), *lx.PLACING.values())
     forms = {word, singular(word), verb(word)}
     return not english().keys().isdisjoint(forms) or is_compared(word) or any(word in words for words in closed)
 
