@@ -7,8 +7,10 @@ import pytest
 from factors import both_settings
 
 from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.grounding.fit import fit, objective_at
+from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.reduction import reduce
-from dcg_torch.grounding.rows import ArrowheadRows
+from dcg_torch.grounding.rows import ArrowheadRows, SparseRows
 from dcg_torch.types import Correspondence
 
 
@@ -34,3 +36,21 @@ def test_the_step_solves_the_whole_system(correspondences: tuple[Correspondence,
     other = rng.normal(size=len(point.gradient))
     assert again is not None
     assert objective.product(point, again(other).reshape(q, -1)).reshape(-1) == pytest.approx(-other, abs=1e-8)
+
+
+@both_settings
+@pytest.mark.parametrize("parts", [1, 3])
+def test_rows_in_parts_are_eliminated_part_by_part(correspondences: tuple[Correspondence, ...], parts: int) -> None:
+    """So many weights in one part take longer; either way the gradient is zero at the optimum."""
+    rng, rows, columns = np.random.default_rng(5), 1_950, 150 // parts
+    grounding = np.stack([rng.choice(columns, 3, replace=False) for _ in range(rows)])
+    language, phrase = np.arange(parts)[:, None], np.arange(rows) % parts
+    count = rng.uniform(0.1, 2.0, size=(len(correspondences), rows))
+    design = DesignMatrix(language, grounding, phrase, count)
+    pairs = np.ones((parts, columns), dtype=np.bool_)
+    weight = np.zeros((len(correspondences), *pairs.shape))
+    found = reduce([design], weight, weight, pairs, np.ones(pairs.shape)).objective.rows
+    assert isinstance(found, ArrowheadRows if parts > 1 else SparseRows)
+    factor = LogLinearFactor(pairs, correspondences)
+    fit(factor, [design], l2=1.0)
+    assert np.abs(objective_at(factor, [design], 1.0)[1]).max() < 1e-6

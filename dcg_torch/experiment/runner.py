@@ -153,6 +153,8 @@ def _far(settings: Settings) -> Settings:
 
 def _run_here(settings: Settings, directory: Path, trials: Sequence[int], tick: Callable[[], None]) -> None:
     """Run trials in this process, one after another."""
+    import dcg_torch.experiment.ready  # noqa: F401
+
     last = time.monotonic()
 
     def now_and_then() -> None:

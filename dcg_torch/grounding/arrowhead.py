@@ -49,6 +49,7 @@ class Split:
         others[own] = False
         return np.concatenate([own, np.flatnonzero(others)])
 
+    @cached_property
     def rows(self) -> ArrowheadRows:
         """The rows of the fit, in `row_order`."""
         incidence, order = self.incidence, self.row_order

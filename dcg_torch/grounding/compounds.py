@@ -23,6 +23,8 @@ _SPOT = 0.6
 
 def by_compounds(tree: ParseTree, world: WorldModel) -> ParseTree:
     """A tree in which such compounds are a noun and where it stands."""
+    if not any(" " in (node.phrase.noun or "") for node in tree.walk()):
+        return tree
     phrase = tree.phrase
     children = tuple(by_compounds(child, world) for child in tree.children)
     words = (phrase.noun or "").split(" ") if phrase.kind is PhraseKind.NOUN else []

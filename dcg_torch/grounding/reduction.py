@@ -42,9 +42,12 @@ _CROWDED = 50
 """Rows in which a weight fires, on average, from which on rows are taken to share all of them."""
 _SHARING = 4
 """Rows in which a weight fires, on average, from which on rows are fitted as they are written out."""
-_NEWTON_COLUMNS, _NEWTON_WORK, _LITTLE_WORK = 400, 3e8, 1.5e7
+_NEWTON_COLUMNS, _NEWTON_WORK, _LITTLE_WORK = 400, 3e8, 4.5e7
 """Weights that rows share, and multiplications a step, up to which Newton's method is the fastest way; the latter
 where rows may be fitted as they are written out."""
+_IN_PARTS = 8
+"""By how much less work it may be that rows and weights fall into parts that share nothing: from there on it is not
+looked at."""
 
 
 @dataclass(frozen=True)
@@ -139,7 +142,7 @@ def _written(written: Written, fixed: Floats, *, always: bool) -> Reduced | None
     number[order] = np.arange(len(order))
     tied = number[alike.column], (1.0 / root)[alike.column]
     count, offset = count[:, found.row_order], None if offset is None else offset[:, found.row_order]
-    objective = Objective(found.rows(), count, offset, own[order], 1.0 / root[order])
+    objective = Objective(found.rows, count, offset, own[order], 1.0 / root[order])
     return Reduced(objective, start[:, order].reshape(-1), constant, fixed, columns, tied)
 
 
@@ -150,10 +153,16 @@ def _may_pay(incidence: Incidence) -> bool:
 
 def _pays(found: Split, q: int, most: float) -> bool:
     """Does a step of Newton's method take at most so many multiplications, and are few weights shared?"""
-    shared = len(found.shared)
-    variables = q * shared
-    work = (len(found.first) + variables) * variables * variables + 40 * q * q * found.incidence.rows
-    return shared <= _NEWTON_COLUMNS and work <= most
+    shared, own = len(found.shared), 40 * q * q * found.incidence.rows
+    work = _work(len(found.first), q * shared) + own
+    if shared > _NEWTON_COLUMNS or work > _IN_PARTS * most:
+        return False
+    return work <= most or sum(_work(len(rows), q * len(part)) for rows, part, _ in found.rows.blocks) + own <= most
+
+
+def _work(rows: int, variables: int) -> int:
+    """Multiplications for a Hessian of so many variables in so many rows, and to solve it."""
+    return (rows + variables) * variables * variables
 
 
 def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength: Floats) -> Classes:

@@ -7,6 +7,7 @@ up what is counted of each pair of a phrase and a grounding; columns are looked 
 from __future__ import annotations
 
 import itertools
+import operator
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -27,6 +28,8 @@ _LABELS = 3
 _Own = tuple[str | None, bool, bool, str | None, frozenset[str]]
 Seen = tuple[GroundingKind, _Own | None, tuple[str, ...]]
 """What features see of a grounding: its kind; an object's type, known, hypothetical, colour, attributes; more names."""
+_Kept = tuple[Example, Ints, Floats]
+"""An example, the pair and label of each of its labelled factors as one number, and the weight of each."""
 _Counted = tuple[Ints, Ints, Floats]
 """Of n pairs, the phrase, what is seen of the grounding, and (P, n) the weight of each label."""
 
@@ -60,16 +63,17 @@ class Statistics:
         self._seen = _Columns()
         self._pairs: dict[tuple[int, int], int] = {}
         self._pair_of: Ints = np.zeros((0, 2), dtype=np.int64)
-        self._kept: dict[int, tuple[Example, Ints, Floats]] = {}
+        self._kept: dict[int, _Kept] = {}
         self._objects: dict[Object, int] = {}
         self._of_phrase: dict[int, Ints] = {}
+        self._joined: tuple[Sequence[_Kept], Ints, Floats] = ((), np.zeros(0, dtype=np.int64), np.zeros(0))
 
     def copy(self) -> Statistics:
         """Another that knows the same, and goes its own way from here."""
         other = Statistics(self._groups)
         other._phrases, other._seen = self._phrases.copy(), self._seen.copy()
         other._pairs, other._kept, other._objects = dict(self._pairs), dict(self._kept), dict(self._objects)
-        other._pair_of = self._pair_of
+        other._pair_of, other._joined = self._pair_of, self._joined
         other._of_phrase = {phrase: seen.copy() for phrase, seen in self._of_phrase.items()}
         return other
 
@@ -99,9 +103,13 @@ class Statistics:
         grounding = self._seen.bag(features, _seen_columns)
         return [DesignMatrix(language, grounding[seen], phrase, count), *encode(others, features, correspondences)]
 
-    def _of_examples(self, plain: Sequence[tuple[Example, Ints, Floats]], at: Sequence[int]) -> _Counted:
-        codes = np.concatenate([np.zeros(0, dtype=np.int64), *(own for _, own, _ in plain)])
-        weights = np.concatenate([np.zeros(0), *(own for _, _, own in plain)])
+    def _of_examples(self, plain: Sequence[_Kept], at: Sequence[int]) -> _Counted:
+        before, codes, weights = self._joined
+        if len(before) > len(plain) or not all(map(operator.is_, before, plain)):
+            before, codes, weights = (), codes[:0], weights[:0]
+        codes = np.concatenate([codes, *(own for _, own, _ in plain[len(before) :])])
+        weights = np.concatenate([weights, *(own for _, _, own in plain[len(before) :])])
+        self._joined = plain, codes, weights
         total: Floats = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).astype(np.float64)
         count = total.reshape(-1, _LABELS).T
         if len(self._pairs) > len(self._pair_of):

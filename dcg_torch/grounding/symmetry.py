@@ -109,9 +109,9 @@ def classes(incidence: Incidence, row_start: Hashes, column_start: Hashes) -> Cl
     rows, columns, found = row_start, column_start, (0, 0)
     while True:
         columns = scrambled(columns)
-        np.add.at(columns, incidence.column, scrambled(rows)[incidence.row])
-        beside = np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
-        rows = scrambled(rows) + beside
+        mixed = scrambled(rows)
+        np.add.at(columns, incidence.column, mixed[incidence.row])
+        rows = mixed + np.add.reduceat(scrambled(columns)[incidence.column], row_starts)
         before, found = found, (count_distinct(rows), count_distinct(columns))
         apart = before[0] == len(rows)  # all rows were: no column can be told further from others
         if apart or found in (before, (len(rows), len(columns))):

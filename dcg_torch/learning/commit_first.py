@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -229,9 +230,15 @@ def contrasts(examples: Iterable[Example], symbols: Mapping[str, Symbol]) -> lis
         own += [(p, symbols[noun].type) for p, (said, _) in enumerate(table) if (noun := said.noun or "") in symbols]
         spared = [(p, column[t]) for p, t in own if t in column]
         inactive[[p for p, _ in spared], [t for _, t in spared]] = 0.0
-        objects = [Object(t, t, True, hypothetical, color, attributes=attributes) for t in types]
+        objects = [_of_type(t, hypothetical, color, attributes) for t in types]
         found.append(SoftLabels([p for p, _ in table], objects, np.zeros_like(inactive), inactive, inactive > 0.0))
     return found
+
+
+@functools.lru_cache(maxsize=4096)
+def _of_type(type_: str, hypothetical: bool, color: str | None, attributes: frozenset[str]) -> Object:
+    """One of a known type that stands nowhere."""
+    return Object(type_, type_, True, hypothetical, color, attributes=attributes)
 
 
 def _only_meant(example: Example) -> Object | None:
