@@ -123,9 +123,18 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
         bound = values - TIE
         if most > _SORTED:
             return _searched(values, bound, alike)
-        out = np.zeros(values.shape, dtype=np.int64)
-        for lowest in _lowest(values, alike, most):
-            out += lowest[:, alike.code] < bound
+        return _counted_to(list(_lowest(values, alike, most)), bound, alike.code)
+
+
+def _counted_to(lowest: Sequence[Floats], bound: Floats, code: Ints) -> Ints:
+    """(r, n) how many of the lowest values of its class are below a thing's bound; most things are beyond the last."""
+    out = np.zeros(bound.shape, dtype=np.int64)
+    if lowest:
+        beyond = lowest[-1].take(code, axis=1) < bound
+        out[beyond] = len(lowest)
+        row, few = np.nonzero(~beyond)
+        for value in lowest[:-1]:
+            out[row, few] += value[row, code[few]] < bound[row, few]
     return out
 
 
@@ -150,7 +159,7 @@ def _lowest(values: Floats, alike: Alike, most: int) -> Iterator[Floats]:
     for _ in range(most):
         lowest = np.minimum.reduceat(left, starts, axis=1)
         found[:, there] = lowest
-        yield found
+        yield found.copy()
         here = np.where(left == np.repeat(lowest, counts, axis=1), numbers, len(inside))
         left[rows, np.minimum.reduceat(here, starts, axis=1)] = np.inf
 
