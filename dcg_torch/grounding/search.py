@@ -18,7 +18,7 @@ from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_
 from dcg_torch.grounding.patterns import Key, Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
@@ -69,15 +69,11 @@ class Search:
         if not world.objects:
             return Solution(tree, world, problem="there is nothing here to mean")
         root = self._picked(tree, landmark=False)
-        ids = [o.id for o in world.meanable]
-        totals = root.totals()[: len(ids)]
+        number, meanable = self.encoder.number, len(world.objects) + len(world.groups)
+        totals = root.totals()[:meanable]
         best = self._nearest_best(root, totals)
         found = self._first_noun(tree)
         noun = None if found is None else self._picked(found, landmark=False)
-
-        def by_id(values: Floats | None) -> dict[str, float]:
-            return {} if values is None else dict(zip(ids, values.tolist(), strict=True))
-
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
         odds = (
             None
@@ -88,9 +84,9 @@ class Search:
             tree,
             world,
             best,
-            by_id(np.exp(totals - np.logaddexp.reduce(totals))),
-            by_id(fits),
-            by_id(odds),
+            dict(zip(number, np.exp(totals - np.logaddexp.reduce(totals)).tolist(), strict=False)),
+            {} if fits is None else ByThing(number, fits),
+            {} if odds is None else ByThing(number, odds),
             None if brief else self.runner_up(tree, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,

@@ -65,7 +65,8 @@ def neighbours(
     """
     n = len(position)
     covered, resting, beside, stacked = (np.zeros(n, dtype=np.bool_) for _ in range(4))
-    found: dict[int, set[int]] = {}
+    found: list[Ints] = []
+    most = int(color.max(initial=0)) + 1
     there = np.flatnonzero(np.isfinite(position).all(axis=1))
     for one, other, apart in _pairs(position[there, :2], NEXT):
         i, j = there[one], there[other]
@@ -85,9 +86,12 @@ def neighbours(
         resting[i[over]] = True
         covered[j[over]] = True
         colored = color[j] >= 0
-        for k, c in set(zip(i[colored].tolist(), color[j[colored]].tolist(), strict=True)):
-            found.setdefault(k, set()).add(c)
-    return Neighbours(covered, resting, beside, stacked, {k: tuple(sorted(c)) for k, c in found.items()})
+        found.append(i[colored] * most + color[j[colored]])
+    colors: dict[int, tuple[int, ...]] = {}
+    for code in sorted(set(np.concatenate(found).tolist())) if found else ():
+        k, c = divmod(code, most)
+        colors[k] = (*colors.get(k, ()), c)
+    return Neighbours(covered, resting, beside, stacked, colors)
 
 
 def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:

@@ -95,11 +95,10 @@ def numbered(values: Iterable[Hashable]) -> Ints:
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
     """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
     rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
-    number: dict[Hashable, int] = {}
-    few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
-    kind = np.array(few, dtype=np.int64)
-    if len(few) <= _FEW:
-        return [few.index(k) for k in range(len(number))], kind
+    kind = numbered(zip(*rows, strict=True))
+    if len(kind) <= _FEW:
+        few = kind.tolist()
+        return [few.index(k) for k in range(max(few, default=-1) + 1)], kind
     highest_yet = np.maximum.accumulate(kind)
     return np.flatnonzero(np.diff(highest_yet, prepend=-1)).tolist(), kind
 
