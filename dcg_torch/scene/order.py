@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -87,9 +88,8 @@ class Alike:
 
 def numbered(values: Iterable[Hashable]) -> Ints:
     """Equal values get equal numbers, from 0, in the order in which they come first."""
-    every = list(values)
-    number = {value: k for k, value in enumerate(dict.fromkeys(every))}
-    return np.fromiter(map(number.__getitem__, every), dtype=np.int64, count=len(every))
+    number: defaultdict[Hashable, int] = defaultdict(itertools.count().__next__)
+    return np.fromiter(map(number.__getitem__, values), dtype=np.int64)
 
 
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
