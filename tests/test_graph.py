@@ -6,6 +6,7 @@ import itertools
 import math
 
 import networkx as nx
+import numpy as np
 import pytest
 from graphs import best_score, pair_of, seeds, solve
 from hypothesis import given, settings
@@ -31,7 +32,7 @@ from oracle import KIND, Configuration
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.psi import BINARY, TERNARY
-from dcg_torch.grounding.solution import Hypothesis, Solution
+from dcg_torch.grounding.solution import ByThing, Hypothesis, Solution
 from dcg_torch.types import (
     Child,
     Correspondence,
@@ -261,3 +262,12 @@ def test_two_inversions_cancel(signs: tuple[Correspondence, Correspondence]) -> 
     best = Hypothesis(tree.children[0], Child(Grounding(GroundingKind.REGION, obj), region), (best,), 0.0)
     best = Hypothesis(tree, Child(Grounding(GroundingKind.ACTION, obj), action), (best,), 0.0)
     assert Solution(tree, world, best).inverted is (region != action)
+
+
+def test_values_by_id_are_a_mapping_of_the_first_things() -> None:
+    found = ByThing({"a": 0, "b": 1, "place": 2}, np.array([0.25, 0.75]))
+    assert dict(found) == {"a": 0.25, "b": 0.75} == found
+    assert len(found) == 2
+    assert "place" not in found
+    with pytest.raises(KeyError):
+        found["place"]

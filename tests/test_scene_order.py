@@ -77,3 +77,11 @@ def test_signatures_tell_apart_what_differs_in_any_column(n: int) -> None:
     rows = list(zip(kinds, colors, codes.tolist(), strict=True))
     assert len(first) == len(set(rows))
     assert [rows[first[k]] for k in kind] == rows
+
+
+@settings(max_examples=25, deadline=None)
+@given(seed=seeds, n=st.integers(1, 120), side=st.sampled_from([0.5, 4.0, 30.0, 1e6]))
+def test_no_more_pairs_are_close_than_the_bound_says(seed: int, n: int, side: float) -> None:
+    points = np.random.default_rng(seed).uniform(-side, side, size=(n, 2))
+    apart = np.hypot(*(points[:, None] - points[None]).transpose(2, 0, 1))
+    assert (apart < NEXT).sum() <= room._most_pairs(points, NEXT)

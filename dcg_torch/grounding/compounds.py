@@ -29,7 +29,7 @@ def by_compounds(tree: ParseTree, world: WorldModel) -> ParseTree:
     children = tuple(by_compounds(child, world) for child in tree.children)
     words = (phrase.noun or "").split(" ") if phrase.kind is PhraseKind.NOUN else []
     if len(words) < 2:
-        return replace(tree, children=children)
+        return ParseTree(phrase, children)
     things = [o for o in world.objects if o.position is not None and o.type and not o.type.startswith(OPAQUE)]
     types = {o.type or "" for o in things}
     first, head = " ".join(words[:-1]), words[-1]
@@ -37,14 +37,14 @@ def by_compounds(tree: ParseTree, world: WorldModel) -> ParseTree:
     beside = everyday().beside.get(first)
     heads = [o for o in things if log_odds(head, o.type or "") > _NAMED]
     if len(heads) < 2 or (not named.isdisjoint(words[:-1]) and not _is_class(first, types)):
-        return replace(tree, children=children)
+        return ParseTree(phrase, children)
     if any(log_odds(phrase.noun or "", type_) > _NAMED and normalise(type_) != head for type_ in types):
-        return replace(tree, children=children)
+        return ParseTree(phrase, children)
     place = beside or first
     marks = [o for o in things if log_odds(place, o.type or "") > _NAMED and o not in heads]
     over = [any(_is_over(o, mark, world.unit) for mark in marks) for o in heads]
     if not marks or (beside is None and (all(over) or not any(over))):
-        return replace(tree, children=children)
+        return ParseTree(phrase, children)
     where = ParseTree(Phrase(PhraseKind.NOUN, place, noun=place))
     preposition = Phrase(PhraseKind.PREPOSITION, "next to" if beside else "on", ("next to" if beside else "on",))
     return ParseTree(replace(phrase, noun=head), (*children, ParseTree(preposition, (where,))))

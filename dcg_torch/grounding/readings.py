@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections import defaultdict
+import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import repeat
 
 import numpy as np
 
@@ -229,18 +230,18 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     most = max(scores)
     shares = [math.exp(s - most) for s in scores]
     whole = sum(shares)
-    total: defaultdict[str, float] = defaultdict(float)
+    total: dict[str, float] = {}
     for share, solution in zip(shares, solutions, strict=True):
-        for id_, p in solution.probabilities.items():
-            total[id_] += share * p / whole
+        own = solution.probabilities
+        part = np.fromiter(own.values(), np.float64, len(own)) * share / whole
+        total.update(zip(own, map(operator.add, map(total.get, own, repeat(0.0)), part.tolist()), strict=True))
     meant = [[o.id for o in (s.object, *s.objects) if o is not None] for s in solutions]
     grounded = [k for k, ids in enumerate(meant) if ids]
     if not grounded:
         return solutions[0]
     # Of several that one reading means alike any may be the likeliest.
     best = max(grounded, key=lambda k: (max(total[id_] for id_ in meant[k]), shares[k]))
-    own = {id_: total[id_] for id_ in solutions[best].probabilities}
-    return replace(solutions[best], probabilities=own)
+    return replace(solutions[best], probabilities={id_: total[id_] for id_ in solutions[best].probabilities})
 
 
 def sense(solution: Solution) -> float:

@@ -24,9 +24,9 @@ def scene_kind(world: WorldModel) -> str:
         "table": world.unit < _TABLE,
         "yard": world.unit > _YARD,
         "speaker": world.speaker is not None and world.speaker != world.robot,
-        "classes": any(o.type != seen[0].type for o in seen),
+        "classes": len({o.type for o in seen}) > 1,
         "colors": any(o.color is not None for o in seen),
         "many": len(seen) > _MANY,
-        "heights": any(o.position is not None and abs(o.position[2] - low) > step for o in seen),
+        "heights": any(abs(z - low) > step for z in {o.position[2] for o in seen if o.position is not None}),
     }
     return " ".join(name for name, holds in told.items() if holds) or "bare"

@@ -18,7 +18,7 @@ from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_
 from dcg_torch.grounding.patterns import Key, Patterns
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
@@ -55,9 +55,11 @@ class Search:
         self.encoder = encoder
         self._tables = tables
         self._beam = beam
+        self._meanable = len(encoder.world.objects) + len(encoder.world.groups)
         self._found: dict[tuple[ParseTree, bool], _Found] = {}
         self._modifiers: dict[tuple[ParseTree, bytes | None], ModifierFactor] = {}
         self._absence: dict[Phrase, float | None] = {}
+        self._nouns: dict[Phrase, Floats] = {}
 
     def solve(self, tree: ParseTree, *, brief: bool = False) -> Solution:
         """The best configuration, and the probabilities of all that it may be about.
@@ -69,15 +71,10 @@ class Search:
         if not world.objects:
             return Solution(tree, world, problem="there is nothing here to mean")
         root = self._picked(tree, landmark=False)
-        ids = [o.id for o in world.meanable]
-        totals = root.totals()[: len(ids)]
+        number, totals = self.encoder.number, root.totals()[: self._meanable]
         best = self._nearest_best(root, totals)
-        found = self._first_noun(tree)
+        found = target_of(tree)
         noun = None if found is None else self._picked(found, landmark=False)
-
-        def by_id(values: Floats | None) -> dict[str, float]:
-            return {} if values is None else dict(zip(ids, values.tolist(), strict=True))
-
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
         odds = (
             None
@@ -88,18 +85,14 @@ class Search:
             tree,
             world,
             best,
-            by_id(np.exp(totals - np.logaddexp.reduce(totals))),
-            by_id(fits),
-            by_id(odds),
+            dict(zip(number, np.exp(totals - np.logaddexp.reduce(totals)).tolist(), strict=False)),
+            {} if fits is None else ByThing(number, fits),
+            {} if odds is None else ByThing(number, odds),
             None if brief else self.runner_up(tree, best),
             () if noun is None else tuple(noun.modifiers),
             None if noun is None else noun.compared,
             1.0 if noun is None else self._named(noun),
         )
-
-    def _first_noun(self, tree: ParseTree) -> ParseTree | None:
-        """The noun phrase nearest to the root, the first of several."""
-        return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
     def _named(self, noun: Scored) -> float:
         """How well the noun phrase names what it names best of all that is there."""
@@ -195,7 +188,7 @@ class Search:
         modifiers = self._all_modifiers(tree)
         picks = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
         compared, phrase = (None, tree.phrase) if picks is None else (picks.among, picks.phrase)
-        table = self._tables.noun(self.encoder, phrase, compared)
+        table = self._unranked(phrase) if compared is None else self._tables.noun(self.encoder, phrase, compared)
         correspondences = self._tables.factor.correspondences
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
         scores = np.array([sum([h.log_score for h in combo]) for combo in combos])
@@ -219,6 +212,13 @@ class Search:
             compared,
         )
 
+    def _unranked(self, phrase: Phrase) -> Floats:
+        """(P, things) of a noun phrase that ranks among nothing less than all: several readings have it in common."""
+        found = self._nouns.get(phrase)
+        if found is None:
+            found = self._nouns[phrase] = self._tables.noun(self.encoder, phrase)
+        return found
+
     def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         correspondences = self._tables.factor.correspondences
@@ -231,7 +231,7 @@ class Search:
         meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
         own = table[[correspondences.index(phi) for phi in meant]].T
         cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        n, k, flat = len(self.encoder.world.meanable), cells.shape[1], cells.reshape(-1, len(meant))
+        n, k, flat = self._meanable, cells.shape[1], cells.reshape(-1, len(meant))
         scores = np.empty((len(combos), n, len(meant)))
         scores[:] = flat.take([k * c + key[0] for c, key in enumerate(keys)], axis=0)[:, None]
         scores.reshape(-1, len(meant))[n * row + about] = flat.take(k * row + special, axis=0)
@@ -241,7 +241,7 @@ class Search:
 
     def _sums(self, values: Floats, keys: Sequence[Key]) -> list[float]:
         """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
-        n, own = len(self.encoder.world.meanable), values.tolist()
+        n, own = self._meanable, values.tolist()
         known = {
             key: exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
             for key in dict.fromkeys(keys)
@@ -265,7 +265,7 @@ class Search:
         world = self.encoder.world
         if world.meant is None and not world.groups and not world.places:
             return found
-        meanable = len(world.meanable)
+        meanable = self._meanable
         if world.meant is None and not world.groups and found.scores.shape[1] == meanable:
             return found
         scores = found.scores[:, :meanable]

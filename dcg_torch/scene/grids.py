@@ -12,7 +12,7 @@ import numpy as np
 from dcg_torch.scene.order import Floats, Ints
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
-from dcg_torch.types.geometry import to_robot_frame
+from dcg_torch.types.geometry import positions, to_robot_frame
 
 _LEAST, _FULL = 6, 0.6
 """Things of a grid, and the share of its cells that they fill."""
@@ -44,7 +44,7 @@ def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | Non
     there = [o for o in objects if o.position is not None]
     if len(there) < _LEAST or _lies_scattered([o.position for o in there if o.position is not None], viewer):
         return None
-    position = np.array([o.position for o in there], dtype=np.float64)
+    position = positions(there)
     position[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), position[:, :2])
     position = laid_flat(position)
     if np.ptp(position[:, 2]) > 1e-3 * max(1e-9, float(np.ptp(position[:, :2]))):

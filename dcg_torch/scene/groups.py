@@ -20,7 +20,7 @@ from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
-from dcg_torch.types.geometry import to_robot_frame
+from dcg_torch.types.geometry import positions, to_robot_frame
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"
 ACROSS, ALONG = "lies across", "lies along"
@@ -134,7 +134,7 @@ def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | Non
 
 def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
     """(n, 3) positions in units, as the robot sees them."""
-    position = np.array([o.position for o in objects], dtype=np.float64).reshape(-1, 3)
+    position = positions(objects)
     position[:, :2] = to_robot_frame(robot or Pose(0.0, 0.0), position[:, :2])
     seen: Floats = laid_flat(position) / unit
     return seen

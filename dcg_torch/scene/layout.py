@@ -21,7 +21,7 @@ from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
-from dcg_torch.types.geometry import to_robot_frame
+from dcg_torch.types.geometry import positions, to_robot_frame
 
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
@@ -197,8 +197,7 @@ def layout(world: WorldModel) -> Layout:
     n, robot = len(things), world.robot or Pose(0.0, 0.0)
     viewer = world.viewer or robot
     objects, placed = len(world.objects), n - len(world.places)
-    position = np.array([_NOWHERE if o.position is None else o.position for o in things], dtype=np.float64)
-    position = position.reshape(n, 3)
+    position = positions(things)
     position[:, :2] = to_robot_frame(viewer, position[:, :2])
     seen = position[:objects]
     flat = laid_flat(seen)
@@ -245,9 +244,6 @@ def layout(world: WorldModel) -> Layout:
         sized,
         picture=not on_floor,
     )
-
-
-_NOWHERE = (math.nan,) * 3
 
 
 def _members(world: WorldModel) -> dict[int, Ints]:

@@ -65,7 +65,8 @@ def neighbours(
     """
     n = len(position)
     covered, resting, beside, stacked = (np.zeros(n, dtype=np.bool_) for _ in range(4))
-    found: dict[int, set[int]] = {}
+    found: list[Ints] = []
+    most = int(color.max(initial=0)) + 1
     there = np.flatnonzero(np.isfinite(position).all(axis=1))
     for one, other, apart in _pairs(position[there, :2], NEXT):
         i, j = there[one], there[other]
@@ -85,9 +86,12 @@ def neighbours(
         resting[i[over]] = True
         covered[j[over]] = True
         colored = color[j] >= 0
-        for k, c in set(zip(i[colored].tolist(), color[j[colored]].tolist(), strict=True)):
-            found.setdefault(k, set()).add(c)
-    return Neighbours(covered, resting, beside, stacked, {k: tuple(sorted(c)) for k, c in found.items()})
+        found.append(i[colored] * most + color[j[colored]])
+    colors: dict[int, tuple[int, ...]] = {}
+    for code in sorted(set(np.concatenate(found).tolist())) if found else ():
+        k, c = divmod(code, most)
+        colors[k] = (*colors.get(k, ()), c)
+    return Neighbours(covered, resting, beside, stacked, colors)
 
 
 def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
@@ -102,9 +106,9 @@ def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
         return
     from scipy.spatial import cKDTree  # here: few worlds are so large
 
-    tree = cKDTree(points)
+    tree = cKDTree(points, balanced_tree=False)
     reach = bound * (1.0 + _SLACK)
-    if tree.count_neighbors(tree, reach) <= 2 * _PAIRS:
+    if _most_pairs(points, reach) <= 2 * _PAIRS or tree.count_neighbors(tree, reach) <= 2 * _PAIRS:
         found = tree.query_pairs(reach, output_type="ndarray").astype(np.int64)
         yield _close(points, np.concatenate([found[:, 0], found[:, 1]]), found[:, ::-1].T.reshape(-1), bound)
         return
@@ -113,6 +117,14 @@ def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
         found = cKDTree(points[chunk]).sparse_distance_matrix(tree, reach, output_type="ndarray")
         i, j = chunk[found["i"]], found["j"].astype(np.int64)
         yield _close(points, i[i != j], j[i != j], bound)
+
+
+def _most_pairs(points: Floats, bound: float) -> int:
+    """As many pairs as there can be, by how many points are in each square as wide as the bound and those around it."""
+    row, column = np.floor((points - points.min(axis=0)) / bound).T
+    with np.errstate(over="ignore", invalid="ignore"):  # squares that share a number only make it more
+        _, counts = np.unique(row * (column.max() + 1.0) + column, return_counts=True)
+    return 9 * int((counts**2).sum())
 
 
 def _close(points: Floats, i: Ints, j: Ints, bound: float) -> tuple[Ints, Ints, Floats]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections import defaultdict
 from collections.abc import Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -87,19 +88,17 @@ class Alike:
 
 def numbered(values: Iterable[Hashable]) -> Ints:
     """Equal values get equal numbers, from 0, in the order in which they come first."""
-    every = list(values)
-    number = {value: k for k, value in enumerate(dict.fromkeys(every))}
-    return np.fromiter(map(number.__getitem__, every), dtype=np.int64, count=len(every))
+    number: defaultdict[Hashable, int] = defaultdict(itertools.count().__next__)
+    return np.fromiter(map(number.__getitem__, values), dtype=np.int64)
 
 
 def signatures(*columns: Sequence[Hashable] | Ints) -> tuple[list[int], Ints]:
     """Which of n things are alike in every column: the first of each kind, and (n,) the kind of each."""
     rows = [column.tolist() if isinstance(column, np.ndarray) else column for column in columns]
-    number: dict[Hashable, int] = {}
-    few = [number.setdefault(row, len(number)) for row in zip(*rows, strict=True)]
-    kind = np.array(few, dtype=np.int64)
-    if len(few) <= _FEW:
-        return [few.index(k) for k in range(len(number))], kind
+    kind = numbered(zip(*rows, strict=True))
+    if len(kind) <= _FEW:
+        few = kind.tolist()
+        return [few.index(k) for k in range(max(few, default=-1) + 1)], kind
     highest_yet = np.maximum.accumulate(kind)
     return np.flatnonzero(np.diff(highest_yet, prepend=-1)).tolist(), kind
 
@@ -123,9 +122,18 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
         bound = values - TIE
         if most > _SORTED:
             return _searched(values, bound, alike)
-        out = np.zeros(values.shape, dtype=np.int64)
-        for lowest in _lowest(values, alike, most):
-            out += lowest[:, alike.code] < bound
+        return _counted_to(list(_lowest(values, alike, most)), bound, alike.code)
+
+
+def _counted_to(lowest: Sequence[Floats], bound: Floats, code: Ints) -> Ints:
+    """(r, n) how many of the lowest values of its class are below a thing's bound; most things are beyond the last."""
+    out = np.zeros(bound.shape, dtype=np.int64)
+    if lowest:
+        beyond = lowest[-1].take(code, axis=1) < bound
+        out[beyond] = len(lowest)
+        row, few = np.nonzero(~beyond)
+        for value in lowest[:-1]:
+            out[row, few] += value[row, code[few]] < bound[row, few]
     return out
 
 
@@ -150,7 +158,7 @@ def _lowest(values: Floats, alike: Alike, most: int) -> Iterator[Floats]:
     for _ in range(most):
         lowest = np.minimum.reduceat(left, starts, axis=1)
         found[:, there] = lowest
-        yield found
+        yield found.copy()
         here = np.where(left == np.repeat(lowest, counts, axis=1), numbers, len(inside))
         left[rows, np.minimum.reduceat(here, starts, axis=1)] = np.inf
 

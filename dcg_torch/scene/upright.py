@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.scene.order import TIE, Floats
 from dcg_torch.types import Object, Pose
-from dcg_torch.types.geometry import to_robot_frame
+from dcg_torch.types.geometry import positions, to_robot_frame
 
 _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
@@ -48,7 +48,7 @@ def laid_flat(position: Floats) -> Floats:
 
 def is_upright(objects: Sequence[Object], viewer: Pose | None) -> bool:
     """Do objects stand as on a page or a wall that the viewer has before them?"""
-    there = np.array([o.position for o in objects if o.position is not None], dtype=np.float64).reshape(-1, 3)
+    there = positions([o for o in objects if o.position is not None])
     if len(there) < 3 or np.ptp(there[:, 2]) <= TIE:
         return False
     there[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), there[:, :2])

@@ -37,7 +37,7 @@ def perceive_objects(
 def with_known(world: WorldModel, known_types: Collection[str]) -> WorldModel:
     """A world with every object known or not as it is by now: one from before a lesson will do."""
     known = set(known_types)
-    if all(o.known == (o.type in known) for o in world.objects):
+    if all(was == (type_ in known) for type_, was in {(o.type, o.known) for o in world.objects}):
         return world
     return replace(world, objects=tuple(replace(o, known=o.type in known) for o in world.objects))
 

@@ -86,9 +86,11 @@ class ParseTree:
 
     def walk(self) -> Iterator[ParseTree]:
         """Every node, parents before children."""
-        yield self
-        for child in self.children:
-            yield from child.walk()
+        below = [self]
+        while below:
+            node = below.pop()
+            yield node
+            below.extend(node.children[::-1])
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,8 +184,8 @@ class WorldModel:
     @property
     def classes(self) -> frozenset[str]:
         """The types of what may be there: of what is perceived, and of what is unseen until all has been looked at."""
-        there = (o for o in self.objects if not (o.hypothetical and LOOKED_ROUND in o.attributes))
-        return frozenset(o.type for o in there if o.type is not None)
+        there = {o.type for o in self.objects if not o.hypothetical or LOOKED_ROUND not in o.attributes}
+        return frozenset([type_ for type_ in there if type_ is not None])
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,11 +7,13 @@ angle from the heading, left positive, in [-pi, pi]. Points are (n, 2) float64 a
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from itertools import chain
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.types import Pose
+from dcg_torch.types import Object, Pose
 
 Floats = NDArray[np.float64]
 
@@ -19,6 +21,15 @@ FIELD_OF_VIEW = math.radians(57.0)
 """Width of the robot's view: the Kinect, which is the paper's camera."""
 NEXT_TO = 2.5
 """Metres between two feet within which people are taken to say that one thing stands next to the other."""
+
+
+def positions(objects: Sequence[Object]) -> Floats:
+    """(n, 3) where objects are; NaN where they are nowhere."""
+    places = [_NOWHERE if o.position is None else o.position for o in objects]
+    return np.fromiter(chain.from_iterable(places), np.float64, 3 * len(places)).reshape(-1, 3)
+
+
+_NOWHERE = (math.nan,) * 3
 
 
 def wrap_angle(angle: float) -> float:
