@@ -19,7 +19,7 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
 
-_FULL_WEIGHT = 100
+_FULL_WEIGHT = 300
 """Episodes of one of several corpora that count in full: of more, each counts for less: it is to drown no small one."""
 _FULL_SCENE = 8
 """Commands in one scene that count in full: a scene described a hundred times tells of itself, not of words."""

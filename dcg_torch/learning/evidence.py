@@ -16,7 +16,8 @@ from typing import Literal
 import numpy as np
 
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.types import ParseTree, Phrase, WorldModel
+from dcg_torch.names.palette import named_rgb
+from dcg_torch.types import Object, ParseTree, Phrase, WorldModel
 
 Ground = Callable[[ParseTree, WorldModel], Solution]
 """Grounds a tree of factors in a world."""
@@ -54,6 +55,15 @@ class WordEvidence:
             if (of := value[id_]) is not None:
                 total[of] += fit
         return dict(total)
+
+
+def told_by_look(word: str, thing: Object) -> bool:
+    """Is a colour word about what a thing looks like, whatever its colour is called?
+
+    Of a thing that shows its look, a word that has a place among colours tells shades, not what others call them: who
+    calls a patch "sky blue" does not say that blue things are, and that cyan ones are not.
+    """
+    return thing.rgb is not None and named_rgb(word) is not None
 
 
 def evidence(solution: Solution, ground: Ground, is_open: IsOpen) -> Iterator[WordEvidence]:

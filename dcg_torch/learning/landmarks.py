@@ -23,6 +23,7 @@ from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.readings import Reading
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.learning.evidence import told_by_look
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
 from dcg_torch.scene.workspace import with_groups
@@ -141,8 +142,9 @@ def said_of_words(
             nouns.setdefault(part.noun.phrase.noun, Counter()).update(of_type)
             there = {o.type for o in part.world.objects if o.type is not None}
             passed.setdefault(part.noun.phrase.noun, Counter()).update(there - of_type)
-        if part.noun.phrase.color is not None and len(of_color) == 1:
-            words.setdefault(part.noun.phrase.color, Counter()).update(of_color)
+        word = part.noun.phrase.color
+        if word is not None and len(of_color) == 1 and not all(told_by_look(word, o) for o in meant):
+            words.setdefault(word, Counter()).update(of_color)
     return Taught(tuple(types), tuple(colors), nouns, words, passed)
 
 

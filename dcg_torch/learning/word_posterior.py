@@ -24,7 +24,7 @@ from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.beliefs import UNMET, Beliefs, Evidence, Prior
 from dcg_torch.learning.census import Census, FrameCounts
-from dcg_torch.learning.evidence import Attribute, Ground, WordEvidence, evidence
+from dcg_torch.learning.evidence import Attribute, Ground, WordEvidence, evidence, told_by_look
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry, lexicon
 from dcg_torch.learning.soft_labels import Unseen, soft_labels
@@ -135,6 +135,8 @@ class WordPosterior:
         heard = self._met([o for o in solution.world.objects if not o.hypothetical], looked=experience.looked)
         type_of, color_of = ({o.id: getattr(o, a) for o in solution.world.objects} for a in ("type", "color"))
         for one in found:
+            if one.attribute == "color" and any(told_by_look(one.word, o) for o in solution.world.objects):
+                continue
             fitting = one.by(type_of if one.attribute == "noun" else color_of)
             told = Evidence(one.word, fitting, heard._unseen(one, experience), experience.source)
             if one.attribute == "noun":
