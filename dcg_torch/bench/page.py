@@ -96,6 +96,7 @@ def draw(title: str, lines: dict[str, list[Result]], path: Path) -> None:
 
     matplotlib.use("Agg")
     from matplotlib import pyplot
+    from matplotlib.ticker import MaxNLocator
 
     figure, axes = pyplot.subplots(figsize=(6.0, 3.2), layout="constrained")
     for name, points in lines.items():
@@ -106,6 +107,7 @@ def draw(title: str, lines: dict[str, list[Result]], path: Path) -> None:
         axes.set_yscale("log")
     else:
         axes.set_ylim(bottom=0.0)
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))  # there are no 1.2 workers
     what, _, by = title.rpartition(" by ")
     axes.set(title=what, xlabel=by)
     axes.grid(alpha=0.3)
