@@ -105,7 +105,7 @@ def by_mention(one: Item, clauses: Sequence[Clause]) -> None:
             _take_over(one, noun)
 
 
-def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
+def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -> None:
     """ "There are three cones ahead, go to the middle one", "in the row of cones, the last one"."""
     of = next((c for c in one.children if c.words == ("of",) and c.children[0].plural and c.children[0].noun), None)
     below = [node for child in one.children for node in child.children]
@@ -119,21 +119,37 @@ def one_of_several(one: Item, clauses: Sequence[Clause]) -> None:
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if one.noun is None and not several and named:
         several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
-    if not several or one.noun is not None:
+    if one.noun is not None:  # "take the middle cone"
+        several = [noun for noun in several if _picks_from(one, noun)]
+        several = several if several and decisions.choose("picked", CHOICES["picked"]) == "of_those" else []
+    if not several:
         return
     whole = [noun for noun in several if noun.plural]
     tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
     group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.pronoun = group.noun, False
     one.color = one.color or group.color
-    for place in [place for place in one.children if place.words == ("in",) and place.children[0].is_a("middle")]:
-        one.children.remove(place)  # "(there are five cones,) the one in the middle" is the middle one of the five
-        one.words += ("middle",)
+    for place in [place for place in one.children if _picks(place)]:
+        one.children.remove(place)
+        one.words += _picks(place)
     if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
         sized = not SETS["sizes"].isdisjoint(one.words)
         looks = [w for w in group.words if _describes(w) and not (sized and w in SETS["sizes"])]
         one.words = tuple(dict.fromkeys((*one.words, *looks, f"of {group.count}")))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
+
+
+def _picks_from(one: Item, noun: Item) -> bool:
+    """Whether a noun phrase picks one of several that were called the same before: "the middle cone"."""
+    same = noun.plural and one.noun in {noun.noun, *SETS["anything"]} and one.color in (None, noun.color) and not one.plural
+    return same and one.definite and (any(map(_picks, one.children)) or not all(map(_describes, one.words)))
+
+
+def _picks(place: Item) -> tuple[str, ...]:
+    """ "(There are five cones,) the one in the middle" is the middle one, and that "at the left end" the leftmost."""
+    at = place.children[0]
+    middle = ("middle",) if at.is_a("middle") else ()
+    return middle or tuple(f"{word}most" for word in at.words if at.noun == "end" and word in SETS["sides"])
 
 
 def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:

@@ -94,7 +94,7 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
             references.by_mention(node, clauses)
     references.describe_later(chosen.noun, chosen.clause, clauses)
     for one in [node for node in chosen.noun.walk() if node is chosen.noun or node.is_a("unnamed")]:
-        references.one_of_several(one, clauses)
+        references.one_of_several(one, clauses, decisions)
     references.refer(chosen.noun, chosen.clause, clauses, decisions)
     children += references.arrive(chosen.noun, chosen.clause, clauses, decisions)
     words = (*verb.words, *(("not",) if chosen.clause.negated else ())) if verb else ()
