@@ -71,6 +71,7 @@ def test_earlier_and_later_sentences_tell_what_is_meant(
         ("let go of the cone", "cone", (), []),
         ("turn off the lamp on the desk", "lamp", (), [("on", "desk")]),
         ("the lid of the living room table", "lid", (), [("of", "living room table")]),
+        ("the cube to the right of the pair of cones", "cube", (), [("right of", "pair cone")]),
         ("take the cube that touches the sphere", "cube", (), [("touching", "sphere")]),
         ("the face touched by two other faces", "face", (), [("touching", "other face")]),
         ("the two dots side by side", "dot", (), [("next to", "each other dot")]),
