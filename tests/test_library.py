@@ -35,6 +35,20 @@ def world(model: GroundingModel) -> WorldModel:
     return model.world_model(THINGS, robot=Pose(0.0, 0.0, 0.0), looked=True)
 
 
+@pytest.mark.parametrize("scale", [0.1, 0.2, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("the white mug next to the blue mug", "w1"), ("the mug left of the kettle", "w1"), ("the mug by the pan", "w2")],
+)
+def test_a_scene_means_the_same_at_any_scale(model: GroundingModel, scale: float, text: str, meant: str) -> None:
+    """Whoever brings a table top says neither how far its things are apart nor that it is one."""
+    spots = {"kettle": (2.0, 1.0), "w1": (2.0, 2.0), "blue": (2.0, 3.0), "pan": (2.0, -2.0), "w2": (2.0, -3.0)}
+    kinds = {"w1": ("mug", "white"), "w2": ("mug", "white"), "blue": ("mug", "blue"), "kettle": ("kettle", "silver")}
+    things = [Percept(i, *kinds.get(i, (i, "black")), (scale * x, scale * y, 0.0)) for i, (x, y) in spots.items()]
+    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0)))
+    assert [thing.id for thing in answer.objects] == [meant]
+
+
 def fresh(script: str) -> str:
     """What a script prints in a process of its own, in a folder that is not the project's."""
     done = subprocess.run(
