@@ -83,6 +83,8 @@ def test_a_singular_stays(noun: str) -> None:
         ("door knob", "door", "name: class is word", None),
         ("soap bar", "soap bottle", "name: shared word", None),
         ("couch", "sofa", "name: none", "kind: everyday"),
+        ("tool", "power drill", "name: none", "kind: everyday"),
+        ("seat", "folding chair", "name: none", "kind: everyday"),
         ("jewel", "gem", "name: none", "kind: same"),
         ("dagger", "weapon", "name: none", "kind: noun is kind"),
         ("weapon", "dagger", "name: none", "kind: class is kind"),

@@ -174,6 +174,8 @@ def _share_a_name(noun: str, name: str) -> bool:
 
 def _kind(said: Name, named: Name) -> str:
     whole = _relation(said.text, named.text)
+    if whole.startswith("class is") and named.head in everyday().kinds.get(said.text, ()):
+        return "kind: everyday"  # a power drill is as much a tool as a drill is
     if whole not in _LOOSE or said.head == named.head:
         return f"kind: {whole}"
     found = {_relation(*pair) for pair in ((said.text, named.head), (said.head, named.text), (said.head, named.head))}
