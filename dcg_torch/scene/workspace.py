@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -36,10 +37,19 @@ class Workspace:
     Attributes:
         bounds: of its workspace, seen from the robot; None: each scene has its own, those of its objects.
         unit: metres that neighbours are apart: "next to" on a table is no metre.
+
+    Raises:
+        ValueError: the unit is no length, or the bounds are not in order.
     """
 
     bounds: Bounds | None = None
     unit: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.unit < math.inf:
+            raise ValueError(f"unit is {self.unit!r}, not a length in metres")
+        if self.bounds is not None and not (self.bounds[0] <= self.bounds[1] and self.bounds[2] <= self.bounds[3]):
+            raise ValueError(f"bounds are {self.bounds!r}, not (near, far, right, left) in metres, from low to high")
 
     @staticmethod
     def of(things: Sequence[Percept], bounds: Bounds | None = None) -> Workspace:
