@@ -49,6 +49,26 @@ def test_a_scene_means_the_same_at_any_scale(model: GroundingModel, scale: float
     assert [thing.id for thing in answer.objects] == [meant]
 
 
+@pytest.mark.parametrize("text", ["the mug next to the green one", "the mug next to the green thing"])
+def test_what_has_a_colour_is_no_place(model: GroundingModel, text: str) -> None:
+    """Of a landmark without a noun its colour alone tells, and sides and the ground have none."""
+    spots = {
+        "a": ("mug", "red", 1.0),
+        "b": ("mug", "red", -3.0),
+        "c": ("box", "green", 2.0),
+        "d": ("box", "blue", -1.0),
+    }
+    things = [Percept(i, kind, color, (2.0, y, 0.0)) for i, (kind, color, y) in spots.items()]
+    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0)))
+    assert [thing.id for thing in answer.objects] == ["a"]
+    (modifier,) = answer.modifiers
+    told = modifier.posterior[:, answer.world.things.index(answer.objects[0])]
+    landmarks = [combo[0].child.grounding.object for combo in modifier.combos]
+    assert landmarks[int(told.argmax())].id == "c"
+    assert told.max() > 0.9
+    assert not told[[one in answer.world.places for one in landmarks]].any()
+
+
 def fresh(script: str) -> str:
     """What a script prints in a process of its own, in a folder that is not the project's."""
     done = subprocess.run(
