@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from dcg_torch.model import Experience, GroundingModel, Learned, Told, TrainingSet, Variant
     from dcg_torch.model.checkpoint import load, save
     from dcg_torch.model.pretrain import pretrained
+    from dcg_torch.scene.workspace import Workspace
     from dcg_torch.types import Correspondence, Example, Object, ParseTree, Percept, Phrase, Pose, Symbol, WorldModel
 
 __version__ = "0.2.0"
@@ -55,6 +56,7 @@ _WHERE = {
     "lessons": "initial_training read_training",
     "model": "Experience GroundingModel Learned Told TrainingSet Variant",
     "model.pretrain": "pretrained",
+    "scene.workspace": "Workspace",
     "types": "Correspondence Example Object ParseTree Percept Phrase Pose Symbol WorldModel",
 }
 _MODULES = {name: module for module, names in _WHERE.items() for name in names.split()}
@@ -81,6 +83,7 @@ __all__ = [
     "Told",
     "TrainingSet",
     "Variant",
+    "Workspace",
     "WorldModel",
     "explain",
     "initial_training",

@@ -35,6 +35,40 @@ def world(model: GroundingModel) -> WorldModel:
     return model.world_model(THINGS, robot=Pose(0.0, 0.0, 0.0), looked=True)
 
 
+@pytest.mark.parametrize("scale", [0.1, 0.2, 1.0, 2.0])
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("the white mug next to the blue mug", "w1"), ("the mug left of the kettle", "w1"), ("the mug by the pan", "w2")],
+)
+def test_a_scene_means_the_same_at_any_scale(model: GroundingModel, scale: float, text: str, meant: str) -> None:
+    """Whoever brings a table top says neither how far its things are apart nor that it is one."""
+    spots = {"kettle": (2.0, 1.0), "w1": (2.0, 2.0), "blue": (2.0, 3.0), "pan": (2.0, -2.0), "w2": (2.0, -3.0)}
+    kinds = {"w1": ("mug", "white"), "w2": ("mug", "white"), "blue": ("mug", "blue"), "kettle": ("kettle", "silver")}
+    things = [Percept(i, *kinds.get(i, (i, "black")), (scale * x, scale * y, 0.0)) for i, (x, y) in spots.items()]
+    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0)))
+    assert [thing.id for thing in answer.objects] == [meant]
+
+
+@pytest.mark.parametrize("text", ["the mug next to the green one", "the mug next to the green thing"])
+def test_what_has_a_colour_is_no_place(model: GroundingModel, text: str) -> None:
+    """Of a landmark without a noun its colour alone tells, and sides and the ground have none."""
+    spots = {
+        "a": ("mug", "red", 1.0),
+        "b": ("mug", "red", -3.0),
+        "c": ("box", "green", 2.0),
+        "d": ("box", "blue", -1.0),
+    }
+    things = [Percept(i, kind, color, (2.0, y, 0.0)) for i, (kind, color, y) in spots.items()]
+    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0)))
+    assert [thing.id for thing in answer.objects] == ["a"]
+    (modifier,) = answer.modifiers
+    told = modifier.posterior[:, answer.world.things.index(answer.objects[0])]
+    landmarks = [combo[0].child.grounding.object for combo in modifier.combos]
+    assert landmarks[int(told.argmax())].id == "c"
+    assert told.max() > 0.9
+    assert not told[[one in answer.world.places for one in landmarks]].any()
+
+
 def fresh(script: str) -> str:
     """What a script prints in a process of its own, in a folder that is not the project's."""
     done = subprocess.run(

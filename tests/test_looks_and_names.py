@@ -76,4 +76,5 @@ def test_a_word_is_bound_to_names_where_there_is_nothing_else() -> None:
     [("sky blue", SKY, True), ("sky blue", None, False), ("zorp", SKY, False), ("zorp", None, False)],
 )
 def test_a_look_tells_of_listed_colours_alone(word: str, rgb: tuple[float, float, float] | None, told: bool) -> None:
-    assert told_by_look(word, Object("a", "patch", True, False, color="blue", rgb=rgb)) is told
+    unseen = Object("b", "patch", True, True)  # what is only supposed to be there shows nothing
+    assert told_by_look(word, [Object("a", "patch", True, False, color="blue", rgb=rgb), unseen]) is told

@@ -83,6 +83,15 @@ def test_a_singular_stays(noun: str) -> None:
         ("door knob", "door", "name: class is word", None),
         ("soap bar", "soap bottle", "name: shared word", None),
         ("couch", "sofa", "name: none", "kind: everyday"),
+        ("tool", "power drill", "name: none", "kind: everyday"),
+        ("chair", "armchair", "name: head", "kind: class is kind"),  # written as one word, it is a compound as well
+        ("armchair", "chair", "name: class is head", "kind: noun is kind"),
+        ("berry", "strawberry", "name: head", None),
+        ("bag", "handbag", "name: head", "kind: same"),
+        ("pan", "dustpan", "name: none", "kind: apart"),  # no pan, whatever its letters say
+        ("table", "vegetable", "name: none", None),
+        ("apple", "pineapple", "name: none", "kind: sibling"),
+        ("seat", "folding chair", "name: none", "kind: everyday"),
         ("jewel", "gem", "name: none", "kind: same"),
         ("dagger", "weapon", "name: none", "kind: noun is kind"),
         ("weapon", "dagger", "name: none", "kind: class is kind"),

@@ -54,11 +54,7 @@ class Scene:
         return self.marks[0]
 
     def world(self, model: GroundingModel) -> WorldModel:
-        at = np.array([o.position for o in self.things])
-        apart = np.linalg.norm(at[:, None] - at[None], axis=2)
-        np.fill_diagonal(apart, np.inf)
-        where = Workspace(None, float(np.median(apart.min(axis=1))))
-        return model.world_model(self.things, Pose(0.0, 0.0), looked=True, workspace=where)
+        return model.world_model(self.things, Pose(0.0, 0.0), looked=True, workspace=Workspace.of(self.things))
 
 
 Meaning = Callable[[Scene], Ids]

@@ -12,8 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dcg_torch.scene.percepts import checked
-from dcg_torch.scene.upsilon import world_model
-from dcg_torch.types import Percept
+from dcg_torch.scene.upsilon import with_known, world_model
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import Percept, Pose
 
 MUG = Percept("m1", "mug", "blue", (1.0, 0.5, 0.0))
 
@@ -34,6 +35,7 @@ MUG = Percept("m1", "mug", "blue", (1.0, 0.5, 0.0))
         ({"id": 3}, "id"),
         ({"type": 3}, "type"),
         ({"type": None}, "type"),
+        ({"type": " "}, "type"),
         ({"color": ["red"]}, "color"),
         ({"attributes": "held"}, "attributes"),
         ({"attributes": [["held"]]}, "attributes"),
@@ -45,6 +47,31 @@ def test_what_makes_no_sense_is_refused_in_one_line_that_names_it(changed: dict[
         world_model([replace(MUG, **changed)], ())
     assert "\n" not in str(error.value)
     assert len(str(error.value)) < 250
+
+
+@pytest.mark.parametrize("pose", [Pose(math.nan, 0.0), Pose(0.0, math.inf), Pose(0.0, 0.0, math.nan), (0.0, 0.0, 0.0)])
+@pytest.mark.parametrize("who", ["robot", "speaker"])
+def test_a_place_that_is_none_is_refused(who: str, pose: Any) -> None:
+    with pytest.raises(ValueError, match=f"^{who} is .*not a Pose"):
+        world_model([MUG], (), **{who: pose})
+
+
+def test_percepts_are_no_world() -> None:
+    with pytest.raises(TypeError, match="world_model"):
+        with_known([MUG], ())  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("unit", [0.0, -1.0, math.nan, math.inf])
+def test_a_unit_is_a_length(unit: float) -> None:
+    with pytest.raises(ValueError, match="unit"):
+        Workspace(None, unit)
+
+
+def test_bounds_are_in_order() -> None:
+    assert Workspace((0.0, 1.0, -1.0, 1.0)).unit == 1.0
+    for bounds in ((1.0, 0.0, -1.0, 1.0), (0.0, 1.0, 1.0, -1.0), (math.nan, 1.0, 1.0, -1.0)):
+        with pytest.raises(ValueError, match="bounds"):
+            Workspace(bounds)
 
 
 def test_two_objects_of_one_id_are_refused() -> None:

@@ -11,6 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dcg_torch import scene
+from dcg_torch.scene.workspace import with_places
 from dcg_torch.types import Object, Pose, WorldModel
 
 Point = tuple[float, float, float]
@@ -231,6 +232,16 @@ def test_lengths_are_measured_in_the_units_of_the_world() -> None:
     large = WorldModel(tuple(thing(str(k), (10 * x, 10 * y, 0)) for k, (x, y) in enumerate(points)), unit=10.0)
     assert fired(small, [0]) == fired(large, [0])
     assert scene.states(scene.layout(small)) == scene.states(scene.layout(large))
+
+
+def test_where_things_stand_close_their_distance_is_the_unit() -> None:
+    """On a table top "next to" is no metre; in a room that a robot drives about in it is what it was taught."""
+    grid = [(1.0 + x, float(y), 0.0) for x in range(3) for y in range(3)]
+    for apart, unit in ((0.05, 0.05), (0.45, 0.45), (0.6, 1.0), (2.0, 1.0)):
+        objects = tuple(thing(str(k), (apart * x, apart * y, 0)) for k, (x, y, _) in enumerate(grid))
+        assert with_places(WorldModel(objects, Pose(0, 0))).unit == pytest.approx(unit)
+    for objects in ((), (thing("a", (1, 0, 0)),), (thing("a", (1, 0, 0)), thing("b", (1, 0, 0)))):
+        assert with_places(WorldModel(objects, Pose(0, 0))).unit == 1.0  # nothing says how far they are apart
 
 
 coordinate = st.floats(-5, 5, allow_nan=False).map(lambda v: round(v, 2))

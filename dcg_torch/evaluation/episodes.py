@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
 from dcg_torch.names.attributes import counts
-from dcg_torch.scene.workspace import Workspace
+from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
@@ -277,8 +277,8 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
 
     The unit is the median distance from an object to its nearest neighbour.
     """
-    nearest = [d for episode in episodes for d in _nearest(episode)]
-    unit = float(np.median(nearest)) if nearest else 1.0
+    apart = np.concatenate([np.zeros(0), *(spacings(e.percepts()) for e in episodes)])
+    unit = float(np.median(apart)) if len(apart) else 1.0
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
         return Workspace(None, unit)
     bounds = [scene.scene_bounds([o.position for o in e.objects], e.pose) for e in episodes if e.objects]
@@ -288,14 +288,5 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
 
 def own_scale(episode: Episode, where: Workspace) -> Workspace:
     """The workspace with the scene's own unit where it is of another scale: a table top among rooms."""
-    nearest = _nearest(episode)
-    unit = float(np.median(nearest)) if nearest else where.unit
+    unit = spacing(episode.percepts()) or where.unit
     return where if 1.0 / _ONE_SCALE <= unit / where.unit <= _ONE_SCALE else replace(where, unit=unit)
-
-
-def _nearest(episode: Episode) -> list[float]:
-    """The distance from each object to its nearest neighbour."""
-    points = np.array([o.position if len(o.position) == 3 else (*o.position, 0.0) for o in episode.objects])
-    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
-    np.fill_diagonal(apart, np.inf)
-    return [d for d in apart.min(axis=1).tolist() if 0.0 < d < np.inf]

@@ -20,6 +20,7 @@ from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import Scored
 from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables, exact_sum
+from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
@@ -147,7 +148,7 @@ class Search:
         is_noun = tree.phrase.kind is PhraseKind.NOUN
         scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
         if landmark:
-            scored = self._no_group(tree, scored) if is_noun else scored
+            scored = self._only_named(tree, scored) if is_noun else scored
         else:
             scored = self._only_objects(tree, scored)
             scored = self._or_absent(tree, scored) if is_noun else scored
@@ -248,9 +249,11 @@ class Search:
         }
         return [known[key] for key in keys]
 
-    def _no_group(self, tree: ParseTree, found: Scored) -> Scored:
-        """Without groups, where a landmark in the singular names a thing: "the green block" is no cluster of them."""
+    def _only_named(self, tree: ParseTree, found: Scored) -> Scored:
+        """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
         phrase, named = tree.phrase, found.named
+        if phrase.color is not None and (phrase.noun is None or is_generic(phrase.noun)):  # no side has a colour
+            found.scores[:, self._meanable :] = -np.inf
         if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
             return found
         world = self.encoder.world

@@ -31,9 +31,8 @@ class NounPhrase:
         self.item = Item(Kind.NOUN, tokens[start].start, 0, "")
         self.nouns: list[Token] = []
         self.of: int | None = None  # how many a group has: "the row of five cubes"
-        self.group: str | None = None
         self.picked = False  # "the bigger of the ...": what follows tells what it is picked from
-        self.closed = self.is_measure = False
+        self.closed = self.is_measure = self.is_group = False
         parts = {"DET": self._determiner, "Q": self._quantifier, "NUM": self._number, "ORD": self._describe,
                  "MOD": self._describe, "COL": self._color, "NM": self._noun, "N": self._noun, "SIDE": self._noun,
                  "ONE": self._one, "NAME": self._name, "POS": self._possessive, "P": self._of, "NEG": self._denial,
@@ -71,7 +70,7 @@ class NounPhrase:
     def _number(self, token: Token) -> int:
         short = token.text.isdecimal() and len(token.text) <= _LONGEST_NUMBER
         number = NUMBERS.get(token.text) or (int(token.text) if short else None)
-        if self.group is not None or (self.picked and self.item.count == 1 and (number or 0) > 1):
+        if self.is_group or (self.picked and self.item.count == 1 and (number or 0) > 1):
             self.of = number  # "the left one of the two cubes"
             return 1
         if not self.item.determined and singular(self.tokens[self.at + 1].text) in SETS["measures"]:
@@ -168,7 +167,7 @@ class NounPhrase:
                 self.item.count = 2
         elif unit in SETS["groups"]:
             self.item.words += (unit,)
-            self.group = unit
+            self.is_group = True
             self.item.plural = True
             self.item.count = self.item.count if self.picked else None  # "two rows of cubes" are not two cubes
         return self._behind_determiners() - self.at

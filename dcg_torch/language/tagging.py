@@ -18,6 +18,7 @@ from dcg_torch.language.candidates import candidates, is_plain_noun
 from dcg_torch.language.colors import match_color, normal_color
 
 _NEGLIGIBLE = 4.0  # log-weight below the best path's of paths that are not looked for
+_LONGEST = 4  # words of a compound
 _DOUBTFUL = -0.6  # log-weight of a noun that being known makes surer
 START, END = "START", "END"
 _AFTER: Final = {
@@ -82,8 +83,7 @@ class _Lattice:
     def __init__(self, words: Sequence[str], vocabulary: Collection[str], names: Collection[str]) -> None:
         self.words, self.names = words, names
         self.known = {noun for noun in vocabulary if " " not in noun}
-        self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun} | lx.compounds()
-        self.starts = {name[0] for name in self.compounds}
+        self.compounds = {tuple(noun.split()) for noun in vocabulary if " " in noun}
         self.joined = " ".join(words)
         self.offsets = [0, *itertools.accumulate(len(word) + 1 for word in words)]
 
@@ -118,12 +118,10 @@ class _Lattice:
         return out
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:
-        if self.words[i] not in self.starts:
-            return []
-        for length in (4, 3, 2):
-            name = (*self.words[i : i + length - 1], *map(singular, self.words[i + length - 1 : i + length]))
+        for length in range(min(_LONGEST, len(self.words) - i), 1, -1):
             spoken = tuple(self.words[i : i + length])
-            if len(name) == length and not self.compounds.isdisjoint((name, spoken)):
+            name = (*spoken[:-1], singular(spoken[-1]))
+            if any(not listed.isdisjoint((name, spoken)) for listed in (self.compounds, lx.compounds())):
                 tags = lx.GRAMMAR["compound"].items()
                 return [(Token(i, i + length, tag, " ".join(spoken), name), weight) for tag, weight in tags]
         return []

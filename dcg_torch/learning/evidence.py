@@ -9,7 +9,7 @@ nouns and the colours of targets and of landmarks.
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -57,13 +57,16 @@ class WordEvidence:
         return dict(total)
 
 
-def told_by_look(word: str, thing: Object) -> bool:
-    """Is a colour word about what a thing looks like, whatever its colour is called?
+def told_by_look(word: str, there: Iterable[Object]) -> bool:
+    """Is a colour word about what things look like, whatever their colours are called?
 
-    Of a thing that shows its look, a word that has a place among colours tells shades, not what others call them: who
+    Where things show their look, a word that has a place among colours tells shades, not what others call them: who
     calls a patch "sky blue" does not say that blue things are, and that cyan ones are not.
+
+    Args:
+        there: the things that it is said among.
     """
-    return thing.rgb is not None and named_rgb(word) is not None
+    return named_rgb(word) is not None and any(thing.rgb is not None for thing in there)
 
 
 def evidence(solution: Solution, ground: Ground, is_open: IsOpen) -> Iterator[WordEvidence]:

@@ -143,7 +143,7 @@ def said_of_words(
             there = {o.type for o in part.world.objects if o.type is not None}
             passed.setdefault(part.noun.phrase.noun, Counter()).update(there - of_type)
         word = part.noun.phrase.color
-        if word is not None and len(of_color) == 1 and not all(told_by_look(word, o) for o in meant):
+        if word is not None and len(of_color) == 1 and not told_by_look(word, part.world.objects):
             words.setdefault(word, Counter()).update(of_color)
     return Taught(tuple(types), tuple(colors), nouns, words, passed)
 

@@ -135,7 +135,7 @@ class WordPosterior:
         heard = self._met([o for o in solution.world.objects if not o.hypothetical], looked=experience.looked)
         type_of, color_of = ({o.id: getattr(o, a) for o in solution.world.objects} for a in ("type", "color"))
         for one in found:
-            if one.attribute == "color" and any(told_by_look(one.word, o) for o in solution.world.objects):
+            if one.attribute == "color" and told_by_look(one.word, solution.world.objects):
                 continue
             fitting = one.by(type_of if one.attribute == "noun" else color_of)
             told = Evidence(one.word, fitting, heard._unseen(one, experience), experience.source)

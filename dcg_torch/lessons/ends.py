@@ -38,7 +38,7 @@ def scattered_scene(rng: np.random.Generator) -> Scene:
         if meant is not None
     ]
     said += [(f"{verb} the {text}", ids) for text, ids in _several(kind, alike)]
-    return Scene(tuple(things), Pose(0.0, 0.0), Workspace(None, spacing(points)), tuple(said))
+    return Scene(tuple(things), Pose(0.0, 0.0), Workspace.of(things), tuple(said))
 
 
 def _on_sides(kind: str, alike: Sequence[Percept]) -> Iterator[tuple[str, str | None]]:
@@ -110,11 +110,6 @@ def scattered(rng: np.random.Generator, number: int) -> list[tuple[float, float]
         if all(math.dist(point, other) > _APART for other in found):
             found.append(point)
     return found
-
-
-def spacing(points: Sequence[tuple[float, ...]]) -> float:
-    """The median distance from a point to its nearest neighbour."""
-    return float(np.median([min(math.dist(p, q) for q in points if q is not p) for p in points]))
 
 
 def _side(sign: float) -> Callable[[Percept], float]:

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 
 from dcg_torch.lessons.arranged import KINDS, Scene, Told
-from dcg_torch.lessons.ends import scattered, spacing
+from dcg_torch.lessons.ends import scattered
 from dcg_torch.lessons.selections import ORDINALS, ranked, thing
 from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.workspace import Workspace
@@ -39,7 +39,7 @@ def part_scene(rng: np.random.Generator) -> Scene:
     table = scene_bounds(points, robot) if rng.random() < 0.5 else None
     verb = str(rng.choice(_VERBS))
     said = [(f"{verb} the {text}", ids) for text, ids in _in_parts(kind, things, number)]
-    return Scene(tuple(things), robot, Workspace(table, spacing(points)), tuple(said))
+    return Scene(tuple(things), robot, Workspace.of(things, table), tuple(said))
 
 
 def _in_parts(kind: str, things: Sequence[Percept], number: int) -> Iterator[Told]:

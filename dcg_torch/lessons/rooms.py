@@ -68,9 +68,8 @@ def _lesson(parse: Callable[[str, Collection[str]], Reading], rng: np.random.Gen
         if tree is None:
             raise ValueError(f"the lesson {text!r} is not read as a command")
         percepts = [*furniture, *(p.thing for p in places)]
-        where = Workspace(None, _unit(percepts))
         upsilon = world_model(percepts, (), hypothetical=False, robot=Pose(0.0, 0.0))
-        return Lesson(tree, with_places(upsilon, where), frozenset({meant}))
+        return Lesson(tree, with_places(upsilon, Workspace.of(percepts)), frozenset({meant}))
     raise ValueError(f"no room of {_DRAWS} had two things of one kind in different places")
 
 
@@ -112,11 +111,3 @@ def _told(places: list[_Place], rng: np.random.Generator) -> tuple[str, str] | N
         verb, word = str(rng.choice(_VERBS)), str(rng.choice(words))
         return f"{verb} the {one.thing.type} {word} the {one.at.type}", one.thing.id
     return None
-
-
-def _unit(percepts: list[Percept]) -> float:
-    """The median distance from a thing to its nearest neighbour."""
-    points = np.array([p.position for p in percepts])
-    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
-    np.fill_diagonal(apart, np.inf)
-    return float(np.median(apart.min(axis=1)))

@@ -55,7 +55,4 @@ def scene_of(bodies: Sequence[Body], said: Sequence[tuple[str, list[Body]]], rng
     told: list[Told] = [
         (f"{rng.choice(_BEGIN)} {text}", frozenset(number[id(body)] for body in meant)) for text, meant in said
     ]
-    points = np.array([p.position for p in percepts])
-    apart = np.linalg.norm(points[None] - points[:, None], axis=2)
-    np.fill_diagonal(apart, np.inf)
-    return Scene(tuple(percepts), Pose(0.0, 0.0), Workspace(None, float(np.median(apart.min(axis=1)))), tuple(told))
+    return Scene(tuple(percepts), Pose(0.0, 0.0), Workspace.of(percepts), tuple(told))

@@ -45,6 +45,7 @@ KINDS: Final = (
 )
 _SENSES, _STEPS, _FAR = 4, 2, 4
 _LOOSE = frozenset({"noun is far kind", "class is far kind", "sibling", "apart", "strange"})
+_OF_ONE_KIND = frozenset(KINDS[KINDS.index("kind: same") : KINDS.index("kind: head everyday")])
 _COMMON = 400
 """A synset that so many others are kinds of ("artifact", "person") makes no siblings."""
 
@@ -68,7 +69,8 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     form = _form(said, named)
     if form == "name: generic":
         return (form,)
-    return form, "kind: everyday" if form == "name: equal" else _kind(said, named)
+    kind = "kind: everyday" if form == "name: equal" else _kind(said, named)
+    return _solid_head(said, named, kind) or form, kind
 
 
 def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
@@ -134,6 +136,15 @@ def _form(said: Name, named: Name) -> str:
     return "name: shared word" if one & other else "name: none"
 
 
+def _solid_head(said: Name, named: Name, kind: str) -> str | None:
+    """The form of two names of which one, written as one word, ends with the other and is of its kind: "armchair"."""
+    longer, shorter = (named, said) if len(named.text) > len(said.text) else (said, named)
+    solid = len(longer.words) == 1 and longer.text.endswith(shorter.text) and len(shorter.text) >= _SHORTEST
+    if not solid or kind not in _OF_ONE_KIND:
+        return None
+    return "name: head" if longer is named else "name: class is head"
+
+
 def _says_kind(rest: tuple[str, ...], named: Name) -> bool:
     """Whether what follows the name of a class says what kind of thing it is: "banana fruit", "marker pen"."""
     kind = " ".join(rest)
@@ -174,6 +185,8 @@ def _share_a_name(noun: str, name: str) -> bool:
 
 def _kind(said: Name, named: Name) -> str:
     whole = _relation(said.text, named.text)
+    if whole.startswith("class is") and named.head in everyday().kinds.get(said.text, ()):
+        return "kind: everyday"  # a power drill is as much a tool as a drill is
     if whole not in _LOOSE or said.head == named.head:
         return f"kind: {whole}"
     found = {_relation(*pair) for pair in ((said.text, named.head), (said.head, named.text), (said.head, named.head))}

@@ -1,4 +1,4 @@
-"""Percepts as they come from robots of others: checked and brought into one form before they enter Upsilon."""
+"""Percepts and poses as they come from robots of others: checked and brought into one form, before Upsilon is made."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from dcg_torch.types import Percept
+from dcg_torch.types import Percept, Pose
 
 
 def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
@@ -28,10 +28,30 @@ def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
         yield _checked(percept)
 
 
+def checked_pose(pose: Pose | None, who: str) -> Pose | None:
+    """The pose, if there is one.
+
+    Args:
+        who: stands there.
+
+    Raises:
+        ValueError: it is no pose, or one of its numbers is not finite; the message says whose it is.
+    """
+    good = pose is None
+    if isinstance(pose, Pose):
+        with contextlib.suppress(TypeError):
+            good = math.isfinite(pose.x) and math.isfinite(pose.y) and math.isfinite(pose.yaw)
+    if not good:
+        raise ValueError(f"{who} is {pose!r:.80}, not a Pose of three finite numbers")
+    return pose
+
+
 def _checked(percept: Percept) -> Percept:
     for name, given in (("type", percept.type), ("color", percept.color)):
         if not isinstance(given, str) and not (name == "color" and given is None):
             raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not a text")
+    if not percept.type.strip():
+        raise ValueError(f"percept {percept.id!r:.80}: type is empty; say what it was recognised as")
     position = _three(percept, "position", percept.position)
     size = None if percept.size is None else _three(percept, "size", percept.size, least=0.0)
     rgb = None if percept.rgb is None else _three(percept, "rgb", percept.rgb, least=0.0, most=255.0)

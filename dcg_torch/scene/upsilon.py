@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
-from dcg_torch.scene.percepts import checked
+from dcg_torch.scene.percepts import checked, checked_pose
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 HYPOTHETICAL_UNKNOWN = "hypothetical unknown"
@@ -35,7 +35,13 @@ def perceive_objects(
 
 
 def with_known(world: WorldModel, known_types: Collection[str]) -> WorldModel:
-    """A world with every object known or not as it is by now: one from before a lesson will do."""
+    """A world with every object known or not as it is by now: one from before a lesson will do.
+
+    Raises:
+        TypeError: it is no world, but percepts, say.
+    """
+    if not isinstance(world, WorldModel):
+        raise TypeError(f"a world is what world_model() makes of percepts, not {world!r:.60}")
     known = set(known_types)
     if all(was == (type_ in known) for type_, was in {(o.type, o.known) for o in world.objects}):
         return world
@@ -84,4 +90,4 @@ def world_model(
     objects = perceive_objects(percepts, known_types, unknown=unknown)
     if hypothetical:
         objects += hypothesize_objects(known_types, unseen, {o.id for o in objects})
-    return WorldModel(tuple(objects), robot, speaker)
+    return WorldModel(tuple(objects), checked_pose(robot, "robot"), checked_pose(speaker, "speaker"))

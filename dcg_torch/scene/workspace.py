@@ -2,11 +2,32 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from dcg_torch.scene.groups import groups, lines_of_all
+from dcg_torch.scene.neighbours import Floats, nearest_other
 from dcg_torch.scene.places import Bounds, places, scene_bounds
-from dcg_torch.types import WorldModel
+from dcg_torch.types import Object, Percept, WorldModel
+from dcg_torch.types.geometry import positions
+
+_CLOSE = 0.5
+"""Metres between neighbours below which a scene is no room that one drives about in: a table top, a shelf."""
+
+
+def spacings(things: Sequence[Object] | Sequence[Percept]) -> Floats:
+    """How far in metres the nearest other is from each that stands somewhere; what shares a point is left out."""
+    near = nearest_other(positions(things))
+    return near[near > 0.0]
+
+
+def spacing(things: Sequence[Object] | Sequence[Percept]) -> float | None:
+    """The median of `spacings`; None where no two things stand apart."""
+    near = spacings(things)
+    return float(np.median(near)) if len(near) else None
 
 
 @dataclass(frozen=True)
@@ -15,11 +36,25 @@ class Workspace:
 
     Attributes:
         bounds: of its workspace, seen from the robot; None: each scene has its own, those of its objects.
-        unit: metres that neighbours are apart.
+        unit: metres that neighbours are apart: "next to" on a table is no metre.
+
+    Raises:
+        ValueError: the unit is no length, or the bounds are not in order.
     """
 
     bounds: Bounds | None = None
     unit: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.unit < math.inf:
+            raise ValueError(f"unit is {self.unit!r}, not a length in metres")
+        if self.bounds is not None and not (self.bounds[0] <= self.bounds[1] and self.bounds[2] <= self.bounds[3]):
+            raise ValueError(f"bounds are {self.bounds!r}, not (near, far, right, left) in metres, from low to high")
+
+    @staticmethod
+    def of(things: Sequence[Percept], bounds: Bounds | None = None) -> Workspace:
+        """The workspace of one scene, whose unit is how far its things are apart."""
+        return Workspace(bounds, spacing(things) or 1.0)
 
 
 def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldModel:
@@ -27,14 +62,15 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
 
     Without a workspace there are no edges, only the robot, the speaker and the directions from them: the world of a
     robot that drives about. A speaker of whom nothing is known is then taken to stand with the robot, and to speak of
-    the robot's left and right.
+    the robot's left and right. The unit is a metre there, or less where things stand closer than in a room.
     """
     if workspace is None:
         found = places(None, world.robot, world.speaker)
         if world.speaker is None:
             here = [replace(place, id="place: speaker", type="speaker") for place in found if place.type == "robot"]
             found += tuple(here)
-        return replace(world, places=found)
+        apart = spacing(world.objects)
+        return replace(world, places=found, unit=apart if apart is not None and apart < _CLOSE else 1.0)
     bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
     if bounds is None and there:
         bounds = scene_bounds(there, world.robot)

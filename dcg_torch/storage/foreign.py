@@ -60,7 +60,7 @@ def read_text(path: Path, what: str, error: type[Exception], encoding: str = "ut
     """
     try:
         if path.is_dir() or path.is_char_device() or path.is_block_device() or path.is_socket():
-            raise error(f"{path}: this is no file; give a {what}")
+            raise error(f"{path}: this is no file, and no {what}")
         return path.read_text(encoding=encoding)
     except FileNotFoundError:
         raise error(f"{path}: no such {what}") from None

@@ -13,7 +13,7 @@ from itertools import chain
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.types import Object, Pose
+from dcg_torch.types import Object, Percept, Pose
 
 Floats = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ NEXT_TO = 2.5
 """Metres between two feet within which people are taken to say that one thing stands next to the other."""
 
 
-def positions(objects: Sequence[Object]) -> Floats:
+def positions(objects: Sequence[Object] | Sequence[Percept]) -> Floats:
     """(n, 3) where objects are; NaN where they are nowhere."""
     places = [_NOWHERE if o.position is None else o.position for o in objects]
     return np.fromiter(chain.from_iterable(places), np.float64, 3 * len(places)).reshape(-1, 3)
