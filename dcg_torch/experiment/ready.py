@@ -9,10 +9,9 @@ from collections.abc import Iterator
 
 @contextlib.contextmanager
 def _uncollected() -> Iterator[None]:
-    """What is made in a `with` block is there to stay: the collector does not look through it, now or later.
+    """The collector rests in a `with` block: to look for garbage among modules takes a tenth of the time they take.
 
-    To look for garbage among modules takes a tenth of the time that they take, and in every process that is forked it
-    would copy them.
+    What is there at the end stays for good, so that no process that is forked looks through it and copies it.
     """
     collects = gc.isenabled()
     gc.disable()
