@@ -11,7 +11,14 @@ from making import KNOWN, NOVEL, chosen, command_tree, log_psi, noun_phrase, saw
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parser
-from dcg_torch.learning.commit_first import CommitFirst, new_symbol, replace_unknown, unsupervised_training
+from dcg_torch.learning.commit_first import (
+    CommitFirst,
+    contrasts,
+    new_symbol,
+    replace_unknown,
+    unsupervised_training,
+    with_meant,
+)
 from dcg_torch.learning.labelling import described_alike, labelled
 from dcg_torch.model import GroundingModel, Learned, TrainingSet, Variant
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
@@ -64,6 +71,18 @@ class TestLine16:
         assert labels["2 blue sphere"] is INACTIVE
         assert labels["hypothetical sphere"] is INACTIVE
         assert labels[HYPOTHETICAL_UNKNOWN] is INACTIVE
+
+    def test_what_was_meant_is_known_of_all_examples_however_they_came(self, trained: GroundingModel) -> None:
+        """A learner that has heard them one after another asks for the contrasts of one that has them all at once."""
+        model = trained.copy()
+        for noun, things in (("cube", ("red cube", "blue box")), ("dax", ("red drill",)), ("cube", ("blue cube",))):
+            model.learn(model.ground(command_tree(noun), saw(model, *things)))
+        learner = memory(model)
+        assert "dax" in learner.symbols
+        anew = contrasts(with_meant({}, learner.examples), learner.symbols)
+        found = learner.soft_labels(model.features)
+        assert [(s.phrases, s.objects) for s in found] == [(s.phrases, s.objects) for s in anew]
+        assert all((s.inactive == other.inactive).all() for s, other in zip(found, anew, strict=True))
 
     def test_what_is_described_as_well_is_neither(self, trained: GroundingModel) -> None:
         solution = trained.ground(command_tree("cube"), saw(trained, "red cube", "blue cube"))

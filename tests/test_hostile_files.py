@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from dcg_torch.evaluation.episodes import read_episodes, unused_keys, unused_note
 from dcg_torch.lessons import read_training
 from dcg_torch.storage.errors import UserError
+from dcg_torch.storage.foreign import _QuickLoader
 from dcg_torch.world.files import load_world
 
 READERS: dict[str, tuple[Callable[[Path], Any], dict[str, Any]]] = {
@@ -176,3 +177,14 @@ def test_coordinates_are_taken_exactly_if_they_are_within_the_world(x: float, y:
     world = {**WORLD, "robot": {"x": x, "y": y, "yaw": yaw}}
     said = in_a_file(load_world, yaml.safe_dump(world).encode())
     assert (said is None) == inside
+
+
+@given(yaml_files(WORLD) | yaml_files(TRAINING))
+def test_a_file_holds_the_same_whichever_loader_reads_it(content: bytes) -> None:
+    values = []
+    for loader in (yaml.SafeLoader, _QuickLoader):
+        try:
+            values.append(repr(yaml.load(content.decode("utf-8", "surrogateescape"), loader)))
+        except (yaml.YAMLError, RecursionError, ValueError, ArithmeticError, LookupError, TypeError, AttributeError):
+            return
+    assert values[0] == values[1]

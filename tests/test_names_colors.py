@@ -1,14 +1,20 @@
 from __future__ import annotations
 
+import subprocess
+import sys
+
+import color_names
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.colors import to_rgb
 
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
 from dcg_torch.names.color_names import COLOR_FACTS, color_evidence
 from dcg_torch.names.colors import FEATURES, WEIGHTS, color_features, color_scores
-from dcg_torch.names.palette import color_log_likelihood, lab, region
+from dcg_torch.names.normal import DATA
+from dcg_torch.names.palette import LISTED, color_log_likelihood, lab, named_rgb, region
 
 RED, GREEN, BLUE = (230, 20, 20), (20, 180, 40), (20, 60, 220)
 PALE, DARK = (150, 180, 250), (10, 20, 90)
@@ -18,6 +24,19 @@ GRAY, BROWN, PINK, PURPLE, TEAL = (128, 128, 128), (110, 70, 30), (250, 130, 190
 def chosen(text: str, *rgbs: tuple[int, int, int]) -> int:
     """Which of the colours a description fits best."""
     return int(color_scores(tuple(text.split()), np.array(rgbs, dtype=float)).argmax())
+
+
+def test_the_list_of_colours_is_that_of_matplotlib() -> None:
+    assert (DATA / LISTED).read_text(encoding="utf-8").splitlines() == color_names.lines()
+    for name, code in (("army green", "xkcd:army green"), ("Dark_Sky Blue", "xkcd:dark sky blue"), ("snow", "snow")):
+        assert named_rgb(name) == pytest.approx([255 * part for part in to_rgb(code)])
+
+
+def test_a_colour_needs_no_library_of_figures() -> None:
+    program = "import sys; from dcg_torch.names.palette import named_rgb; print(named_rgb('puce'), *sys.modules)"
+    said = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=True).stdout
+    assert said.startswith("(")
+    assert "matplotlib" not in said.split()
 
 
 @pytest.mark.parametrize(("rgb", "lightness", "chroma"), [((255, 255, 255), 100, 0), ((0, 0, 0), 0, 0)])

@@ -77,7 +77,7 @@ def test_a_worker_that_dies_before_it_has_a_task_is_noticed(monkeypatch: pytest.
 
 def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
     results = work_off(functools.partial(note, tmp_path), range(100), 2)
-    next(results)
+    next(filter(None, results))
     results.close()  # type: ignore[attr-defined]
     pids = {path.read_text() for path in tmp_path.iterdir()}
     assert not any(Path(f"/proc/{pid}").exists() for pid in pids if pid)

@@ -15,7 +15,7 @@ from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.grounding.fit import objective_at
 from dcg_torch.grounding.psi import TERNARY, LogLinearFactor
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
-from dcg_torch.learning.commit_first import contrast, contrasts
+from dcg_torch.learning.commit_first import contrast, contrasts, with_meant
 from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.types import Correspondence, Example, Object, Symbol, WorldModel
@@ -86,6 +86,6 @@ def test_contrasts_are_what_contrast_adds(training: TrainingSet) -> None:
     symbols = {word: Symbol(word, word) for word in KNOWN} | {"gizmo": Symbol("gizmo", "drill")}
     examples = [replace(e, weight=1.0 + k % 3) for k, e in enumerate(training.examples)]
     model.grow(model.features.grow(symbols["gizmo"]))
-    apart = Statistics(PAPER).designs(examples, contrasts(examples, symbols), model.features, TERNARY)
+    apart = Statistics(PAPER).designs(examples, contrasts(with_meant({}, examples), symbols), model.features, TERNARY)
     together = encode([contrast(e, symbols) for e in examples], model.features, TERNARY)
     agree(model, apart, together)

@@ -37,7 +37,7 @@ def bench_fit(kind: str, count: int, repeats: int, goal: float | None = None) ->
     what, curve = f"{count:,} {kind} rows", f"Fit of {kind} rows, ms by rows: "
     mine = replace(repeated(f"fit, {what}", lambda: ours(rows), repeats), curve=f"{curve}ours", at=count)
     yield mine
-    yield result(f"fit, {what}: memory beyond the input", [_peak(lambda: ours(rows))], "MB", goal=60)
+    yield result(f"fit, {what}: memory beyond the input", [peak(lambda: ours(rows))], "MB", goal=60)
     yield result(f"fit, {what}: gradient", [_gradient(rows, ours(rows).weight.numpy())], "max-norm")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # scikit-learn tells of steps that no longer lower its objective
@@ -68,7 +68,7 @@ def _gradient(rows: Rows, weight: Floats) -> float:
     return float(np.abs(objective_at(factor, [design], L2)[1]).max())
 
 
-def _peak(work: Callable[[], object]) -> float:
+def peak(work: Callable[[], object]) -> float:
     """Most memory that a call holds at once, in MB, as numpy tells it."""
     tracemalloc.start()
     try:

@@ -7,7 +7,7 @@ import functools
 import os
 import tempfile
 import threading
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
@@ -43,8 +43,10 @@ def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Out
         wall: seconds that the run took; None for one that was finished before, whose time stays.
     """
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
-    measures, seconds = measure(rows), summarise_seconds(timings)
-    _work(_jobs(settings, directory), settings)
+    with contextlib.closing(_working(_jobs(settings, directory), settings)) as drawing:
+        next(drawing, None)  # it begins
+        measures, seconds = measure(rows), summarise_seconds(timings)
+        _finish(drawing)
     summary = directory / SUMMARY
     if wall is not None:
         seconds["wall"] = wall
@@ -74,14 +76,21 @@ def _jobs(settings: Settings, directory: Path) -> list[Job]:
     return jobs
 
 
-def _work(jobs: Sequence[Job], settings: Settings) -> None:
-    """Do all jobs where the trials ran, for there is imported what takes longest: here, or in several processes."""
+def _working(jobs: Sequence[Job], settings: Settings) -> Generator[object]:
+    """Do all jobs where the trials ran, for there is imported what takes longest: here, or in several processes.
+
+    Those in other processes have begun when the first value comes.
+    """
     if works_alone(settings):
         for job in jobs:
-            job()
+            yield job()
     else:
-        for _ in work_off(_do, jobs, settings.workers or cores()):
-            pass
+        yield from work_off(_do, jobs, settings.workers or cores())
+
+
+def _finish(working: Iterator[object]) -> None:
+    for _ in working:
+        pass
 
 
 def _do(job: Job) -> None:
@@ -135,7 +144,7 @@ def save_screenshots(settings: Settings, directory: Path) -> None:
     Raises:
         WorldFileError: a world file is missing or not valid.
     """
-    _work(_screenshots(settings, directory), settings)
+    _finish(_working(_screenshots(settings, directory), settings))
 
 
 def _screenshots(settings: Settings, directory: Path) -> list[Job]:

@@ -106,7 +106,7 @@ def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> I
         workers: how many processes, at the most.
 
     Yields:
-        The tasks that ended since, about four times a second; mostly none.
+        The tasks that ended since, about four times a second; mostly none, and none when the first have begun.
 
     Raises:
         WorkerKilledError: a process was killed.
@@ -129,6 +129,7 @@ def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> 
                 link, process = _start(work)
                 links[link] = process
                 _send(link, waiting.popleft())
+        yield []
         busy = set(links)
         while busy:
             ended: list[T] = []

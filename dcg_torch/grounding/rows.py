@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING, Any, Protocol, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.grounding.design import Ints
 from dcg_torch.grounding.psi import Floats
@@ -18,6 +19,8 @@ from dcg_torch.grounding.symmetry import Incidence
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
+
+Numbers = NDArray[np.signedinteger[Any]]
 
 
 class Rows(Protocol):
@@ -158,7 +161,9 @@ class SparseRows:
     factors: tuple[csr_array, ...]
 
     @classmethod
-    def of(cls, row_cells: tuple[Ints, Ints], cell_variables: tuple[Ints, Ints], shape: tuple[int, int, int]) -> Self:
+    def of(
+        cls, row_cells: tuple[Ints, Numbers], cell_variables: tuple[Ints, Numbers], shape: tuple[int, int, int]
+    ) -> Self:
         """From which cells each row has, and which variables each cell.
 
         Args:
@@ -199,15 +204,20 @@ def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
     return found[None] if len(values) == 1 else np.ascontiguousarray(found.T)
 
 
-def _ones(starts: Ints, numbers: Ints, shape: tuple[int, ...]) -> csr_array:
+def _ones(starts: Ints, numbers: Numbers, shape: tuple[int, ...]) -> csr_array:
     return _csr(starts, numbers, np.ones(len(numbers)), shape)
 
 
-def _csr(starts: Ints, numbers: Ints, values: Floats, shape: tuple[int, ...]) -> csr_array:
+def _csr(starts: Ints, numbers: Numbers, values: Floats, shape: tuple[int, ...]) -> csr_array:
     from scipy.sparse import csr_array  # here: only large fits need it
 
-    small = np.int32 if max(len(numbers), *shape) < 1 << 31 else np.int64
-    return csr_array((values, numbers.astype(small), starts.astype(small)), shape=shape)
+    small = smallest_index(max(len(numbers), *shape))
+    return csr_array((values, numbers.astype(small, copy=False), starts.astype(small)), shape=shape)
+
+
+def smallest_index(size: int) -> type[np.int32 | np.int64]:
+    """The type of numbers below a size that takes the least room."""
+    return np.int32 if size < 1 << 31 else np.int64
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:

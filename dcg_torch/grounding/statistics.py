@@ -10,7 +10,7 @@ import itertools
 import operator
 from collections.abc import Callable, Hashable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,6 +21,8 @@ from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Said, 
 from dcg_torch.grounding.features.said import facts
 from dcg_torch.grounding.psi import Bag, Floats
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, PhraseKind
+
+Value = TypeVar("Value")
 
 _UNSEEN = (-1,)
 """Of a thing whose colour no phrase judges by how it looks."""
@@ -66,6 +68,8 @@ class Statistics:
         self._kept: dict[int, _Kept] = {}
         self._objects: dict[Object, int] = {}
         self._of_phrase: dict[int, Ints] = {}
+        self._came: dict[int, tuple[Any, int]] = {}
+        self._sorted: tuple[list[Example], list[_Kept], list[Example]] = [], [], []
         self._joined: tuple[Sequence[_Kept], Ints, Floats] = ((), np.zeros(0, dtype=np.int64), np.zeros(0))
 
     def copy(self) -> Statistics:
@@ -73,7 +77,7 @@ class Statistics:
         other = Statistics(self._groups)
         other._phrases, other._seen = self._phrases.copy(), self._seen.copy()
         other._pairs, other._kept, other._objects = dict(self._pairs), dict(self._kept), dict(self._objects)
-        other._pair_of, other._joined = self._pair_of, self._joined
+        other._pair_of, other._joined, other._came = self._pair_of, self._joined, dict(self._came)
         other._of_phrase = {phrase: seen.copy() for phrase, seen in self._of_phrase.items()}
         return other
 
@@ -85,8 +89,22 @@ class Statistics:
         correspondences: Sequence[Correspondence],
     ) -> list[DesignMatrix]:
         """The labelled factors of examples and soft labels under the given columns."""
-        plain, others, kept = [], [], {}
-        for example in examples:
+        plain, others = self._plain_and_others(list(examples))
+        at = [int(c) + 1 for c in correspondences]
+        parts = [self._of_examples(plain, at), *(self._of_soft(labels, at) for labels in soft)]
+        phrase, seen, count = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
+        language = self._phrases.bag(features, _phrase_columns)
+        grounding = self._seen.bag(features, _seen_columns)
+        return [DesignMatrix(language, grounding[seen], phrase, count), *encode(others, features, correspondences)]
+
+    def _plain_and_others(self, examples: list[Example]) -> tuple[list[_Kept], list[Example]]:
+        """What is kept of plain examples, and the examples that are not plain; of those that came before as it was."""
+        before, plain, others = self._sorted
+        if len(before) <= len(examples) and all(map(operator.is_, before, examples)):
+            new, plain, others, kept = examples[len(before) :], [*plain], [*others], self._kept
+        else:
+            new, plain, others, kept = examples, [], [], {}
+        for example in new:
             found = self._kept.get(id(example))
             if found is None or found[0] is not example:
                 if not self._is_plain(example):
@@ -95,13 +113,8 @@ class Statistics:
                 found = (example, *self._encoded(example))  # it is held, so that no other gets its id meanwhile
             kept[id(example)] = found
             plain.append(found)
-        self._kept = kept
-        at = [int(c) + 1 for c in correspondences]
-        parts = [self._of_examples(plain, at), *(self._of_soft(labels, at) for labels in soft)]
-        phrase, seen, count = (np.concatenate(part, axis=-1) for part in zip(*parts, strict=True))
-        language = self._phrases.bag(features, _phrase_columns)
-        grounding = self._seen.bag(features, _seen_columns)
-        return [DesignMatrix(language, grounding[seen], phrase, count), *encode(others, features, correspondences)]
+        self._kept, self._sorted = kept, (examples, plain, others)
+        return plain, others
 
     def _of_examples(self, plain: Sequence[_Kept], at: Sequence[int]) -> _Counted:
         before, codes, weights = self._joined
@@ -120,18 +133,28 @@ class Statistics:
         return pairs[:, 0], pairs[:, 1], count[at][:, used]
 
     def _of_soft(self, labels: SoftLabels, at: Sequence[int]) -> _Counted:
-        phrases = np.array([self._phrases.number(p) for p in labels.phrases], dtype=np.int64)
+        phrases = np.array(self._numbers(labels.phrases, self._phrases.number), dtype=np.int64)
         if Group.NAMES in self._groups:
-            things = [self._number_of(o) for o in labels.objects]
+            things = self._numbers(labels.objects, self._number_of)
             seen = np.stack([self._with_facts(p, things, labels.objects) for p in phrases.tolist()])
         else:
-            own = np.array([self._seen.number(_of_object(o, ())) for o in labels.objects], dtype=np.int64)
-            seen = np.broadcast_to(own, labels.active.shape)
+            own = self._numbers(labels.objects, lambda o: self._seen.number(_of_object(o, ())))
+            seen = np.broadcast_to(np.array(own, dtype=np.int64), labels.active.shape)
         which = np.flatnonzero(np.ones(labels.active.size, np.bool_) if labels.shown is None else labels.shown)
         count = np.zeros((_LABELS, len(which)))
         count[1 + Correspondence.INACTIVE] = labels.inactive.reshape(-1)[which]
         count[1 + Correspondence.ACTIVE] = labels.active.reshape(-1)[which]
         return np.repeat(phrases, len(labels.objects))[which], seen.reshape(-1)[which], count[at]
+
+    def _numbers(self, values: Sequence[Value], find: Callable[[Value], int]) -> list[int]:
+        """The number that `find` gives to each; those that came before, as the same objects, are not looked up anew."""
+        numbers = []
+        for value in values:
+            came = self._came.get(id(value))
+            if came is None or came[0] is not value:
+                came = self._came[id(value)] = value, find(value)
+            numbers.append(came[1])
+        return numbers
 
     def _number_of(self, thing: Object) -> int:
         return self._objects.setdefault(thing, len(self._objects))

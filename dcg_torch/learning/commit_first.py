@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-from collections import defaultdict
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -69,15 +68,15 @@ class CommitFirst:
         """T with the outcome of a command that was acted on, and its symbol if there is one to learn."""
         if experience.taught:
             return self, Learned(reason="a lesson is no outcome")
-        examples = (*self.examples, *unsupervised_training(solution))
+        more = self._and(unsupervised_training(solution))
         symbol, reason = new_symbol(solution, self.symbols)
         if symbol is None or not self.learns_symbols:
-            return replace(self, examples=examples), Learned(reason=reason or "this variant learns no symbols")
-        return self._with(symbol, examples), Learned(symbol)
+            return more, Learned(reason=reason or "this variant learns no symbols")
+        return more._with(symbol), Learned(symbol)
 
     def told(self, word: str, type_: str) -> CommitFirst:
         """With a symbol that a person gave."""
-        return self._with(Symbol(word, type_), self.examples)
+        return self._with(Symbol(word, type_))
 
     def forget(self, word: str) -> CommitFirst:
         """Without a symbol, and without the examples of its word."""
@@ -107,7 +106,7 @@ class CommitFirst:
 
     def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
         """M.Gamma's other types as contrast."""
-        return [] if Group.RELATION in features.groups else contrasts(self.examples, self.symbols)
+        return [] if Group.RELATION in features.groups else contrasts(self._meant, self.symbols)
 
     def columns(self, features: FeatureSet) -> FeatureSet:
         """f_word, f_obj and f_color of every symbol (lines 20 to 22)."""
@@ -136,10 +135,25 @@ class CommitFirst:
         """Every symbol, held for certain."""
         return [Entry(s.word, ((s.type, 1.0),), 0, (), True) for s in self.symbols.values()]
 
-    def _with(self, symbol: Symbol, examples: tuple[Example, ...]) -> CommitFirst:
+    @functools.cached_property
+    def _meant(self) -> Meant:
+        """What `contrasts` asks of T."""
+        return with_meant({}, self.examples)
+
+    def _and(self, examples: Sequence[Example]) -> CommitFirst:
+        """With more examples."""
+        return self._keeping(with_meant(self._meant, examples), examples=(*self.examples, *examples))
+
+    def _with(self, symbol: Symbol) -> CommitFirst:
         """With one more symbol; what it makes known changes what the examples show (line 23)."""
         grown = replace(self, symbols={**self.symbols, symbol.word: symbol})
-        return replace(grown, examples=tuple(replace_unknown(examples, grown.known_types)))
+        return grown._keeping(self._meant, examples=tuple(replace_unknown(self.examples, grown.known_types)))
+
+    def _keeping(self, meant: Meant, *, examples: tuple[Example, ...]) -> CommitFirst:
+        """With other examples, of which it is known what was meant."""
+        other = replace(self, examples=examples)
+        other.__dict__["_meant"] = meant
+        return other
 
 
 def unsupervised_training(solution: Solution) -> list[Example]:
@@ -210,21 +224,30 @@ def _relabelled(example: Example, world: WorldModel) -> Example:
     return replace(example, world=world, children=children)
 
 
-def contrasts(examples: Iterable[Example], symbols: Mapping[str, Symbol]) -> list[SoftLabels]:
+Meant = Mapping[tuple[str | None, bool, frozenset[str]], Mapping[tuple[Phrase, str | None], float]]
+"""Colour, hypothetical and attributes of what noun phrases meant -> each phrase with its type -> summed weights."""
+
+
+def with_meant(before: Meant, examples: Iterable[Example]) -> Meant:
+    """What examples mean, beside what was meant before."""
+    found = {key: dict(table) for key, table in before.items()}
+    for example in examples:
+        if (meant := _only_meant(example)) is not None:
+            table = found.setdefault((meant.color, meant.hypothetical, meant.attributes), {})
+            key = example.phrase, meant.type
+            table[key] = table.get(key, 0.0) + example.weight
+    return found
+
+
+def contrasts(meant: Meant, symbols: Mapping[str, Symbol]) -> list[SoftLabels]:
     """What `contrast` adds to examples, summed: of every phrase with an object of every known type.
 
     It says the same where no feature depends on where things stand.
     """
     types = list(dict.fromkeys(s.type for s in symbols.values()))
     column = {t: k for k, t in enumerate(types)}
-    tables: defaultdict[tuple[str | None, bool, frozenset[str]], defaultdict[tuple[Phrase, str | None], float]]
-    tables = defaultdict(lambda: defaultdict(float))
-    for example in examples:
-        if example.phrase.kind is PhraseKind.NOUN and (meant := _only_meant(example)) is not None:
-            table = tables[meant.color, meant.hypothetical, meant.attributes]
-            table[example.phrase, meant.type] += example.weight
     found = []
-    for (color, hypothetical, attributes), table in tables.items():
+    for (color, hypothetical, attributes), table in meant.items():
         inactive = np.repeat(np.array([list(table.values())]).T, len(types), axis=1)
         own = [(p, type_) for p, (_, type_) in enumerate(table)]
         own += [(p, symbols[noun].type) for p, (said, _) in enumerate(table) if (noun := said.noun or "") in symbols]

@@ -3,8 +3,8 @@
 The space is CIELAB (CIE 15:2004, for D65 and sRGB, IEC 61966-2-1) with chroma compressed as in the CIE94 difference
 formula, so that equal steps look about equal among vivid colours too: L* is lightness, 0 to 100; chroma, the distance
 from the gray axis, is 0 to about 80. A region is a Student distribution, for people use words loosely. Its mean and
-spread come from the names of the XKCD survey that matplotlib lists (R. Munroe 2010, public domain): that of "blue" from
-all names that end in blue.
+spread come from the names of the XKCD survey (R. Munroe 2010, public domain): that of "blue" from all names that end in
+blue.
 """
 
 from __future__ import annotations
@@ -16,10 +16,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.names.normal import normalise, read_data
+from dcg_torch.names.normal import DATA, normalise, read_data
 
 Array = NDArray[np.float64]
 
+LISTED = "listed_colors.txt"
+"""The file of names of CSS and of the survey, which `tools/color_names.py` makes; of two alike the later one counts."""
 _SPREAD = (24.0, 18.0, 18.0)  # of L*, a*, b*, in a region of which no more is known
 _FREEDOM = 4.0  # of the Student distribution
 _CIE94 = 0.045  # how fast differences of chroma shrink as chroma grows
@@ -69,11 +71,9 @@ def listed_colors() -> dict[str, tuple[float, float, float]]:
 
 @functools.cache
 def _listed_rgb() -> dict[str, tuple[float, float, float]]:
-    from matplotlib.colors import CSS4_COLORS, XKCD_COLORS, to_rgb  # here: only unknown colours need it
-
-    named = {normalise(name): code for name, code in CSS4_COLORS.items()}
-    named |= {normalise(name.removeprefix("xkcd:")): code for name, code in XKCD_COLORS.items()}
-    return {name: _triple(255.0 * np.array(to_rgb(code))) for name, code in named.items()}
+    lines = (DATA / LISTED).read_text(encoding="utf-8").splitlines()
+    named = {normalise(name): code for code, _, name in (line.partition(" ") for line in lines)}
+    return {name: _triple(np.array(list(bytes.fromhex(code[1:])), dtype=np.float64)) for name, code in named.items()}
 
 
 def named_rgb(name: str) -> tuple[float, float, float] | None:
