@@ -97,7 +97,7 @@ def test_where_no_attribute_is_given_nothing_changes() -> None:
     assert tree is not None
     bare = [Percept("a", "person", "red", (1.0, 0.0, 0.0)), Percept("b", "glasses", None, (2.0, 0.0, 0.0))]
     world = model.world_model(bare, Pose(0.0, 0.0), looked=True)
-    assert by_attributes(tree, world) == tree
+    assert by_attributes([tree], world) == [tree]
 
 
 def test_a_thing_that_is_there_stays_a_landmark() -> None:
@@ -105,7 +105,7 @@ def test_a_thing_that_is_there_stays_a_landmark() -> None:
     tree = parse_command("the person with the glasses").tree
     assert tree is not None
     world = model.world_model([*_people(), Percept("g", "glasses", None, (2.0, 0.1, 0.0))], Pose(0.0, 0.0), looked=True)
-    said = target_phrase(by_attributes(tree, world))
+    said = target_phrase(by_attributes([tree], world)[0])
     assert [child.phrase.noun for place in said.children for child in place.children] == ["glass"]
 
 

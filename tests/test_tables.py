@@ -9,7 +9,8 @@ import pytest
 import torch
 from making import command_tree, saw
 
-from dcg_torch.grounding.patterns import Patterns
+from dcg_torch.grounding.features import padded
+from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Child, Correspondence, Grounding, GroundingKind, Object
@@ -54,21 +55,27 @@ def test_tables_hold_for_their_own_weights_alone(pupil: Callable[[], GroundingMo
     assert not tables.hold(model.features, model.factor)
 
 
-@pytest.mark.parametrize("kinds", [1, 2])
-def test_patterns_tell_what_a_child_is_about(kinds: int) -> None:
+@pytest.mark.parametrize("about", [((0,), (2,)), ((0, 1), (2, 2), (1, 0))])
+def test_a_region_is_scored_as_all_its_factors_one_by_one(
+    about: tuple[tuple[int, ...], ...], pupil: Callable[[], GroundingModel]
+) -> None:
+    model = pupil()
+    tables, phrase = Tables(model.features, model.factor), command_tree("cube", "red").phrase
     things = [Object(id_, "cube", True) for id_ in "abc"]
-    children = [
-        tuple(Child(Grounding(GroundingKind.OBJECT, things[j]), Correspondence.ACTIVE) for j in about)
-        for about in ([(0,), (2,)] if kinds == 1 else [(0, 1), (2, 2)])
-    ]
-    patterns = Patterns({thing.id: j for j, thing in enumerate(things)})
-    keys, (choice, grounding, special) = patterns.spread(children)
-    which = np.repeat(np.array([[key[0]] for key in keys]), 3, axis=1)
-    which[choice, grounding] = special
-    assert [set(key) for key in keys] == [set(row) for row in which.tolist()]
-    known = list(patterns.known)
-    for row, own in zip(which, children, strict=True):
-        for thing, number in zip(things, row.tolist(), strict=True):
-            assert known[number][1] == tuple(child.grounding.object is thing for child in own)
-    about = {child.grounding.object.id for own in children for child in own}
-    assert {things[j].id for j in grounding.tolist()} == about
+    correspondences = model.factor.correspondences
+    inactive = correspondences.index(Correspondence.INACTIVE)
+    meant = [k for k in range(len(correspondences)) if k != inactive]
+    spread = Spread(tables, phrase, GroundingKind.ACTION, len(things))
+    for own in about:
+        children = tuple(Child(Grounding(GroundingKind.OBJECT, things[j]), Correspondence.ACTIVE) for j in own)
+        columns = [
+            model.features.action_columns(GroundingKind.ACTION, children, [j == a for a in own]) for j in range(3)
+        ]
+        language = model.features.encode_phrases([phrase])
+        one_by_one = model.factor.log_psi(language, padded(columns), np.zeros(3, dtype=np.int64)).numpy()
+        of_each = one_by_one[:, inactive].sum() + one_by_one[:, meant] - one_by_one[:, [inactive]]
+        first, *others = spread.of(children, own)
+        for j, row in zip(dict.fromkeys(own), others, strict=True):
+            assert row == pytest.approx(of_each[j], abs=1e-12)
+        for j in {0, 1, 2} - {*own}:
+            assert first == pytest.approx(of_each[j], abs=1e-12)

@@ -51,21 +51,22 @@ _ENDINGS = ("ed", "d")
 """Of "bearded", "blue-eyed": what is left is tried as a key."""
 
 
-def by_attributes(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which what is said of the attributes of the world's objects is words.
+def by_attributes(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
+    """Trees in which what is said of the attributes of the world's objects is words.
 
     Args:
         world: its objects' attributes are "key: value", or a key that is merely true. What is held is no such key.
-            Without any the tree comes back as it is.
+            Without any the trees come back as they are.
     """
     given = {a for o in world.objects for a in o.attributes if a != LOOKED_ROUND}
     keys = frozenset(attribute_key(a.partition(":")[0]) for a in given - {_HELD})
     if not keys:
-        return tree
+        return list(trees)
     types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
     worn = {attribute_key(a.partition(":")[0]) for a in given if not _yes_or_no(a)}
-    return _Speaking(keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn)))).root(tree)
+    speaking = _Speaking(keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn))))
+    return [speaking.root(tree) for tree in trees]
 
 
 def _yes_or_no(attribute: str) -> bool:

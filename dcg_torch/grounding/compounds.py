@@ -10,6 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.spoken import Words
 from dcg_torch.names.everyday import everyday
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.weights import log_odds
@@ -21,12 +22,18 @@ _SPOT = 0.6
 """Units within which, seen from above, a thing is over another whose extents nobody says."""
 
 
-def by_compounds(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which such compounds are a noun and where it stands."""
-    if not any(" " in (node.phrase.noun or "") for node in tree.walk()):
-        return tree
+def by_compounds(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which such compounds are a noun and where it stands.
+
+    Args:
+        said: the words of the tree.
+    """
+    return _split(tree, world) if any(" " in noun for noun in said.nouns) else tree
+
+
+def _split(tree: ParseTree, world: WorldModel) -> ParseTree:
     phrase = tree.phrase
-    children = tuple(by_compounds(child, world) for child in tree.children)
+    children = tuple(_split(child, world) for child in tree.children)
     words = (phrase.noun or "").split(" ") if phrase.kind is PhraseKind.NOUN else []
     if len(words) < 2:
         return ParseTree(phrase, children)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 from dcg_torch.names.normal import normalise
@@ -18,16 +18,16 @@ _OWN = frozenset(
 """First words of what the speaker has and the scene need not."""
 
 
-def in_what_holds_it(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree about what holds what is not there, and in which colours behind a noun are colours.
+def in_what_holds_it(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
+    """Trees about what holds what is not there, and in which colours behind a noun are colours.
 
     Args:
         world: the classes of its objects say what is there.
     """
     types = frozenset([o.type for o in world.objects if o.type is not None and not o.hypothetical])
     if not types or any(type_.startswith(OPAQUE) for type_ in types):
-        return tree
-    return _in_what_holds_it(tree, types)
+        return list(trees)
+    return [_in_what_holds_it(tree, types) for tree in trees]
 
 
 @functools.lru_cache(maxsize=1024)

@@ -38,7 +38,7 @@ class Coded:
     """The bag of n factors, rows that are alike once.
 
     Attributes:
-        bag: (s, k).
+        bag: (s, k); no row has a column twice, and what fires in several has the same order in each.
         code: (n,) the row of each factor; None: all have their own.
     """
 

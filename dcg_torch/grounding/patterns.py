@@ -2,69 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.tables import Pattern
-from dcg_torch.types import Child
+from dcg_torch.grounding.tables import Pattern, Tables, exact_sum
+from dcg_torch.types import Child, Correspondence, GroundingKind, Phrase
 
-Key = tuple[int, ...]
-"""The number of the pattern of all that no child is about, then those of what some child is about."""
+Floats = NDArray[np.float64]
 
 
-@dataclass
-class Patterns:
-    """Which features fire for regions or actions: they differ in which of their children are about the same thing.
+def patterns_of(children: Sequence[Child], about: Sequence[int]) -> list[Pattern]:
+    """The pattern of all that no child is about, then that of each thing that some child is about, in their order.
 
-    Attributes:
-        number: id of a thing -> its number.
-        known: each different pattern once, in the order of their numbers, with children that are such.
+    Args:
+        about: the number of the thing that each child is about.
+    """
+    kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])
+    return [(kinds, tuple([j == a for a in about])) for j in (-1, *dict.fromkeys(about))]
+
+
+class Spread:
+    """What all the factors of a region or an action come to, under any choice of its children.
+
+    They are the same in every world of as many things, so that they are kept with the tables.
+
+    Args:
+        tables: of the phrases.
+        kind: what the phrase grounds to.
+        count: of the things that a command may be about.
     """
 
-    number: Mapping[str, int]
-    known: dict[Pattern, tuple[Child, ...]] = field(default_factory=dict)
-    _index: dict[Pattern, int] = field(default_factory=dict)
-    _single: dict[tuple[str, int], Key] = field(default_factory=dict)
+    def __init__(self, tables: Tables, phrase: Phrase, kind: GroundingKind, count: int) -> None:
+        self._tables, self._phrase, self._kind, self._count = tables, phrase, kind, count
+        self._kept = tables.spread(phrase, count)
 
-    def spread(self, choices: Sequence[tuple[Child, ...]]) -> tuple[list[Key], NDArray[np.int64]]:
-        """The patterns under several choices of children.
+    def of(self, children: tuple[Child, ...], about: tuple[int, ...]) -> Floats:
+        """(1 + k, meant) the log-score of all factors if the one that is not INACTIVE is about none of the k things of
+        the children, and if it is about each of them.
 
-        Returns:
-            The patterns that each choice has; and (3, cells) where a child is about a grounding: the choice, the
-            grounding, and the number of its pattern. All other groundings of a choice have the first of its patterns.
+        Args:
+            about: the number of the thing that each child is about.
         """
-        if all(len(children) == 1 for children in choices):  # as nearly all have
-            about, rows = [self.number[c.grounding.object.id] for (c,) in choices], list(range(len(choices)))
-            keys = [self._of_one(children) for children in choices]
-            special = [same for _, same in keys]
+        if len(children) == 1:  # as nearly all have
+            key: object = children[0].grounding.kind._value_, children[0].correspondence._value_  # hashed quickly
         else:
-            found = [self._of_several(children) for children in choices]
-            about, rows = [j for _, of in found for j in of], [row for row, (_, of) in enumerate(found) for _ in of]
-            special = [number for _, of in found for number in of.values()]
-            keys = [(rest, *of.values()) for rest, of in found]
-        return keys, np.array([rows, about, special], dtype=np.int64)
-
-    def _of_one(self, children: tuple[Child, ...]) -> Key:
-        kind = children[0].grounding.kind._value_, children[0].correspondence._value_  # hashed quickly
-        found = self._single.get(kind)
+            key = tuple(patterns_of(children, about))
+        found = self._kept.get(key)
         if found is None:
-            rest, same = (self._of(children, ((kind,), (about,))) for about in (False, True))
-            found = self._single[kind] = (rest, same)
+            found = self._kept[key] = self._found(children, patterns_of(children, about))
         return found
 
-    def _of_several(self, children: tuple[Child, ...]) -> tuple[int, dict[int, int]]:
-        """The number of the pattern of all that no child is about, and grounding -> number for what one is about."""
-        kinds = tuple([(c.grounding.kind._value_, c.correspondence._value_) for c in children])
-        about = [self.number[c.grounding.object.id] for c in children]
-        special = {j: self._of(children, (kinds, tuple([j == a for a in about]))) for j in about}
-        return self._of(children, (kinds, (False,) * len(about))), special
-
-    def _of(self, children: tuple[Child, ...], pattern: Pattern) -> int:
-        number = self._index.get(pattern)
-        if number is None:
-            number = self._index[pattern] = len(self.known)
-            self.known[pattern] = children
-        return number
+    def _found(self, children: tuple[Child, ...], patterns: Sequence[Pattern]) -> Floats:
+        table = self._tables.patterns(self._phrase, self._kind, dict.fromkeys(patterns, children))
+        correspondences = self._tables.factor.correspondences
+        inactive = table[correspondences.index(Correspondence.INACTIVE)]
+        own = table[[k for k, c in enumerate(correspondences) if c is not Correspondence.INACTIVE]]
+        once = [1] * (len(patterns) - 1)
+        total: Floats = (exact_sum(inactive.tolist(), [self._count - len(once), *once]) + own - inactive).T
+        return total

@@ -32,9 +32,10 @@ from dcg_torch.grounding.room_parts import by_corners, by_heights, with_corners
 from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
-from dcg_torch.grounding.spoken import ReadCommand, WeightedReading
+from dcg_torch.grounding.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.grounding.stacks import by_levels, with_levels
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.names.attributes import OF_KEY
 from dcg_torch.scene.workspace import with_groups
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
 
@@ -73,25 +74,34 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         for (r, weight), absent in zip(weighed, strange, strict=True)
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
-    trees = [(in_what_holds_it(r.tree, world), weight, r.rules) for r, weight in kept]
-    roomed = [by_compounds(by_rooms(tree, world), world) for tree, _, _ in trees]
-    led = led_into_rooms([by_levels(by_heights(by_corners(tree, world), world), world) for tree in roomed], world)
-    trees = [
-        (tree, weight - (_TO_A_ROOM if leads else 0.0), rules)
-        for (tree, leads), (_, weight, rules) in zip(led, trees, strict=True)
+    trees = [_in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
+    led, looks = led_into_rooms(trees, world), Looks.of(world)
+    told = by_attributes([told_by_looking(tree, command.text, looks) for tree, _ in led], world)
+    return [
+        Reading(tree, weight - (_TO_A_ROOM if leads else 0.0), tuple(r.rules))
+        for tree, (_, leads), (r, weight) in zip(by_cells(told, world), led, kept, strict=True)
     ]
-    looks = Looks.of(world)
-    told = [
-        (by_attributes(told_by_looking(tree, command.text, looks), world), weight, rules)
-        for tree, weight, rules in trees
-    ]
-    placed = by_cells([tree for tree, _, _ in told], world)
-    return [Reading(tree, weight, tuple(rules)) for tree, (_, weight, rules) in zip(placed, told, strict=True)]
+
+
+_REWRITES = (by_rooms, by_compounds, by_corners, by_heights, by_levels)
+"""What turns words into others that say the same in a scene."""
+
+
+def _in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree in the words of a scene; few commands say anything that would be said in others."""
+    said = Words.of(tree)
+    for rewrite in _REWRITES:
+        found = rewrite(tree, said, world)
+        if found is not tree:
+            tree, said = found, Words.of(found)
+    return tree
 
 
 def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
     """The world whose things are told the cells, rooms and corners that readings speak of."""
     trees = [reading.tree for reading in readings]
+    if not any(OF_KEY in word for tree in trees for node in tree.walk() for word in node.phrase.words):
+        return world
     return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
 
 

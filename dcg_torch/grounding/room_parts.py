@@ -11,6 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from dcg_torch.grounding.spoken import Words
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
@@ -30,12 +31,18 @@ _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
 _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
 
-def by_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest."""
-    if not any(_HEIGHTS.keys() & {*node.phrase.words} for node in tree.walk()):
-        return tree
-    phrase, children = tree.phrase, tuple(by_heights(child, world) for child in tree.children)
-    if _stand_apart_in_height(phrase, world):
+def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest.
+
+    Args:
+        said: the words of the tree.
+    """
+    return tree if said.words.isdisjoint(_HEIGHTS) else _of_heights(tree, world)
+
+
+def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
+    phrase, children = tree.phrase, tuple(_of_heights(child, world) for child in tree.children)
+    if not _HEIGHTS.keys().isdisjoint(phrase.words) and _stand_apart_in_height(phrase, world):
         phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
     return ParseTree(phrase, children)
 
@@ -48,9 +55,13 @@ def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     return len(heights) > 1 and max(heights) - min(heights) >= _APART
 
 
-def by_corners(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which "in the corner" of a room, whichever it is, is a word of what is there."""
-    if not any("corner" in (node.phrase.noun or "") for node in tree.walk()) or _walls(world) is None:
+def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which "in the corner" of a room, whichever it is, is a word of what is there.
+
+    Args:
+        said: the words of the tree.
+    """
+    if not any("corner" in noun for noun in said.nouns) or _walls(world) is None:
         return tree
     return _told(tree, [t for t in world.classes if not t.startswith(OPAQUE)])
 

@@ -7,10 +7,12 @@ values of the key that gives the rooms ("room: kids room"), or else for what can
 
 from __future__ import annotations
 
+import functools
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.spoken import Words
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.rooms import room_keys, room_named, told_rooms, within_words
@@ -30,9 +32,13 @@ _NAMED = 4.0
 """Log-odds from which a noun is rather a class that is there than a room."""
 
 
-def by_rooms(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which rooms that something is in are words of what is in them."""
-    if not any(_may_name_room(node.phrase) or node.phrase.noun == "room" for node in tree.walk()):
+def by_rooms(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which rooms that something is in are words of what is in them.
+
+    Args:
+        said: the words of the tree.
+    """
+    if not (any(map(_may_name_room, said.nouns)) or any(map(_is_room, said.words))):
         return tree
     types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
     return _Speaking(_values(world), types, world.objects).node(tree)
@@ -47,8 +53,10 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
     Returns:
         Each reading, and whether it only leads to a room where others are about a thing.
     """
-    types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
     nouns = [_first_noun(tree) for tree in trees]
+    if not any(map(_room, filter(None, nouns))):
+        return [(tree, False) for tree in trees]
+    types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
     rooms = [_room(noun) if noun and is_only_a_room(noun.noun or "", types) else None for noun in nouns]
     if all(room is None for room in rooms) or all(rooms):
         return [(tree, False) for tree in trees]
@@ -106,9 +114,10 @@ def _values(world: WorldModel) -> dict[str, list[str]]:
     return found
 
 
-def _may_name_room(phrase: Phrase) -> bool:
-    words = (phrase.noun or "").split(" ")
-    return _is_value(phrase) or any(room_named(" ".join(words[: k + 1])) for k in range(len(words)))
+@functools.lru_cache(maxsize=4096)
+def _may_name_room(noun: str) -> bool:
+    words = noun.split(" ")
+    return noun == "room" or any(room_named(" ".join(words[: k + 1])) for k in range(len(words)))
 
 
 def _room(phrase: Phrase) -> str | None:

@@ -15,7 +15,7 @@ from dcg_torch.types import Correspondence, ParseTree, PhraseKind
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_FEW = 256
+FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
 
 
@@ -48,7 +48,7 @@ class Scored:
 
     def totals(self) -> Floats:
         """(groundings,) of every configuration about each."""
-        if self.code is None or len(self.code) <= _FEW:
+        if self.code is None or len(self.code) <= FEW:
             found: Floats = np.logaddexp.reduce(self.scores, axis=(0, 2))
             return found
         _, first, which = np.unique(self.code, return_index=True, return_inverse=True)
@@ -65,7 +65,7 @@ class Scored:
         """
         scores = self.scores if scores is None else scores
         columns = None
-        if self.code is not None and len(self.code) > _FEW and self.combos[0]:
+        if self.code is not None and len(self.code) > FEW and self.combos[0]:
             # Of those whose scores are equal none but the first few can be among the best.
             rest = (self.code == 0).nonzero()[0][:count]
             columns = np.sort(np.concatenate([rest, self.code.nonzero()[0]]))

@@ -15,11 +15,11 @@ from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
-from dcg_torch.grounding.patterns import Key, Patterns
+from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.plain_words import in_group
-from dcg_torch.grounding.scored import Scored
+from dcg_torch.grounding.scored import FEW, Scored
 from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
-from dcg_torch.grounding.tables import Tables, exact_sum
+from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
@@ -222,32 +222,29 @@ class Search:
 
     def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
         """Of a verb or preposition: all groundings but those of its children are alike."""
-        correspondences = self._tables.factor.correspondences
-        patterns = Patterns(self.encoder.number)
-        choices = [tuple([h.child for h in combo]) for combo in combos]
-        keys, (row, about, special) = patterns.spread(choices)
-        table = self._tables.patterns(tree.phrase, GROUNDING_OF[tree.phrase.kind], patterns.known)
-        inactive = table[correspondences.index(Correspondence.INACTIVE)]
-        base = np.array([sum([h.log_score for h in combo]) for combo in combos]) + self._sums(inactive, keys)
-        meant = [c for c in correspondences if c is not Correspondence.INACTIVE]
-        own = table[[correspondences.index(phi) for phi in meant]].T
-        cells = base[:, None, None] + own - inactive[:, None]  # (combos, patterns, meant)
-        n, k, flat = self._meanable, cells.shape[1], cells.reshape(-1, len(meant))
+        meant = [c for c in self._tables.factor.correspondences if c is not Correspondence.INACTIVE]
+        n, number = self._meanable, self.encoder.number
+        spread = Spread(self._tables, tree.phrase, GROUNDING_OF[tree.phrase.kind], n)
+        found, base, row, about = list[Floats](), list[float](), list[int](), list[int]()
+        first, own_of = list[int](), list[int]()
+        for c, combo in enumerate(combos):
+            own = tuple([number[h.child.grounding.object.id] for h in combo])
+            found.append(spread.of(tuple([h.child for h in combo]), own))
+            first.append(len(base))
+            base += [sum([h.log_score for h in combo])] * len(found[-1])
+            things = own if len(own) == 1 else tuple(dict.fromkeys(own))
+            own_of += range(first[-1] + 1, len(base))
+            row += [c] * len(things)
+            about += things
+        cells = np.concatenate(found) + np.array(base)[:, None]
         scores = np.empty((len(combos), n, len(meant)))
-        scores[:] = flat.take([k * c + key[0] for c, key in enumerate(keys)], axis=0)[:, None]
-        scores.reshape(-1, len(meant))[n * row + about] = flat.take(k * row + special, axis=0)
+        scores[:] = cells[first][:, None]
+        scores[row, about] = cells[own_of]
+        if n <= FEW:
+            return Scored(tree, combos, meant, scores)
         code = np.zeros(n, dtype=np.int64)
-        code[about] = about + 1
+        code[about] = np.array(about) + 1
         return Scored(tree, combos, meant, scores, code)
-
-    def _sums(self, values: Floats, keys: Sequence[Key]) -> list[float]:
-        """(combos,) the sum over all groundings of the value of the pattern of each, exactly."""
-        n, own = self._meanable, values.tolist()
-        known = {
-            key: exact_sum([own[k] for k in key], [n - len(key) + 1, *(1 for _ in key[1:])])
-            for key in dict.fromkeys(keys)
-        }
-        return [known[key] for key in keys]
 
     def _only_named(self, tree: ParseTree, found: Scored) -> Scored:
         """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""

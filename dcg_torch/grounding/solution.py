@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,11 +16,11 @@ from dcg_torch.names.vocabulary import ANY, FEW, GROUP_LIKE, HALF, SO_MANY
 from dcg_torch.types import Child, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 
-@dataclass(frozen=True)
-class Hypothesis:
+class Hypothesis(NamedTuple):
     """One grounding of a phrase, with the hypotheses of its children that it rests on.
 
-    `log_score` is the log-probability of the whole configuration at and below this phrase.
+    `log_score` is the log-probability of the whole configuration at and below this phrase. A search makes many: a
+    tuple with names is made in a third of the time that a frozen dataclass takes.
     """
 
     tree: ParseTree

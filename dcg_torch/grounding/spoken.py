@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from dcg_torch.types import ParseTree
 
@@ -54,6 +54,20 @@ class ParsedCommand(ReadCommand, Protocol):
     @property
     def color(self) -> str | None:
         """The colour stated of the object meant."""
+
+
+class Words(NamedTuple):
+    """The nouns of a parse tree and the words of its phrases: what it does not speak of is soon told by them."""
+
+    nouns: frozenset[str]
+    words: frozenset[str]
+
+    @classmethod
+    def of(cls, tree: ParseTree) -> Words:
+        """Of a tree."""
+        phrases = [node.phrase for node in tree.walk()]
+        nouns = frozenset([phrase.noun for phrase in phrases if phrase.noun is not None])
+        return cls(nouns, frozenset([word for phrase in phrases for word in phrase.words]))
 
 
 CommandParser = Callable[[str, Collection[str]], ParsedCommand]

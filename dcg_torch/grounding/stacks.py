@@ -10,6 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.grounding.spoken import Words
 from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
@@ -50,9 +51,13 @@ def _is_ground(place: ParseTree) -> bool:
     return PLACE_WORDS.get(phrase.noun or "", ("", None))[0] == "ground" and not phrase.words
 
 
-def by_levels(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in which what is said of the ends of a stack, and of what is counted from them, is words for levels."""
-    if not any(_counts(node) for node in tree.walk()):
+def by_levels(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which what is said of the ends of a stack, and of what is counted from them, is words for levels.
+
+    Args:
+        said: the words of the tree.
+    """
+    if said.nouns.isdisjoint(_FEET) and said.words.isdisjoint(_ENDS) and said.words.isdisjoint(_AT_ENDS):
         return tree
     found = _stacks(world)
     return _told(tree, any(len(of) >= _TALL and 2 * len(of) > _seen(world) for of in found)) if found else tree
@@ -101,11 +106,6 @@ def _at(phrase: Phrase, number: int, end: str) -> Phrase:
     """A phrase for what is at a level, without what counts to it."""
     words = tuple(word for word in phrase.words if word not in _ENDS and word not in ORDINALS)
     return replace(phrase, words=(*words, f"{LEVEL}{number} {end}"), count=None)
-
-
-def _counts(node: ParseTree) -> bool:
-    phrase = node.phrase
-    return phrase.noun in _FEET or not (_ENDS.keys() | _AT_ENDS.keys()).isdisjoint(phrase.words)
 
 
 def _is_in_stack(place: ParseTree) -> bool:

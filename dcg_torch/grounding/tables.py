@@ -16,7 +16,7 @@ import torch
 from dcg_torch import scene
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Ranking, Said, padded, ranking
-from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor, distinct
+from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor
 from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
 
 _ENTRIES = 1 << 16
@@ -49,12 +49,13 @@ class Tables:
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
         self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
+        self._spread: dict[tuple[Phrase, int], dict[object, Floats]] = {}
 
     def hold(self, features: FeatureSet, factor: LogLinearFactor) -> bool:
         """Are they still those of these columns and weights?"""
         weight = factor.weight
         same = self.features is features and self.factor is factor and self._of is weight
-        return same and self._version == _version(weight) and len(self._sides) < _PHRASES
+        return same and self._version == _version(weight) and len(self._sides) < _PHRASES > len(self._spread)
 
     def noun(self, encoder: WorldEncoder, phrase: Phrase, members: np.ndarray | None = None) -> Floats:
         """(P, things) of a noun phrase.
@@ -137,6 +138,10 @@ class Tables:
             kept.update(zip(new, self._log_psi(phrase, padded(columns)).T, strict=True))
         return np.array([kept[pattern] for pattern in patterns]).T
 
+    def spread(self, phrase: Phrase, count: int) -> dict[object, Floats]:
+        """What is kept of a region or an action among so many things; more is added, see `patterns.Spread`."""
+        return self._spread.setdefault((phrase, count), {})
+
     def _side(self, phrase: Phrase) -> Floats:
         """(P, G + 1) the weights that meet what fires for a phrase, summed; the last column is the padding's."""
         found = self._sides.get(phrase)
@@ -149,7 +154,7 @@ class Tables:
         return found
 
     def _log_psi(self, phrase: Phrase, bag: Bag) -> Floats:
-        """(P, n) of the rows (n, k) of a bag."""
+        """(P, n) of the rows (n, k) of a bag, in which no column stands twice, and those that fire in one order."""
         if self._weight is None:
             language = self.features.encode_phrases([phrase])
             with torch.no_grad():
@@ -157,7 +162,7 @@ class Tables:
             return found.cpu().numpy().T
         side = self._side(phrase)
         total = np.zeros((len(side), len(bag)))
-        _add(total, side, distinct(bag).T)
+        _add(total, side, bag.T)
         return _normal(total)
 
 

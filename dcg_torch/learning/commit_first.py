@@ -17,7 +17,7 @@ from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry
-from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.types import Child, Correspondence, Example, Grounding, Object, Phrase, PhraseKind, Symbol, WorldModel
 
 
 @dataclass(frozen=True)
@@ -217,10 +217,8 @@ def _relabelled(example: Example, world: WorldModel) -> Example:
     if world is example.world:
         return example
     objects = {o.id: o for o in world.objects}  # a place is known from the start, and stays as it is
-    children = tuple(
-        replace(c, grounding=replace(c.grounding, object=objects.get(c.grounding.object.id, c.grounding.object)))
-        for c in example.children
-    )
+    about = [(c.grounding.kind, c.grounding.object, c.correspondence) for c in example.children]
+    children = tuple(Child(Grounding(kind, objects.get(thing.id, thing)), phi) for kind, thing, phi in about)
     return replace(example, world=world, children=children)
 
 

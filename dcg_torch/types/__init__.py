@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import enum
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import NamedTuple
 
 
 class Correspondence(enum.IntEnum):
@@ -83,6 +84,18 @@ class ParseTree:
 
     phrase: Phrase
     children: tuple[ParseTree, ...] = ()
+    _hash: int | None = field(default=None, init=False, repr=False, compare=False)
+
+    def __hash__(self) -> int:
+        # Trees are looked up all the time: what a tree hashes to is found once.
+        found = self._hash
+        if found is None:
+            found = hash((self.phrase, self.children))
+            object.__setattr__(self, "_hash", found)
+        return found
+
+    def __reduce__(self) -> tuple[type[ParseTree], tuple[Phrase, tuple[ParseTree, ...]]]:
+        return ParseTree, (self.phrase, self.children)  # in another process text hashes to something else
 
     def walk(self) -> Iterator[ParseTree]:
         """Every node, parents before children."""
@@ -188,16 +201,14 @@ class WorldModel:
         return frozenset([type_ for type_ in there if type_ is not None])
 
 
-@dataclass(frozen=True, slots=True)
-class Grounding:
+class Grounding(NamedTuple):
     """gamma_ij: an object, the region around it, or the constraint to move with respect to it."""
 
     kind: GroundingKind
     object: Object
 
 
-@dataclass(frozen=True, slots=True)
-class Child:
+class Child(NamedTuple):
     """One element of Gamma_c_ij: a child phrase's grounding and how it corresponds."""
 
     grounding: Grounding
