@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from dcg_torch.grounding.joined import each_meant
 from dcg_torch.grounding.plain_lines import in_whole_line
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
@@ -16,6 +17,8 @@ from dcg_torch.names.vocabulary import (
     LATERAL,
     LEVEL,
     NTH,
+    OF_TWO,
+    OR,
     ORDINALS,
     PLACE_WORDS,
     RANKING,
@@ -28,9 +31,6 @@ from dcg_torch.names.vocabulary import (
 from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
-
-_OF_TWO = frozenset({"between", "in the middle of"})
-"""Prepositions that say how a thing stands to two landmarks at once."""
 
 _AT = frozenset({"on", "at", "to", "in", "towards"})
 """Prepositions that say at which side of the scene a thing is."""
@@ -61,14 +61,29 @@ def path_to_object(tree: ParseTree) -> ParseTree:
 
 def coordinated(tree: ParseTree) -> list[ParseTree]:
     """A tree for each noun phrase that a command is about: "the cube and the cone" is two of them."""
-    first = tree.children[0] if tree.children else None
-    if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
-        return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in first.children] or [tree]
-    nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
-    if tree.phrase.kind is PhraseKind.NOUN or len(nouns) < 2:
+    joined = each_meant(_joined(tree))
+    if len(joined) < 2:
         return [tree]
+    first = tree.children[0]
+    if first.phrase.kind is PhraseKind.PREPOSITION:
+        return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in joined]
     others = tuple(child for child in tree.children if child.phrase.kind is not PhraseKind.NOUN)
-    return [replace(tree, children=(noun, *others)) for noun in nouns]
+    return [replace(tree, children=(noun, *others)) for noun in joined]
+
+
+def offers_choice(tree: ParseTree) -> bool:
+    """Is one of the noun phrases that a command joins meant, whichever: "the cube or the cone"?"""
+    return any(OR in noun.phrase.words for noun in _joined(tree))
+
+
+def _joined(tree: ParseTree) -> tuple[ParseTree, ...]:
+    """The noun phrases that a command is about."""
+    first = tree.children[0] if tree.children else None
+    if tree.phrase.kind is PhraseKind.NOUN:
+        return ()
+    if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
+        return first.children
+    return tuple(child for child in tree.children if child.phrase.kind is PhraseKind.NOUN)
 
 
 def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTree:
@@ -169,7 +184,7 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
 
 def _apart(tree: ParseTree) -> list[ParseTree]:
     """ "Next to the cube and the cone" is next to each of them; "between" needs both."""
-    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in _OF_TWO:
+    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in OF_TWO:
         return [tree]
     return [replace(tree, children=(landmark,)) for landmark in tree.children]
 
@@ -233,7 +248,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     if words[0].startswith(f"{NOT} "):
         words = (words[0].removeprefix(f"{NOT} "), *words[1:], NOT)
     landmarks = [_noun(n, (f"landmark: of {' '.join(words)}", "landmark: of any")) for n in tree.children]
-    if words[0] in _OF_TWO and len(landmarks) == 1 and landmarks[0].phrase.plural:
+    if words[0] in OF_TWO and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None
     phrase = Phrase(

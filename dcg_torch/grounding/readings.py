@@ -20,6 +20,7 @@ from dcg_torch.grounding.factor_tree import (
     Setting,
     coordinated,
     in_setting,
+    offers_choice,
     path_to_object,
     setting_of,
     speaks_of_groups,
@@ -148,6 +149,8 @@ class SharedSearch:
         first, *others = coordinated(tree)
         further = tuple([self._described(part, brief=False) for part in others])
         found = self._described(first, brief=brief)
+        if offers_choice(tree):
+            return sum_over([found, *further], [0.0] * (1 + len(further)))
         return replace(found, further=further) if further else found
 
     def _described(self, tree: ParseTree, *, brief: bool) -> Solution:

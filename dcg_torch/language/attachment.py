@@ -48,7 +48,7 @@ class _Builder(NounPhrases):
         elif item.kind in {Kind.AND, Kind.COMMA}:
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
-            self.and_joined = item.kind is Kind.AND
+            self.conjunction = item.text if item.kind is Kind.AND else ""
             if item.kind is Kind.COMMA and self.meant is not None:
                 self.nouns, self.meant = self.meant, None
         elif item.kind is Kind.VERB:

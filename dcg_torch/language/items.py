@@ -147,8 +147,9 @@ def is_superlative(word: str) -> bool:
 
 
 def share_noun(first: Item, second: Item) -> None:
-    """ "the red and the blue cube": the noun stands but once."""
-    if first.noun is None and first.color is not None and not first.text.endswith(("one", "ones")):
+    """ "the red and the blue cube", "the leftmost and the rightmost cube": the noun stands but once."""
+    told = first.color is not None or any(is_superlative(word) or word in SETS["ordinals"] for word in first.words)
+    if first.noun is None and told and not first.text.endswith(("one", "ones")):
         first.noun, first.pronoun = second.noun, second.noun is None
 
 

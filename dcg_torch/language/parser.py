@@ -177,8 +177,7 @@ def _reason(clauses: Sequence[Clause]) -> str:
     """Why clauses have no tree."""
     if any(noun.negative for clause in clauses for noun in clause.objects):
         return NONE
-    motion = VERBS["go"] | VERBS["look"]
-    return MOTION if any(clause.action in motion for clause in clauses) else NO_THING
+    return MOTION if any(clause.action in VERBS["go"] | VERBS["look"] for clause in clauses) else NO_THING
 
 
 def _named(found: Sequence[Path]) -> dict[str, Path]:

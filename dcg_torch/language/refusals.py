@@ -38,10 +38,9 @@ def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int
     own = not first.start or words[first.start - 1] not in SETS["subordinates"]
     for start, stop, reason in parts:
         if start <= first.start < stop:
-            acts = clause.verb is not None and not clause.verb.participle
-            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
-            later = first.start > start and own and ordered and reason is not MEETING[1]
-            clause.refused = None if later else reason
+            acts = own and clause.verb is not None and not clause.verb.participle
+            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"] and reason is not MEETING[1]
+            clause.refused = None if ordered and first.start > start else reason
     if clause.verb is first and clause.refused is None and own:
         said = " ".join(words[first.start : items[-1].stop])
         clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)

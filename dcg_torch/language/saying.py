@@ -22,7 +22,7 @@ class NounPhrases:
         self.preposition: Item | None = None  # still waits for its noun phrase
         self.forced = False  # the next preposition tells the last noun phrase apart
         self.joined = False  # "and" or a comma stands before
-        self.and_joined = False  # the last of these was "and"
+        self.conjunction = ""  # the last of these, if it was one
         self.relative = self.copula = False
         self.denied = False  # "not" stands before what is said next of a noun phrase
         self.was_denied = False  # so was what was said last
@@ -56,13 +56,14 @@ class NounPhrases:
             counts = item.pronoun and item.is_a("ordered")
             one = self.last.plural and item.text.endswith(" one") and not item.plural  # "by the two cups, the big one"
             self.merge(last_thing(self.nouns) if counts else self.nouns[0] if one else self.last, item)
-        elif self.nouns and item.is_a("side") and not (self.and_joined and self.joined and self.last.is_a("side")):
+        elif self.nouns and item.is_a("side") and not (self.conjunction and self.joined and self.last.is_a("side")):
             self.side(item)  # but "on the left and right"
         elif self.nouns and self.is_bare(item):
             last_thing(self.nouns).children.append(item.behind("with" if item.noun in SETS["parts"] else "in"))
             self.nouns.append(item)
-        elif self.joined and self.nouns and (self.clause.verb is not None or self.and_joined):
+        elif self.joined and self.nouns and (self.clause.verb is not None or self.conjunction):
             item.beside = True
+            item.words += ("or",) * (self.conjunction == "or")
             conjoin(item, self.nouns, self.pending, self.clause)
         elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
             self.mention(item)
@@ -104,12 +105,12 @@ class NounPhrases:
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
         told = self.last.is_a("open") and self.last in self.clause.objects and item.color in {None, self.last.color}
-        return told and item.is_a("name") and self.joined and not self.and_joined
+        return told and item.is_a("name") and self.joined and not self.conjunction
 
     def is_bare(self, item: Item) -> bool:
         """ "(blue fan,) top row", "(screwdriver,) red handle": where the thing is or what it has, no preposition."""
         where = item.is_a("bare_place") and (self.clause.verb is None or (self.joined and item.is_a("line")))
-        return not self.and_joined and (where or (self.joined and item.is_a("bare_part")))
+        return not self.conjunction and (where or (self.joined and item.is_a("bare_part")))
 
     def is_about_color(self, item: Item) -> bool:
         """Whether the noun phrase but helps to state a colour, which is done here: "in red", "whose color is red"."""
@@ -166,7 +167,7 @@ class NounPhrases:
         if last.is_a("place") or last.noun in SETS["robot"] or (last.pronoun and not ordered):
             return False
         one = item.determined and item.text.endswith(" one")
-        return (one or item.is_a("color_word")) and not (item.determined and self.and_joined)
+        return (one or item.is_a("color_word")) and not (item.determined and self.conjunction)
 
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""

@@ -112,7 +112,11 @@ SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
-QUANTIFIERS = frozenset({"all", "any", "both", "each", "every"})
+OF_TWO = frozenset({"between", "in the middle of"})
+"""Prepositions that say how a thing stands to two landmarks at once."""
+OR = "or"
+"""A word of a noun phrase that may be meant in the place of those that it is joined to."""
+QUANTIFIERS = frozenset({"all", "any", "both", "each", "either", "every", OR})
 """Words that say how many are meant, and nothing of which."""
 DEFINITE = frozenset({"the", "this", "that", "my", "your", "its", "his", "her", "our", "their"})
 """Words before what is one thing in particular."""
