@@ -141,8 +141,9 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
 
 def _picks_from(one: Item, noun: Item) -> bool:
     """Whether a noun phrase picks one of several that were called the same before: "the middle cone"."""
-    same = noun.plural and one.noun in {noun.noun, *SETS["anything"]} and one.color in (None, noun.color) and not one.plural
-    return same and one.definite and (any(map(_picks, one.children)) or not all(map(_describes, one.words)))
+    same = noun.plural and one.noun in {noun.noun, *SETS["anything"]} and one.color in (None, noun.color)
+    picks = any(map(_picks, one.children)) or not all(map(_describes, one.words))
+    return same and picks and one.definite and not one.plural
 
 
 def _picks(place: Item) -> tuple[str, ...]:
