@@ -69,6 +69,18 @@ def test_what_has_a_colour_is_no_place(model: GroundingModel, text: str) -> None
     assert not told[[one in answer.world.places for one in landmarks]].any()
 
 
+def test_a_bare_colour_stands_beside_nothing(model: GroundingModel) -> None:
+    """ "Closest to blue" is said of shades: it is not taken for near a blue thing, as "closest to the blue one" is."""
+    looks = {"a": (77.0, 178.0, 138.0), "b": (105.0, 131.0, 150.0), "c": (128.0, 131.0, 124.0)}
+    patches = [Percept(i, "patch", None, (1.0, 0.3 * k, 0.5), rgb=rgb) for k, (i, rgb) in enumerate(looks.items())]
+    world = model.world_model(patches, robot=Pose(0.0, 0.0), looked=True)
+    for text, placed in (("closest to blue", True), ("closest to the blue one", False)):
+        answer = model.ground(text, world)
+        (modifier,) = answer.modifiers
+        there = [c[0].child.grounding.object in world.places for c in modifier.combos]
+        assert bool((modifier.log_prior[there] > -100.0).any()) is placed
+
+
 def fresh(script: str) -> str:
     """What a script prints in a process of its own, in a folder that is not the project's."""
     done = subprocess.run(

@@ -249,13 +249,13 @@ class Search:
     def _only_named(self, tree: ParseTree, found: Scored) -> Scored:
         """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
         phrase, named = tree.phrase, found.named
-        if phrase.color is not None and (phrase.noun is None or is_generic(phrase.noun)):  # no side has a colour
+        shade = phrase.color == phrase.text  # "closest to blue" is not beside a blue thing
+        if phrase.color is not None and not shade and (phrase.noun is None or is_generic(phrase.noun)):
             found.scores[:, self._meanable :] = -np.inf
         if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
             return found
-        world = self.encoder.world
-        seen = named[: len(world.objects)][self.encoder.perceived[: len(world.objects)]]
-        if not world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
+        seen = named[: len(self.encoder.world.objects)][self.encoder.perceived[: len(self.encoder.world.objects)]]
+        if not self.encoder.world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
             return found
         group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
         return replace(found, scores=np.where(group[None, :, None], -np.inf, found.scores))
