@@ -118,7 +118,7 @@ def fit(
 
 
 def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:
-    """New weights (P, L, G), the prior where they are to move; part by part, as one mask for all takes thrice as long."""
+    """New weights (P, L, G), the prior where they are to move; part by part: one mask for all takes thrice as long."""
     fixed = weight.copy()
     for p, own in enumerate(fixed):
         np.copyto(own, 0.0 if prior is None else prior[p], where=active)
