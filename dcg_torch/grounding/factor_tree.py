@@ -63,6 +63,8 @@ def coordinated(tree: ParseTree) -> list[ParseTree]:
     """A tree for each noun phrase that a command is about: "the cube and the cone" is two of them."""
     first = tree.children[0] if tree.children else None
     if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
+        if len(first.children) == len(tree.children) == 1:
+            return [tree]
         return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in first.children] or [tree]
     nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
     if tree.phrase.kind is PhraseKind.NOUN or len(nouns) < 2:
