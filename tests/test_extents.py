@@ -11,7 +11,7 @@ from dcg_torch.lessons.table_tops import table_top_scene
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
 from dcg_torch.scene.layout import layout
-from dcg_torch.scene.relations import RELATION_NAMES, relations
+from dcg_torch.scene.relations import RELATION_NAMES, Relations
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 Three = tuple[float, float, float]
@@ -26,7 +26,7 @@ def thing(id_: str, position: Three, size: Three | None) -> Object:
 def told(mark: Object, other: Object, yaw: float = 0.0) -> set[str]:
     """What is told of the second to the first, in a world whose neighbours are 0.7 m apart."""
     where = layout(WorldModel((mark, other), robot=Pose(-3.0, 0.0, yaw), unit=0.7))
-    found = relations(where, [(0,)], "all")[0, 1]
+    found = Relations(where).to([(0,)], "all")[:, 0, 1]
     return {RELATION_NAMES[k].removeprefix("relation: ") for k in found.tolist() if k >= 0}
 
 

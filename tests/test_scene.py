@@ -30,7 +30,7 @@ def values(
 
 def fired(world: WorldModel, landmarks: Sequence[int], among: str = "all") -> list[dict[str, str]]:
     """For every thing, relation family -> value."""
-    bag = scene.relations(scene.layout(world), [landmarks], among)[0]
+    bag = scene.Relations(scene.layout(world)).to([landmarks], among)[:, 0].T
     names = [[scene.RELATION_NAMES[k].removeprefix("relation: ") for k in row if k >= 0] for row in bag]
     return [dict(name.split(", ") for name in row) for row in names]
 
@@ -272,7 +272,7 @@ def test_every_family_fires_at_most_one_value_and_never_for_the_landmark(
     rows: list[tuple[float, float, str, str]],
 ) -> None:
     objects = tuple(thing(str(k), (x, y, 0), t, col) for k, (x, y, t, col) in enumerate(rows))
-    bag = scene.relations(scene.layout(WorldModel(objects)), [[0]], "all")
+    bag = scene.Relations(scene.layout(WorldModel(objects))).to([[0]], "all").transpose(1, 2, 0)
     assert bag.shape == (1, len(objects), len(scene.RELATIONS))
     assert [scene.RELATION_NAMES[k] for k in bag[0, 0] if k >= 0] == ["relation: itself, itself"]
     for table, names in zip(bag[0].T, scene.RELATIONS.values(), strict=True):

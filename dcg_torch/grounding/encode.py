@@ -76,8 +76,6 @@ class WorldEncoder:
         self._kinds = {} if kinds is None else kinds
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
-        self._found: dict[tuple[tuple[int, ...], str], NDArray[np.int16]] = {}
-        self._standing: dict[int, scene.Standing] = {}
 
     def of(self, world: WorldModel) -> WorldEncoder:
         """That of another world under these features."""
@@ -183,20 +181,15 @@ class WorldEncoder:
         few = len(ranks) <= _FEW
         return self.unranked(phrase).beside(Coded(ranks, None) if few else Coded(*distinct_rows(ranks)))
 
+    @cached_property
+    def _relations(self) -> scene.Relations:
+        return scene.Relations(self.layout)
+
     def relations(
         self, landmarks: Sequence[tuple[int, ...]], counted: Ranking, members: NDArray[np.bool_] | None = None
-    ) -> list[NDArray[np.int16]]:
-        """For each tuple of numbers of landmarks (things, families): see `scene.relations`."""
-        among, ordinal, count = counted.among, counted.ordinal, counted.count
-        if members is not None or ordinal is not None or count is not None:
-            return list(scene.relations(self.layout, landmarks, among, members, self._standing, ordinal, count))
-        new = [of for of in dict.fromkeys(landmarks) if (of, among) not in self._found]
-        step = len(new) if len(self.all) <= 4 * _FEW else 1  # what is worked out of many things takes room
-        for start in range(0, len(new), max(1, step)):
-            part = new[start : start + step]
-            found = scene.relations(self.layout, part, among, known=self._standing)
-            self._found.update({(of, among): one for of, one in zip(part, found, strict=True)})
-        return [self._found[of, among] for of in landmarks]
+    ) -> NDArray[np.int16]:
+        """(families, landmarks, things) to each tuple of numbers of landmarks, see `scene.Relations`."""
+        return self._relations.to(landmarks, counted.among, members, counted.ordinal, counted.count)
 
     def placed(
         self,
@@ -212,7 +205,7 @@ class WorldEncoder:
         counted = counted or Ranking("all")
         if not self.related:
             return np.full((len(landmarks), len(self.all), 1), self.features.placed_column)
-        return self.features.relation_columns(np.stack(self.relations(landmarks, counted, members)))
+        return self.features.relation_columns(self.relations(landmarks, counted, members).transpose(1, 2, 0))
 
     def bag(self, example: Example) -> Bag:
         """(groundings, k) bag of the factors of an example in this world."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +19,7 @@ FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
 
 
-@dataclass(frozen=True)
-class Scored:
+class Scored(NamedTuple):
     """The scores of a phrase that picks.
 
     Attributes:

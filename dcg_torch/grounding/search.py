@@ -258,7 +258,7 @@ class Search:
         if not self.encoder.world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
             return found
         group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
-        return replace(found, scores=np.where(group[None, :, None], -np.inf, found.scores))
+        return found._replace(scores=np.where(group[None, :, None], -np.inf, found.scores))
 
     def _only_objects(self, tree: ParseTree, found: Scored) -> Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
@@ -279,7 +279,7 @@ class Search:
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
             code = None
-        return replace(found, scores=scores, log_odds=odds, log_fit=fit, code=code)
+        return found._replace(scores=scores, log_odds=odds, log_fit=fit, code=code)
 
     def _or_absent(self, tree: ParseTree, found: Scored) -> Scored:
         """With as much for what is not there as `absence` says, where it says something."""
@@ -299,7 +299,7 @@ class Search:
             shift[one] = log_odds + np.logaddexp.reduce(totals[there]) - totals[one]
         if not shift.any() or not np.isfinite(shift).all():
             return found
-        return replace(found, scores=found.scores + shift[:, None])
+        return found._replace(scores=found.scores + shift[:, None])
 
     def _told(self, phrase: Phrase) -> tuple[str, ...]:
         """The words of a noun phrase that say something of groups or attributes."""

@@ -113,8 +113,7 @@ class Tables:
         step = max(1, _ENTRIES // (n * 16))
         for start in range(0, len(first), step):
             part = [(j,) for j in first[start : start + step]]
-            relations = encoder.relations(part, counted, members)
-            flat = np.concatenate([one.T for one in relations], axis=1)  # (families, part * n)
+            flat = encoder.relations(part, counted, members).reshape(-1, len(part) * n)
             flat = flat[flat.max(axis=1, initial=-1) >= 0].astype(np.int64)  # to most things half of them tell nothing
             total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
             _add(total, own, flat)

@@ -171,9 +171,11 @@ class GroundingModel:
         readings = worth_grounding(command, world, self.learner.readings)
         world = told_where(world, readings)
         frames = self.learner.frames if self.variant.related else None
-        facing = None if frames is None else faced(readings[0].tree, self._search(world).ground)
+        search = self._search(world)
+        facing = None if frames is None else faced(readings[0].tree, search.ground)
         seen = views(command.text, world, None if frames is None else frames.speakers)
-        searches = [(self._search(view), frame) for view, frame in ([(facing, 0.0)] if facing is not None else seen)]
+        seen = seen if facing is None else [(facing, 0.0)]
+        searches = [(search if view is world else self._search(view), frame) for view, frame in seen]
         return sum_over_frames(searches, readings if self.variant.related else readings[:1])
 
     def _search(self, world: WorldModel) -> SharedSearch:

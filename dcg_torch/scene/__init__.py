@@ -11,7 +11,7 @@ from dcg_torch.scene.layout import Layout, layout
 from dcg_torch.scene.order import signatures
 from dcg_torch.scene.places import Bounds, places, scene_bounds
 from dcg_torch.scene.ranks import RANKS, STATES, ranks, state_signatures, states
-from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, Standing, between, relations
+from dcg_torch.scene.relations import RELATION_NAMES, RELATIONS, Relations, between
 
 __all__ = [
     "RANKS",
@@ -20,13 +20,12 @@ __all__ = [
     "STATES",
     "Bounds",
     "Layout",
-    "Standing",
+    "Relations",
     "between",
     "groups",
     "layout",
     "places",
     "ranks",
-    "relations",
     "scene_bounds",
     "signatures",
     "state_signatures",

@@ -47,7 +47,8 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
         from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
 
         return [(int(one), int(other), distance) for one, other, distance, _ in linkage(points, "single").tolist()]
-    i, j = np.nonzero(np.triu(code[:, None] == code[None, :], 1))
+    i, j = (code[:, None] == code[None, :]).nonzero()
+    i, j = i[i < j], j[i < j]
     x, y = (own[i] - own[j] for own in points.T)
     apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")

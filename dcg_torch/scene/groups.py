@@ -16,7 +16,7 @@ import numpy as np
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
 from dcg_torch.scene.clusters import clusters
 from dcg_torch.scene.layout import Floats, Ints
-from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
 from dcg_torch.scene.order import TIE
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
@@ -86,9 +86,7 @@ def _drawn_apart(position: Floats) -> Floats:
     """Positions (n, 3); where all is on one level none is over another, and the nearest two are drawn apart so far."""
     if np.ptp(position[:, 2]) > TIE:
         return position
-    from scipy.spatial import cKDTree  # here: few commands speak of groups, and it takes a while
-
-    nearest = float(cKDTree(position[:, :2]).query(position[:, :2], k=2)[0][:, 1].min())
+    nearest = float(nearest_other(position * (1.0, 1.0, 0.0)).min())
     return position * (1.01 * SAME_SPOT / nearest) if TIE < nearest <= SAME_SPOT else position
 
 

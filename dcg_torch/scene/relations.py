@@ -6,11 +6,12 @@ Relations are families of values, of which at most one fires: to one landmark, o
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.scene.kept_rows import KeptRows
 from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
@@ -49,51 +50,71 @@ RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for famil
 RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
 _COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
-
 _BETWEEN = list(RELATIONS).index("between")
 
-Standing = tuple[NDArray[np.int16], Floats, Bools]
-"""How things stand to one landmark, whatever they are compared with: (families, n) indices into `RELATION_NAMES`, (n,)
-how far they are from it, and which of them may be the closest or the farthest."""
+_FEW = 1024
+"""Things up to which all landmarks are looked at together: what is worked out of many takes room."""
 
 
-def relations(
-    where: Layout,
-    landmarks: Sequence[Sequence[int]],
-    among: str,
-    members: Bools | None = None,
-    known: dict[int, Standing] | None = None,
-    ordinal: int | None = None,
-    count: int | None = None,
-) -> NDArray[np.int16]:
-    """The relation features of every thing to every tuple of landmarks.
+class Relations:
+    """The relation features of all things to landmarks. What is worked out of each landmark is kept.
 
     Args:
-        landmarks: c tuples of thing numbers; all but "between" is to the first of each.
-        among: which of `SETS` "the closest" is one of.
-        members: (n,) the things that it is one of, instead of such a set.
-        known: what was found of this layout before; more is added.
-        ordinal: the place that is asked for, beyond those that are told apart: it stands for the last of them.
-        count: how many are meant, the first of them together: "the two closest to the cone".
+        where: the things.
+    """
+
+    def __init__(self, where: Layout) -> None:
+        self._where = where
+        self._most = None if len(where.things) <= _FEW else 1
+        self._standing = KeptRows(lambda first: _standing(where, first), self._most)
+        self._ordered: dict[str, KeptRows] = {}
+
+    def to(
+        self,
+        landmarks: Sequence[Sequence[int]],
+        among: str,
+        members: Bools | None = None,
+        ordinal: int | None = None,
+        count: int | None = None,
+    ) -> NDArray[np.int16]:
+        """The features of every thing to every tuple of landmarks.
+
+        Args:
+            landmarks: c tuples of thing numbers; all but "between" is to the first of each.
+            among: which of `SETS` "the closest" is one of.
+            members: (n,) the things that it is one of, instead of such a set.
+            ordinal: the place that is asked for, beyond those that are told apart: it stands for the last of them.
+            count: how many are meant, the first of them together: "the two closest to the cone".
+
+        Returns:
+            (families, c, n) indices into `RELATION_NAMES`, -1 where no value of a family fires.
+        """
+        first = [of[0] for of in landmarks]
+        found = self._standing.of(first)[0].copy()
+        if members is None and ordinal is None and count is None:
+            if among not in self._ordered:
+                alike = self._where.alike(among)
+                self._ordered[among] = KeptRows(lambda new: (self._orders(new, alike),), self._most)
+            (found[_COMPARED],) = self._ordered[among].of(first)
+        else:
+            kept = None if members is None else Alike.by(np.where(members & ~self._where.place, 0, -1))
+            found[_COMPARED] = self._orders(np.array(first), kept or self._where.alike(among), ordinal, count)
+        if any(len(of) > 1 for of in landmarks):
+            found[_BETWEEN] = between(self._where, landmarks)
+        return found
+
+    def _orders(self, first: Ints, alike: Alike, ordinal: int | None = None, count: int | None = None) -> Ints:
+        _, distance, may = self._standing.of(first.tolist())
+        return _orders(self._where, first, distance, may, alike, ordinal, count)
+
+
+def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bools]:
+    """How things stand to c landmarks, whatever they are compared with.
 
     Returns:
-        (c, n, families) indices into `RELATION_NAMES`, -1 where no value of a family fires.
+        (families, c, n) indices into `RELATION_NAMES`, (c, n) how far they are from it, and which of them may be the
+        closest or the farthest.
     """
-    known = {} if known is None else known
-    first = [of[0] for of in landmarks]
-    if new := [j for j in dict.fromkeys(first) if j not in known]:
-        known.update(zip(new, _standing(where, np.array(new)), strict=True))
-    alike = where.alike(among) if members is None else Alike.by(np.where(members & ~where.place, 0, -1))
-    found, distance, may = (np.array(part) for part in zip(*(known[j] for j in first), strict=True))
-    found[:, _COMPARED] = _orders(where, np.array(first), distance, may, alike, ordinal, count)
-    if any(len(of) > 1 for of in landmarks):
-        found[:, _BETWEEN] = between(where, landmarks)
-    out: NDArray[np.int16] = found.transpose(0, 2, 1)
-    return out
-
-
-def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
-    """Of each landmark."""
     position, place = where.position, where.place[first][:, None]
     x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
     covers = apart = None
@@ -133,7 +154,7 @@ def _standing(where: Layout, first: Ints) -> Iterable[Standing]:
         if family in found:
             of_family[:] = found[family]
     out += _STARTS * (out >= 0)
-    return zip(out.transpose(1, 0, 2), distance, alone, strict=True)
+    return out, distance, alone
 
 
 _BOUNDS = np.array(DISTANCES)
@@ -173,13 +194,14 @@ def _sides(where: Layout, first: Ints, x: Floats, y: Floats, sided: Bools) -> di
     bearing = np.arctan2(y, x)
     mark = where.position[first, :2]
     away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    frames = [(bearing, sided), (bearing - np.arctan2(mark[:, 1], mark[:, 0])[:, None], sided & away)]
+    views, kept = [np.zeros(len(first)), np.arctan2(mark[:, 1], mark[:, 0])], [sided, sided & away]
     if where.speaker is not None:
         view = mark - where.speaker
         near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
         view[near] = where.middle - where.speaker
-        frames.append((bearing - np.arctan2(view[:, 1], view[:, 0])[:, None], sided))
-    found = dict(zip(FRAMES, (np.where(kept, _sector(angle, kept), -1) for angle, kept in frames), strict=False))
+        views, kept = [*views, np.arctan2(view[:, 1], view[:, 0])], [*kept, sided]
+    seen = np.array(kept)
+    found = dict(zip(FRAMES, np.where(seen, _sector(bearing - np.array(views)[:, :, None], seen), -1), strict=False))
     along, across = (sided & (np.abs(v) < SAME_SPOT) for v in (x, y))
     found["line"] = np.where(along, 0, np.where(across, 1, -1))
     return found
@@ -199,37 +221,48 @@ def _orders(
     ordinal: int | None = None,
     count: int | None = None,
 ) -> Ints:
-    """(c, 2, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
+    """(2, c, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
     value = distance
-    if where.direction[first].any():
-        heading = np.where(where.direction[first][:, None], where.heading[first], 0.0)
-        offset = where.position[None, :, :2] - where.position[first][:, None, :2]
-        ahead = -(offset * heading[:, None, :]).sum(axis=2)
-        value = np.where(where.direction[first][:, None], ahead, distance)
+    towards = where.direction[first].nonzero()[0]
+    if len(towards):
+        value = distance.copy()
+        value[towards] = -_ahead(where, first[towards])
     signed = np.where(exists, np.array([value, -value]), math.inf)
     most = max(NEAREST + (count or 1) - 1, ordinal or 0)
     before = counted(lower(signed.reshape(-1, value.shape[1]), alike, most).reshape(signed.shape), count)
     if ordinal is not None and ordinal > NEAREST:
         before = np.where(before == ordinal - 1, NEAREST - 1, np.where(before == NEAREST - 1, NEAREST, before))
     compared = exists & (alike.code >= 0) & (before < NEAREST)
-    out: Ints = np.where(compared, before + _STARTS[_COMPARED], -1).transpose(1, 0, 2)
+    out: Ints = np.where(compared, before + _STARTS[_COMPARED], -1)
     return out
+
+
+def _ahead(where: Layout, first: Ints) -> Floats:
+    """(c, n) how far a thing is in the direction of each place that has one."""
+    ahead: Floats = (_offset(where, first) * where.heading[first][:, None, :]).sum(axis=2)
+    return ahead
+
+
+def _offset(where: Layout, first: Ints) -> Floats:
+    """(c, n, 2) from each landmark to every thing."""
+    return where.position[None, :, :2] - where.position[first][:, None, :2]
 
 
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
     """To places that have a side: how far that way a thing is, and whether it is in that part of the scene."""
-    heading = where.heading[first][:, None, :]
-    headed = np.isfinite(heading).all(axis=2)
-    offset = where.position[None, :, :2] - where.position[first][:, None, :2]
-    with np.errstate(invalid="ignore"):
-        length = np.maximum(np.hypot(offset[..., 0], offset[..., 1]), TIE)
-        cosine = (offset * heading).sum(axis=2) / length
-        slant = _SLANTS.searchsorted(np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)))
-    direction = where.direction[first][:, None]
-    return {
-        "direction": np.where(exists & headed & direction, slant, -1),
-        "part": np.where(exists & headed & ~direction, _part(where, heading), -1),
-    }
+    found = {family: np.full(exists.shape, -1, dtype=np.int64) for family in ("direction", "part")}
+    headed = np.isfinite(where.heading[first]).all(axis=1)
+    row, direction = headed.nonzero()[0], where.direction[first]
+    towards, sided = row[direction[row]], row[~direction[row]]
+    if len(towards):
+        offset = _offset(where, first[towards])
+        with np.errstate(invalid="ignore"):
+            cosine = _ahead(where, first[towards]) / np.maximum(np.hypot(offset[..., 0], offset[..., 1]), TIE)
+            slant = _SLANTS.searchsorted(np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)))
+        found["direction"][towards] = np.where(exists[towards], slant, -1)
+    if len(sided):
+        found["part"][sided] = np.where(exists[sided], _part(where, where.heading[first[sided]][:, None, :]), -1)
+    return found
 
 
 _SLANTS = np.array((math.pi / 6, math.pi / 3, math.pi / 2))
