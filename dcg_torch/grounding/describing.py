@@ -15,6 +15,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.measuring import MORE_THAN, log_more
 from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
@@ -82,6 +83,8 @@ def modifier_factor(
         log_psi = np.zeros((len(combos), len(encoder.all)))  # "in the row" tells nothing where no row is seen
     elif tree.phrase.words[0] in SAME_AS:
         log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
+    elif tree.phrase.words[0] in MORE_THAN:
+        log_psi = log_more(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
     else:
         table = tables.placed(encoder, tree.phrase, landmarks, compared)
         asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 
 from dcg_torch.names.attributes import stated_values
 from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.normal import normalise
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -50,10 +51,21 @@ def told_by_looking(tree: ParseTree, text: str, looks: Looks) -> ParseTree:
     words = _words(text)
     several = looks.shown and _speaks_of_others(tree, looks.classes)
     values = stated_values(words) if looks.valued else ()
+    names = _names_of_classes(tree, looks.classes)
     if looks.named or several:
-        tree = _each_told(tree, compared=looks.named)
+        tree = _each_told(tree, names, compared=looks.named)
         words = ()
-    return _told(tree, words if looks.shown else (), values)
+    return _told(tree, _but_names(words, names) if looks.shown else (), values)
+
+
+def _names_of_classes(tree: ParseTree, types: frozenset[str]) -> frozenset[str]:
+    """The words of nouns that name a class that is there: "bottle" tells of no bottle green then."""
+    nouns = {node.phrase.noun for node in tree.walk() if node.phrase.noun is not None}
+    return frozenset(word for noun in nouns if names_one_of(noun, types) for word in normalise(noun).split())
+
+
+def _but_names(words: tuple[str, ...], names: frozenset[str]) -> tuple[str, ...]:
+    return tuple(word for word in words if normalise(word) not in names) if names else words
 
 
 def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
@@ -66,13 +78,13 @@ def _words(text: str) -> tuple[str, ...]:
     return tuple(re.findall(r"\w+|[^\w\s]", re.sub(r"n't\b", " not", text.lower())))
 
 
-def _each_told(tree: ParseTree, *, compared: bool) -> ParseTree:
+def _each_told(tree: ParseTree, names: frozenset[str], *, compared: bool) -> ParseTree:
     """The tree whose noun phrases are each told of their own words; of those that compare colours alone if so asked."""
-    children = tuple([_each_told(child, compared=compared) for child in tree.children])
+    children = tuple([_each_told(child, names, compared=compared) for child in tree.children])
     phrase = tree.phrase
     if phrase.kind is PhraseKind.NOUN and not (compared and not phrase.words and not phrase.look):
         own = _words(phrase.text)
-        look = comparing_words([w for w in own if w in phrase.words]) if compared else own
+        look = comparing_words([w for w in own if w in phrase.words]) if compared else _but_names(own, names)
         phrase = phrase if look == phrase.look else replace(phrase, look=look)
     return _tree(tree, phrase, children)
 

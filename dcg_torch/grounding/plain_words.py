@@ -7,6 +7,7 @@ import functools
 from collections.abc import Iterable
 from dataclasses import replace
 
+from dcg_torch.grounding.measuring import compared_with
 from dcg_torch.grounding.plain_lines import line_of_all, read_along
 from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, one_of_those, together
 from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
@@ -31,6 +32,7 @@ from dcg_torch.names.vocabulary import (
     SIDE_OF,
     SIDED,
     SYNONYMS,
+    THAN,
     VERTICAL,
     VIEWERS,
     WORKSPACE,
@@ -71,8 +73,9 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if phrase.noun in COMPASS:
         sides = COMPASS[phrase.noun]
         phrase = replace(phrase, noun=sides[-1], words=(*sides[:-1], *phrase.words))
-    if any(child.phrase.words[:1] == ("than",) for child in children):
-        return ParseTree(phrase, children)
+    phrase, children = (told := compared_with(ParseTree(phrase, children))).phrase, told.children
+    if any(child.phrase.words[:1] == (THAN,) for child in children):
+        return told
     picks = tuple(word for child in below if (word := _picks(child)) is not None)
     words = tuple(
         dict.fromkeys(

@@ -219,8 +219,7 @@ def _settle_row(noun: Item) -> None:
 
 def is_state(item: Item) -> bool:
     """ "(The one in the middle is) sick": a noun phrase of an adjective that is hardly ever a noun."""
-    alone = item.noun is not None and not (item.determined or item.plural or item.children)
-    used = parts(str(item.noun)) if alone else {}
+    used = parts(item.noun) if item.noun and not (item.determined or item.plural or item.children) else {}
     return used.get("a", 0) > used.get("n", 0)
 
 

@@ -185,7 +185,8 @@ class NounPhrase:
         if not (picker.tag == "SIDE" and counted if self.headed else bare):
             return 0
         after = self._behind_determiners()
-        bare_group = self.tokens[after].text in SETS["groups"] and self.tokens[after + 1].text != "of"
+        pair = self.tokens[after].text in SETS["pairs"] and self.tokens[after + 1].text == "of"
+        bare_group = self.tokens[after].text in SETS["groups"] and not pair
         several = self.tokens[self.at + 1].tag in _STARTS or self.tokens[self.at + 1].text in SETS["group_pronouns"]
         if bare_group or not several:
             self.closed = True  # "the last of the row": the row is no such thing

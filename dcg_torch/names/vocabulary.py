@@ -126,6 +126,8 @@ ANY, SO_MANY = "any", frozenset({*NUMBER_WORDS, "one", "a couple"})
 """What begins a noun phrase that means some of several, whichever they are: "any two", "three of", "a couple of"."""
 HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
+THAN = "than"
+"""The preposition before what a thing is compared with."""
 EXCEPT = "except"
 """The preposition before what is left out."""
 EITHER_END = frozenset({"back", "front"})

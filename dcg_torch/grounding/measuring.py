@@ -1,0 +1,77 @@
+"""What is more or less so than its landmark: "bigger than the box", "taller than the lamp", "darker than the cube"."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.names.palette import lab
+from dcg_torch.names.vocabulary import THAN
+from dcg_torch.scene.bodies import bulk
+from dcg_torch.types import NOT, Object, ParseTree, PhraseKind
+
+Floats = NDArray[np.float64]
+
+_SURE = 0.98
+"""Probability that a thing is more so than another, where what is known of them says so."""
+_OPEN = 0.5
+_EVEN = 0.04
+"""Logarithms of lengths, and shares of the whole scale of lightness, up to which two things are even."""
+
+
+def _size(thing: Object) -> float | None:
+    return None if thing.size is None or not bulk(thing.size) > 0.0 else math.log(bulk(thing.size)) / 3.0
+
+
+def _height(thing: Object) -> float | None:
+    return None if thing.size is None or not thing.size[2] > 0.0 else math.log(thing.size[2])
+
+
+def _lightness(thing: Object) -> float | None:
+    return None if thing.rgb is None else float(lab(np.array([thing.rgb], dtype=np.float64))[0, 0]) / 100.0
+
+
+_MORE: dict[str, tuple[Callable[[Object], float | None], float]] = {
+    **dict.fromkeys(("bigger", "larger", "greater"), (_size, 1.0)),
+    **dict.fromkeys(("smaller", "littler", "tinier"), (_size, -1.0)),
+    **dict.fromkeys(("taller",), (_height, 1.0)),
+    **dict.fromkeys(("shorter",), (_height, -1.0)),
+    **dict.fromkeys(("lighter", "brighter", "paler"), (_lightness, 1.0)),
+    **dict.fromkeys(("darker",), (_lightness, -1.0)),
+}
+"""Words that compare: what is measured, and whether more of it is meant or less."""
+MORE_THAN = {f"{word} {THAN}": how for word, how in _MORE.items()}
+
+
+def compared_with(tree: ParseTree) -> ParseTree:
+    """A noun phrase in which "bigger" and "than the box" are one modifier."""
+    phrase = tree.phrase
+    word = next((word for word in phrase.words if word.removeprefix(f"{NOT} ") in _MORE), None)
+    if phrase.kind is not PhraseKind.NOUN or word is None:
+        return tree
+    for k, place in enumerate(tree.children):
+        if place.phrase.words[:1] == (THAN,):
+            more = replace(place, phrase=replace(place.phrase, words=(f"{word} {THAN}", *place.phrase.words[1:])))
+            kept = replace(phrase, words=tuple(other for other in phrase.words if other != word))
+            return ParseTree(kept, (*tree.children[:k], more, *tree.children[k + 1 :]))
+    return tree
+
+
+def log_more(name: str, things: Sequence[Object], landmarks: Sequence[tuple[int, ...]], *, denied: bool) -> Floats:
+    """(landmarks, things) the logarithm of the probability that a thing is more so than a landmark.
+
+    Args:
+        name: one of `MORE_THAN`.
+        landmarks: numbers of things; the first of each is the landmark.
+        denied: that it is not.
+    """
+    measure, sign = MORE_THAN[name]
+    values = np.array([math.nan if (value := measure(thing)) is None else sign * value for thing in things])
+    ahead = values[None, :] - values[[of[0] for of in landmarks], None]
+    found = np.where(np.isnan(ahead), _OPEN, np.where(ahead > _EVEN, _SURE, 1.0 - _SURE))
+    log: Floats = np.log(1.0 - found if denied else found)
+    return log

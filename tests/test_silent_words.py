@@ -1,0 +1,51 @@
+"""Words that tell no colour where things show theirs: names of classes, and small words of listed colours' names.
+
+Scenes and commands are ours.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import numpy as np
+import pytest
+
+from dcg_torch.language import default_parser
+from dcg_torch.model import GroundingModel
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.names.colors import color_features
+from dcg_torch.types import Percept, Pose
+
+GREEN, RED, BROWN, PURPLE = (20, 110, 40), (190, 30, 30), (120, 70, 30), (110, 40, 150)
+
+
+@functools.cache
+def _model() -> GroundingModel:
+    return pretrained()
+
+
+def _meant(text: str, things: tuple[tuple[str, str, float, float, tuple[int, int, int]], ...]) -> tuple[str, ...]:
+    percepts = [Percept(id_, kind, None, (x, y, 0.0), rgb=rgb) for id_, kind, x, y, rgb in things]
+    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return tuple(o.id for o in _model().ground(default_parser().parse(text), world).objects)
+
+
+@pytest.mark.parametrize("kind", ["bottle", "tree", "egg", "wine bottle"])
+def test_the_name_of_a_class_is_no_colour(kind: str) -> None:
+    for left, right in ((GREEN, RED), (RED, GREEN), (BROWN, PURPLE)):
+        things = (("l", kind, 3.0, 1.5, left), ("r", kind, 3.0, -1.5, right))
+        assert _meant(f"take the {kind} on the right", things) == ("r",)
+        assert _meant(f"take the {kind} on the left", things) == ("l",)
+
+
+def test_colours_beside_the_name_are_heard() -> None:
+    things = (("l", "bottle", 3.0, 1.5, GREEN), ("r", "bottle", 3.0, -1.5, RED))
+    assert _meant("the green bottle", things) == ("l",)
+    assert _meant("take the red bottle", things) == ("r",)
+
+
+@pytest.mark.parametrize("words", ["the bigger of the two", "one with a ring", "a large and heavy one", "medium sized"])
+def test_small_words_of_colour_names_tell_none(words: str) -> None:
+    colors = np.array([GREEN, RED, BROWN, PURPLE], dtype=np.float64)
+    assert not color_features(words.split(), colors).any()
+    assert color_features(["a", "hint", "of", "purple"], colors)[:, 0].argmax() == 3
