@@ -93,7 +93,7 @@ def fit(
     strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
     if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
         raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
-    fixed = np.where(active, 0.0 if prior is None else prior, weight)
+    fixed = _with_prior(weight, prior, active)
     where = factor.weight.device if device is None else device_of(device)
     with one_thread():
         lifted = lift(designs, fixed, active, strength)
@@ -115,6 +115,14 @@ def fit(
         status=found.status,
         seconds=time.perf_counter() - began,
     )
+
+
+def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:
+    """New weights (P, L, G), the prior where they are to move; part by part: one mask for all takes thrice as long."""
+    fixed = weight.copy()
+    for p, own in enumerate(fixed):
+        np.copyto(own, 0.0 if prior is None else prior[p], where=active)
+    return fixed
 
 
 class Problem(NamedTuple):
