@@ -134,6 +134,8 @@ def _from_mean_size(volume: Floats, alike: Alike) -> Floats:
     NaN where sizes are unknown or all alike.
     """
     away = np.full(len(volume), math.nan)
+    if np.isnan(volume).all():
+        return away
     size = np.log(np.where(volume > 0.0, volume, math.nan))
     for members in alike.members:
         own = size[members]
