@@ -97,7 +97,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
     values[AXES.index("medium")] = _from_mean_size(values[AXES.index("small")], alike)
-    told = np.isfinite(values).any(axis=1).nonzero()[0]  # few scenes have a speaker and sizes
+    told = np.flatnonzero(np.isfinite(values).any(axis=1))  # few scenes have a speaker and sizes
     values = values[told]
     before = lower(values, alike, max(NEAREST + (count or 1) - 1, ordinal or 0))
     there = np.isfinite(values) & (code >= 0)
