@@ -174,7 +174,8 @@ def comparison_set(
     told = of_attributes(phrase.words, encoder)
     apart = tuple(word for word in told if not says_size(word))
     look = tuple(w for w in phrase.look if w not in shades)
-    table = tables.unranked(encoder, replace(phrase, words=apart, look=look))
+    bare = phrase if (apart, look) == (phrase.words, phrase.look) else replace(phrase, words=apart, look=look)
+    table = tables.unranked(encoder, bare)
     number = tables.factor.correspondences.index
     fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
     odds = fit - table[number(Correspondence.INACTIVE)]

@@ -76,6 +76,7 @@ class WorldEncoder:
         self._kinds = {} if kinds is None else kinds
         self.related = Group.RELATION in features.groups
         self._said: dict[Said, Coded] = {}
+        self._ranked: dict[tuple[int | None, int | None, bytes | None], Coded] = {}
 
     def of(self, world: WorldModel) -> WorldEncoder:
         """That of another world under these features."""
@@ -158,10 +159,11 @@ class WorldEncoder:
     def _of_names(self, said: Said, objects: Coded, first: list[int]) -> Coded:
         looks = look_codes(said.look, self.all)
         if looks is None or objects.code is None:
-            columns = self.features.said_columns(said, [self.all[j] for j in first], [-1] * len(first))
+            columns = self.features.said_columns(said, [self.all[j] for j in first], [-1] * len(first), self._kinds)
             return Coded(np.hstack([objects.bag, padded(columns)]), objects.code)
         _, one, code = np.unique(objects.code * 64 + looks + 1, return_index=True, return_inverse=True)
-        columns = self.features.said_columns(said, [self.all[j] for j in one.tolist()], looks[one].tolist())
+        things = [self.all[j] for j in one.tolist()]
+        columns = self.features.said_columns(said, things, looks[one].tolist(), self._kinds)
         return Coded(np.hstack([objects.bag[objects.code[one]], padded(columns)]), code)
 
     def ranked(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Bag:
@@ -177,9 +179,13 @@ class WorldEncoder:
         counted = ranking(phrase)
         if counted is None or not self.related:
             return self.unranked(phrase)
-        ranks = self.features.encode_ranks(self.layout, counted, members)
-        few = len(ranks) <= _FEW
-        return self.unranked(phrase).beside(Coded(ranks, None) if few else Coded(*distinct_rows(ranks)))
+        key = counted.ordinal, counted.count, None if members is None else members.tobytes()
+        coded = self._ranked.get(key)
+        if coded is None:
+            ranks = self.features.encode_ranks(self.layout, counted, members)
+            few = len(ranks) <= _FEW
+            coded = self._ranked[key] = Coded(ranks, None) if few else Coded(*distinct_rows(ranks))
+        return self.unranked(phrase).beside(coded)
 
     @cached_property
     def _relations(self) -> scene.Relations:

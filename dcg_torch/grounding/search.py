@@ -115,7 +115,8 @@ class Search:
         things = self.encoder.world.objects
         if robot is None or not judges_absence(self.encoder) or best.meant.hypothetical or best.meant.members:
             return best
-        equal = [o for o, total in zip(things, totals, strict=False) if total >= totals.max() + _EQUAL]
+        least = totals.max() + _EQUAL
+        equal = [o for o, total in zip(things, totals.tolist(), strict=False) if total >= least]
         away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
         near = min(away, key=away.__getitem__, default=best.meant.id)
         if near == best.meant.id:

@@ -24,7 +24,7 @@ from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phra
 
 Value = TypeVar("Value")
 
-_UNSEEN = (-1,)
+_UNSEEN = -1
 """Of a thing whose colour no phrase judges by how it looks."""
 _LABELS = 3
 _Own = tuple[str | None, bool, bool, str | None, frozenset[str]]
@@ -167,7 +167,7 @@ class Statistics:
             self._of_phrase[phrase] = known
         found: Ints = known[things]
         for k in np.flatnonzero(found < 0).tolist():
-            more = facts(Said.of(self._phrases.keys[phrase]), [objects[k]], _UNSEEN)[0]
+            more = facts(Said.of(self._phrases.keys[phrase]), objects[k], _UNSEEN)
             found[k] = known[things[k]] = self._seen.number(_of_object(objects[k], more))
         return found
 
@@ -188,7 +188,8 @@ class Statistics:
         phrase, kind = self._phrases.number(example.phrase), GROUNDING_OF[example.phrase.kind]
         if kind is GroundingKind.OBJECT:
             named, things = Group.NAMES in self._groups, example.world.things
-            more = facts(Said.of(example.phrase), things, _UNSEEN * len(things)) if named else [()] * len(things)
+            said = Said.of(example.phrase)
+            more = [facts(said, thing, _UNSEEN) for thing in things] if named else [()] * len(things)
             seen = [_of_object(thing, own) for thing, own in zip(things, more, strict=True)]
         else:
             seen = _of_children(example, kind)

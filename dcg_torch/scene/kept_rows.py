@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,26 +22,21 @@ class KeptRows:
     def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], most: int | None = None) -> None:
         self._find = find
         self._most = most
-        self._row: dict[int, int] = {}
-        self._kept: Arrays = ()
+        self._kept: dict[int, tuple[Arrays, int]] = {}
 
     def of(self, numbers: Sequence[int]) -> Arrays:
         """The rows of some numbers; not to be written to."""
-        new = [j for j in dict.fromkeys(numbers) if j not in self._row]
-        if new:
-            found = list(self._in_parts(new))
-            blocks = [self._kept, *found] if self._row else found
-            self._row |= {j: k for k, j in enumerate(new, start=len(self._row))}
-            self._kept = blocks[0] if len(blocks) == 1 else tuple(map(_stacked, zip(*blocks, strict=True)))
-        rows = [self._row[j] for j in numbers]
-        if rows == list(range(len(self._row))):  # all of them, as is usual
-            return self._kept
-        return tuple([kept.take(rows, axis=-2) for kept in self._kept])
-
-    def _in_parts(self, new: Sequence[int]) -> Iterator[Arrays]:
+        new = [j for j in dict.fromkeys(numbers) if j not in self._kept]
         step = self._most or len(new)
-        return (self._find(np.array(new[start : start + step])) for start in range(0, len(new), step))
-
-
-def _stacked(parts: Sequence[NDArray[Any]]) -> NDArray[Any]:
-    return np.concatenate(parts, axis=-2)
+        for start in range(0, len(new), step or 1):
+            part = new[start : start + step]
+            found = self._find(np.array(part))
+            self._kept |= {j: (found, row) for row, j in enumerate(part)}
+        kept = [self._kept[j] for j in numbers]
+        block = kept[0][0]
+        if all(one is block for one, _ in kept):
+            rows = [row for _, row in kept]
+            whole = rows == list(range(block[0].shape[-2]))  # as is usual
+            return block if whole else tuple([one.take(rows, axis=-2) for one in block])
+        slices = [[one[..., row : row + 1, :] for one in found] for found, row in kept]
+        return tuple([np.concatenate(parts, axis=-2) for parts in zip(*slices, strict=True)])

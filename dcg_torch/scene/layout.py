@@ -268,7 +268,7 @@ def _middle(seen: Floats) -> Floats:
     """(2,) the mean of where the objects are that are somewhere."""
     there = np.isfinite(seen)
     if there.all() and len(seen):
-        middle: Floats = seen.mean(axis=0)
+        middle: Floats = seen.sum(axis=0) / len(seen)
         return middle
     return np.nanmean(seen, axis=0) if there.any() else np.zeros(2)
 

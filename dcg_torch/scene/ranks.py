@@ -97,7 +97,7 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
     values[AXES.index("medium")] = _from_mean_size(values[AXES.index("small")], alike)
-    told = np.isfinite(values).any(axis=1).nonzero()[0]  # few scenes have a speaker and sizes
+    told = np.flatnonzero(np.isfinite(values).any(axis=1))  # few scenes have a speaker and sizes
     values = values[told]
     before = lower(values, alike, max(NEAREST + (count or 1) - 1, ordinal or 0))
     there = np.isfinite(values) & (code >= 0)
@@ -134,6 +134,8 @@ def _from_mean_size(volume: Floats, alike: Alike) -> Floats:
     NaN where sizes are unknown or all alike.
     """
     away = np.full(len(volume), math.nan)
+    if np.isnan(volume).all():
+        return away
     size = np.log(np.where(volume > 0.0, volume, math.nan))
     for members in alike.members:
         own = size[members]

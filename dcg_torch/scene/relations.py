@@ -251,8 +251,8 @@ def _offset(where: Layout, first: Ints) -> Floats:
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
     """To places that have a side: how far that way a thing is, and whether it is in that part of the scene."""
     found = {family: np.full(exists.shape, -1, dtype=np.int64) for family in ("direction", "part")}
-    headed = np.isfinite(where.heading[first]).all(axis=1)
-    row, direction = headed.nonzero()[0], where.direction[first]
+    row = np.flatnonzero(np.isfinite(where.heading[first]).all(axis=1))
+    direction = where.direction[first]
     towards, sided = row[direction[row]], row[~direction[row]]
     if len(towards):
         offset = _offset(where, first[towards])

@@ -236,13 +236,24 @@ class FeatureSet:
             rows.append(common if column is None else sorted((*common, column)))
         return rows
 
-    def said_columns(self, said: Said, things: Sequence[Object], looks: Sequence[int]) -> list[list[int]]:
+    def said_columns(
+        self, said: Said, things: Sequence[Object], looks: Sequence[int], kinds: KindColumns | None = None
+    ) -> list[list[int]]:
         """Columns of what the names of things say about a phrase.
 
         Args:
             looks: of each thing, see `said.look_codes`.
+            kinds: what was found before under these columns, of things that are called alike; more is added.
         """
-        return [self._columns(names) for names in facts(said, things, looks)]
+        kinds, denies = {} if kinds is None else kinds, said.denies()
+        rows = []
+        for thing, look in zip(things, looks, strict=True):
+            key = said, thing.type, thing.color, thing.attributes, look, thing.rgb if denies else None
+            columns = kinds.get(key)
+            if columns is None:
+                columns = kinds[key] = self._columns(facts(said, thing, look))
+            rows.append(columns)
+        return rows
 
     def encode_ranks(self, where: scene.Layout, ranking: Ranking, members: NDArray[np.bool_] | None) -> Bag:
         """(things, k) bag: the rank of every thing among those that are compared.

@@ -54,6 +54,10 @@ class Said:
         """By a phrase."""
         return cls(phrase.noun, phrase.color, phrase.words, phrase.look)
 
+    def denies(self) -> bool:
+        """Does a word say what a thing is not: "not red"?"""
+        return any(word.startswith(f"{NOT} ") for word in self.words)
+
 
 def fact_odds() -> dict[str, float]:
     """Name of a grounding feature -> its log-odds before anything is learned."""
@@ -78,16 +82,12 @@ def said_features() -> list[str]:
     return [f"said {name}" for name in names]
 
 
-def facts(said: Said, things: Sequence[Object], looks: Sequence[int]) -> list[list[str]]:
-    """The names of the features that fire for each thing.
+def facts(said: Said, thing: Object, look: int) -> list[str]:
+    """The names of the features that fire for a thing: by its type, colour, attributes and look.
 
     Args:
-        looks: of each, see `look_codes`.
+        look: see `look_codes`.
     """
-    return [_facts(said, thing, look) for thing, look in zip(things, looks, strict=True)]
-
-
-def _facts(said: Said, thing: Object, look: int) -> list[str]:
     found: list[str] = []
     if said.noun is not None and thing.type is None and LOOKED_ROUND in thing.attributes:
         found.append(_ABSENT)
@@ -99,7 +99,7 @@ def _facts(said: Said, thing: Object, look: int) -> list[str]:
         found += color_evidence(said.color, thing.color)
     if said.words and thing.attributes:
         found += attribute_evidence(said.words, thing.attributes)
-    if is_ruled_out(said.words, thing, look < 0):
+    if said.words and is_ruled_out(said.words, thing, look < 0):
         found = list(dict.fromkeys([*found, "attribute: contrary"]))
     return [f"said {name}" for name in found]
 
