@@ -8,6 +8,8 @@ from dcg_torch.grounding.solution import target_of
 from dcg_torch.names.vocabulary import DEFINITE, EXCEPT
 from dcg_torch.types import ParseTree, WorldModel
 
+_ALL = "all"
+
 
 def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]:
     """A command without the exceptions of its noun phrase, and for each of them the same command about what it names.
@@ -20,8 +22,9 @@ def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]
         return tree, ()
     named = [out for child in exceptions for out in child.children]
     kept = replace(noun, children=tuple(c for c in noun.children if c not in exceptions))
-    if kept.phrase.noun is None and kept.phrase.color is None and any(map(_counts, named)):
-        of = named[0]  # "all but two of the cubes": they are cubes
+    bare = kept.phrase.noun is None and kept.phrase.color is None
+    if bare and (any(map(_counts, named)) or (kept.phrase.text == _ALL and any(map(_is_told_apart, named)))):
+        of = named[0]  # "all but two of the cubes", "all but the smallest cube": they are cubes
         kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=of.phrase.color), kept.children + of.children)
     return _about(tree, noun, kept), tuple(_about(tree, noun, _of_those(out, kept)) for out in named)
 
@@ -41,6 +44,11 @@ def _about(tree: ParseTree, noun: ParseTree, other: ParseTree) -> ParseTree:
 
 def _is_definite(out: ParseTree) -> bool:
     return out.phrase.text.partition(" ")[0] in DEFINITE
+
+
+def _is_told_apart(out: ParseTree) -> bool:
+    """Is it one of several of its name: "the smallest cube", "the cube on the shelf"?"""
+    return bool(out.phrase.noun and (out.phrase.words or out.phrase.color or out.children))
 
 
 def _counts(out: ParseTree) -> bool:
