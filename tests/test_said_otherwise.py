@@ -49,6 +49,11 @@ def _meant(text: str, things: tuple[tuple[str, str, float, float, float], ...]) 
         ("the pan plus the tin", {"pan", "tin"}),
         ("all but the biggest jug", {"j0", "j2"}),
         ("take all but the smallest jug", {"j0", "j1"}),
+        ("leave the leftmost jug, take all the other jugs", {"j1", "j2"}),
+        ("all jugs excluding the jug farthest to the right", {"j0", "j1"}),
+        ("all the jugs except for the one on the far left", {"j1", "j2"}),
+        ("go to jug number 2 from the right", {"j1"}),
+        ("the jug number three from the left", {"j2"}),
         ("all but the pan", {"j0", "j1", "j2", "tin"}),
         ("the pan, or no, rather the tin", {"tin"}),
     ],
@@ -75,3 +80,17 @@ def test_the_other_one(text: str) -> None:
 )
 def test_what_orders_nothing(text: str) -> None:
     assert default_parser().parse(text).refused is not None
+
+
+def test_what_is_left_out_is_one_of_those_that_are_meant() -> None:
+    """Of "all red pegs except the leftmost" the leftmost red peg is left out, and not the leftmost of all."""
+    pegs = [("0", "blue"), ("1", "red"), ("2", "red"), ("3", "green"), ("4", "red")]
+    percepts = [Percept(id_, "peg", color, (3.0, 2.0 - int(id_), 0.0)) for id_, color in pegs]
+    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    for text, meant in (
+        ("all red pegs except the leftmost", {"2", "4"}),
+        ("the red pegs other than the leftmost one", {"2", "4"}),
+        ("every red peg but the rightmost one", {"1", "2"}),
+    ):
+        found = _model().ground(default_parser().parse(text), world).objects
+        assert {o.id for o in found} == meant

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import target_of
-from dcg_torch.names.vocabulary import DEFINITE, EXCEPT
+from dcg_torch.names.vocabulary import DEFINITE, EXCEPT, ORDINALS, is_superlative
 from dcg_torch.types import ParseTree, WorldModel
 
 _ALL = "all"
@@ -60,5 +60,8 @@ def _of_those(out: ParseTree, kept: ParseTree) -> ParseTree:
     """What is left out, with what it shares with the rest. "A mug", "what is red": all that are so."""
     phrase = out.phrase
     several = phrase.plural or not (_is_definite(out) or _counts(out))
-    named = replace(phrase, noun=phrase.noun or kept.phrase.noun, plural=several)
+    shared = tuple(w for w in kept.phrase.words if w not in ORDINALS and not is_superlative(w))
+    words = tuple(dict.fromkeys((*shared, *phrase.words)))
+    color = phrase.color or kept.phrase.color
+    named = replace(phrase, noun=phrase.noun or kept.phrase.noun, color=color, words=words, plural=several)
     return ParseTree(named, (*out.children, *(c for c in kept.children if c not in out.children)))
