@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import target_of
-from dcg_torch.names.vocabulary import DEFINITE, EXCEPT
+from dcg_torch.names.vocabulary import DEFINITE, EXCEPT, ORDINALS, is_superlative
 from dcg_torch.types import ParseTree, WorldModel
+
+_ALL = "all"
 
 
 def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]:
@@ -20,8 +22,9 @@ def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]
         return tree, ()
     named = [out for child in exceptions for out in child.children]
     kept = replace(noun, children=tuple(c for c in noun.children if c not in exceptions))
-    if kept.phrase.noun is None and kept.phrase.color is None and any(map(_counts, named)):
-        of = named[0]  # "all but two of the cubes": they are cubes
+    bare = kept.phrase.noun is None and kept.phrase.color is None
+    if bare and (any(map(_counts, named)) or (kept.phrase.text == _ALL and any(map(_is_told_apart, named)))):
+        of = named[0]  # "all but two of the cubes", "all but the smallest cube": they are cubes
         kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=of.phrase.color), kept.children + of.children)
     return _about(tree, noun, kept), tuple(_about(tree, noun, _of_those(out, kept)) for out in named)
 
@@ -43,6 +46,11 @@ def _is_definite(out: ParseTree) -> bool:
     return out.phrase.text.partition(" ")[0] in DEFINITE
 
 
+def _is_told_apart(out: ParseTree) -> bool:
+    """Is it one of several of its name: "the smallest cube", "the cube on the shelf"?"""
+    return bool(out.phrase.noun and (out.phrase.words or out.phrase.color or out.children))
+
+
 def _counts(out: ParseTree) -> bool:
     """Is it so many of them, whichever: "two of the cubes", "one"?"""
     return out.phrase.count is not None and not _is_definite(out)
@@ -52,5 +60,8 @@ def _of_those(out: ParseTree, kept: ParseTree) -> ParseTree:
     """What is left out, with what it shares with the rest. "A mug", "what is red": all that are so."""
     phrase = out.phrase
     several = phrase.plural or not (_is_definite(out) or _counts(out))
-    named = replace(phrase, noun=phrase.noun or kept.phrase.noun, plural=several)
+    shared = tuple(w for w in kept.phrase.words if w not in ORDINALS and not is_superlative(w))
+    words = tuple(dict.fromkeys((*shared, *phrase.words)))
+    color = phrase.color or kept.phrase.color
+    named = replace(phrase, noun=phrase.noun or kept.phrase.noun, color=color, words=words, plural=several)
     return ParseTree(named, (*out.children, *(c for c in kept.children if c not in out.children)))

@@ -137,8 +137,12 @@ def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
 def _counted_from_a_side(tree: ParseTree) -> ParseTree:
     """ "From the left, the third cube", "the second cube to the left": the third and the second from the left."""
     phrase = tree.phrase
-    if phrase.kind is not PhraseKind.NOUN or not (ORDINALS.keys() | {"last"}) & {*phrase.words}:
+    if phrase.kind is not PhraseKind.NOUN or not (ORDINALS.keys() | _NTH.keys() | {"last"}) & {*phrase.words}:
         return tree
+    if not _NTH.keys().isdisjoint(phrase.words):  # "cube number 2 from the left"
+        counted = any(c.phrase.words[:1] == ("from",) and c.children[0].phrase.noun in SIDED for c in tree.children)
+        words = tuple(_NTH.get(word, word) for word in phrase.words)
+        return _counted_from_a_side(replace(tree, phrase=replace(phrase, words=words))) if counted else tree
     if any(is_superlative(word) or word.startswith("from ") for word in phrase.words):
         return tree
     for k, place in enumerate(tree.children):
@@ -155,6 +159,7 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
     return tree
 
 
+_NTH = {str(number): word for word, number in ORDINALS.items()}
 _COUNTED_FROM = {"left of": "from the right", "right of": "from the left"}
 
 

@@ -97,7 +97,7 @@ class _Builder(NounPhrases):
     def adverb(self, item: Item, after: Item) -> None:
         """A word by itself: said of a noun phrase, or of the way the verb is done."""
         name = item.name
-        if not self.nouns or self.preposition is not None:
+        if not self.nouns or (self.preposition is not None and self.preposition.name != "except"):
             return
         ranks = item.is_a("ordered") and after.kind is Kind.PREPOSITION and after.name in PLACING["ranks"]
         if ranks and self.joined and self.last.is_a("place"):  # "top row, second from the left"
