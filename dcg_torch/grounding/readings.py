@@ -31,10 +31,9 @@ from dcg_torch.grounding.grids import by_cells, with_cells
 from dcg_torch.grounding.looking import Looks, told_by_looking
 from dcg_torch.grounding.room_parts import by_corners, by_heights, with_corners
 from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
-from dcg_torch.grounding.scene_kinds import scene_kind
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
-from dcg_torch.grounding.spoken import ReadCommand, Words
+from dcg_torch.grounding.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.grounding.stacks import by_levels, with_levels
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.names.attributes import OF_KEY
@@ -64,29 +63,24 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
 
     Args:
         world: what may be told by looking is added to their trees.
-        learned: "rule=option" -> what is added to the log-weight of readings that took the option; the same with the
-            kind of the scene behind it, for such scenes alone.
+        learned: "rule=option" -> what is added to the log-weight of readings that took the option.
     """
-    kind = scene_kind(world) if len(command.readings) > 1 else None
-    weighed = []
-    for r in command.readings:
-        rules = tuple(r.rules) if kind is None else (*r.rules, *(f"{rule} {kind}" for rule in r.rules))
-        weighed.append(Reading(r.tree, r.log_weight + sum([learned.get(rule, 0.0) for rule in rules]), rules))
-    weighed.sort(key=lambda r: -r.log_weight)
+    weighed = [(r, log_weight(r, learned)) for r in command.readings]
+    weighed.sort(key=lambda one: -one[1])
     types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
-    strange = [speaks_of_what_is_not_there(r.tree, types) for r in weighed]
-    least = weighed[0].log_weight - _NEGLIGIBLE if weighed else 0.0
+    strange = [speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
+    least = weighed[0][1] - _NEGLIGIBLE if weighed else 0.0
     kept = [
-        r
-        for r, absent in zip(weighed, strange, strict=True)
-        if r.log_weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
+        (r, weight)
+        for (r, weight), absent in zip(weighed, strange, strict=True)
+        if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
-    trees = [_in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r in kept], world)]
+    trees = [_in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)
     told = by_attributes([told_by_looking(tree, command.text, looks) for tree, _ in led], world)
     return [
-        Reading(tree, r.log_weight - (_TO_A_ROOM if leads else 0.0), r.rules)
-        for tree, (_, leads), r in zip(by_cells(told, world), led, kept, strict=True)
+        Reading(tree, weight - (_TO_A_ROOM if leads else 0.0), tuple(r.rules))
+        for tree, (_, leads), (r, weight) in zip(by_cells(told, world), led, kept, strict=True)
     ]
 
 
@@ -110,6 +104,11 @@ def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
     if not any(OF_KEY in word for tree in trees for node in tree.walk() for word in node.phrase.words):
         return world
     return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
+
+
+def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
+    """Of a reading, with what was learned of the choices that led to it; see `worth_grounding`."""
+    return reading.log_weight + sum(learned.get(rule, 0.0) for rule in reading.rules)
 
 
 class SharedSearch:

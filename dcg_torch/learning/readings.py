@@ -2,8 +2,6 @@
 
 p(objects | command) = sum over readings r of p(r | command) p(objects | r), with p(r | command) proportional to
 exp(log-weight of the grammar + what is learned of the choices that led to r + how well r names something there).
-Each choice has a weight for all scenes and one for each kind of scene (`grounding.scene_kinds`): "go to the bed. take
-the lamp" ends at a thing in homes, and instructions on a board begin with it.
 """
 
 from __future__ import annotations
@@ -15,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.readings import Reading, sense
+from dcg_torch.grounding.readings import Reading, log_weight, sense
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.solvers import Point, lbfgs
 from dcg_torch.learning.landmarks import Lesson
@@ -102,5 +100,5 @@ def _fitted(told: Sequence[_Told], number: int) -> Floats:
 
 
 def _likeliest(readings: Sequence[Reading], learned: Mapping[str, float]) -> int:
-    weights = [r.log_weight + sum([learned.get(rule, 0.0) for rule in r.rules]) for r in readings]
+    weights = [log_weight(r, learned) for r in readings]
     return max(range(len(weights)), key=weights.__getitem__, default=0)
