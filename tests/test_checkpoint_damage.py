@@ -102,7 +102,7 @@ DESCRIPTIONS: list[tuple[str, str, Damage, str]] = [
     (
         "a child of nothing",
         "paper",
-        lambda d: with_child(d)["children"][0]["grounding"]["object"].update(id="\x1b[2Jnobody"),
+        lambda d: with_child(d)["children"][0][0][1].update(id="\x1b[2Jnobody"),
         "not in its world",
     ),
     (

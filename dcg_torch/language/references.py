@@ -119,16 +119,13 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if one.noun is None and not several and named:
         several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
-    if one.noun is not None:  # "take the middle cone"
-        several = [noun for noun in several if _picks_from(one, noun)]
-        several = several if several and decisions.choose("picked", CHOICES["picked"]) == "of_those" else []
-    if not several:
+    several = [noun for noun in several if one.noun is None or _picks_from(one, noun)]  # "take the middle cone"
+    if not several or (one.noun is not None and decisions.choose("picked", CHOICES["picked"]) != "of_those"):
         return
     whole = [noun for noun in several if noun.plural]
     tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
     group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
-    one.noun, one.pronoun = group.noun, False
-    one.color = one.color or group.color
+    one.noun, one.color, one.pronoun = group.noun, one.color or group.color, False
     for place in [place for place in one.children if _picks(place)]:
         one.children.remove(place)
         one.words += _picks(place)
@@ -149,8 +146,8 @@ def _picks_from(one: Item, noun: Item) -> bool:
 def _picks(place: Item) -> tuple[str, ...]:
     """ "(There are five cones,) the one in the middle" is the middle one, and that "at the left end" the leftmost."""
     at = place.children[0]
-    middle = ("middle",) if at.is_a("middle") else ()
-    return middle or tuple(f"{word}most" for word in at.words if at.noun == "end" and word in SETS["sides"])
+    end = [f"{word}most" for word in at.words if at.noun == "end" and word in SETS["sides"]]
+    return ("middle",) if at.is_a("middle") else tuple(end)
 
 
 def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
