@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.spoken import Words
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -91,8 +91,6 @@ def _told(tree: ParseTree, tall: bool) -> ParseTree:
     if stack is None:
         said = number is not None and along and along[0].startswith("from ") and tall and not tree.children
         return ParseTree(_at(phrase, number or 1, _ENDS[along[0]])) if said else tree
-    if number is None and [_ENDS[word] for word in along] == ["down"] and not counted(stack.children[0].phrase.words):
-        return tree  # the shipped weights know what the top of a stack is
     end = _ENDS[along[0]] if along else _AT_ENDS.get(stack.phrase.words[0])
     if phrase.noun in _FEET and not along:
         phrase, end = replace(phrase, noun=None), "up"
