@@ -67,3 +67,13 @@ def test_what_is_no_pick_of_them_stays_as_it_is_said(text: str) -> None:
 def test_all_of_that_name_may_be_meant_all_the_same() -> None:
     readings = default_parser().parse("There are three red cones. Take the leftmost cone.").readings
     assert {("of 3" in target_phrase(reading.tree).phrase.words) for reading in readings} == {True, False}
+
+
+@pytest.mark.parametrize(("end", "k"), [("far", 2), ("near", 0), ("back", 2), ("front", 0)])
+@pytest.mark.parametrize("said", ["cone", "one"])
+def test_a_row_that_leads_away_has_a_near_and_a_far_end(said: str, end: str, k: int) -> None:
+    spots = [(2.0, 0.0), (3.0, 0.0), (4.0, 0.0), (3.0, 5.5), (3.0, -5.5), (8.5, 0.0)]
+    things = [Percept(f"c{n}", "cone", "red", (*spot, 0.0)) for n, spot in enumerate(spots)]
+    world = _model().world_model(things, robot=Pose(-1.0, 0.0, 0.0))
+    answer = _model().ground(f"There are three red cones in a row. Take the {said} at the {end} end.", world)
+    assert [o.id for o in answer.objects] == [f"c{k}"]

@@ -9,7 +9,7 @@ from dataclasses import replace
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import CHOICES, NTH, PLACING, SETS, VERBS
+from dcg_torch.language.lexicon import CHOICES, NORMAL, NTH, PLACING, SETS, VERBS
 from dcg_torch.names.rooms import room_named
 
 
@@ -146,8 +146,8 @@ def _picks_from(one: Item, noun: Item) -> bool:
 def _picks(place: Item) -> tuple[str, ...]:
     """ "(There are five cones,) the one in the middle" is the middle one, and that "at the left end" the leftmost."""
     at = place.children[0]
-    end = [f"{word}most" for word in at.words if at.noun == "end" and word in SETS["sides"]]
-    return ("middle",) if at.is_a("middle") else tuple(end)
+    most = [f"{word}most" for word in at.words if at.noun == "end" and word in SETS["sides"]]
+    return ("middle",) if at.is_a("middle") else tuple(NORMAL.get(word, word) for word in most)
 
 
 def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
