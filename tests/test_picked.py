@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import random
+from collections.abc import Callable
 
 import pytest
 
@@ -17,7 +18,7 @@ TOLD = (
     "Do you see the {n} red cones in a line? Take the {pick}.",
     "In the row of {n} red cones, pick up the {pick}.",
 )
-PICKS = {
+PICKS: dict[str, Callable[[int], int]] = {
     "leftmost cone": lambda n: n - 1,
     "middle object": lambda n: n // 2,
     "cone in the middle": lambda n: n // 2,
