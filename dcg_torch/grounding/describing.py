@@ -15,14 +15,14 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
-from dcg_torch.grounding.measuring import MORE_THAN, log_more
 from dcg_torch.grounding.modifiers import is_in_a_group
-from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
-from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
+from dcg_torch.interpretation.measuring import MORE_THAN, log_more
+from dcg_torch.interpretation.plain_words import in_group
+from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
