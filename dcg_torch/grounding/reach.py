@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 
 def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
@@ -46,6 +47,54 @@ def of_none(log_psi: Floats, scores: Floats) -> Floats:
 
 _ALIKE = 1.0
 """Nats by which the scores of landmarks of one name may differ."""
+
+
+def by_distance(
+    name: str, landmarks: Sequence[int], scores: Floats, compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) "the mug closest to a lamp" is the nearest of all mugs to any lamp, not one for each lamp.
+
+    Args:
+        name: of the relation.
+        landmarks: (combos,) number of each.
+        scores: (combos,) of the landmarks; those described alike are weighed against one another.
+        compared: (things,) those that are compared; None: those of one type.
+
+    Returns:
+        What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
+        or nearer to any landmark than the farthest.
+    """
+    alike = np.flatnonzero(scores >= scores.max() - _ALIKE)
+    lost = np.zeros((len(landmarks), len(encoder.all)))
+    if len(alike) < 2 or name not in _E_FOLD:
+        return lost
+    where, mark = encoder.layout, np.array(landmarks)[alike]
+    apart = np.abs(where.position[mark, None, :2] - where.position[None, :, :2]) - where.half[mark][:, None]
+    if where.wide is not None:
+        apart -= where.wide[mark][:, None] + where.wide[None]
+    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2) + _TOUCHING
+    gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
+    if _E_FOLD[name] < 0.0:
+        gap = np.broadcast_to(gap.min(axis=0), gap.shape)
+    stands = np.isfinite(gap).any(axis=0) & where.solid
+    kinds = [o.type for o in encoder.all] if compared is None else compared.tolist()
+    for kind in set(kinds):
+        of = np.flatnonzero(stands & np.array([one == kind for one in kinds]))
+        if len(of):
+            away = np.log(gap[:, of])
+            ends = away.min() if _E_FOLD[name] > 0.0 else away.max()
+            lost[np.ix_(alike, of)] = np.maximum(_FARTHEST, -_E_FOLD[name] * (away - ends))
+    return lost
+
+
+_TOUCHING = 0.1
+"""Units of a gap below which distances are alike."""
+_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(
+    ("close to", *AROUND - {"around", "surrounded by"}), 1.5
+)
+"""Nats for each e-fold of a distance, by relation."""
+_FARTHEST = -6.0
+"""The most that is lost."""
 
 
 def inside_of(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats | None:
