@@ -72,7 +72,7 @@ def by_distance(
     apart = np.abs(where.position[mark, None, :2] - where.position[None, :, :2]) - where.half[mark][:, None]
     if where.wide is not None:
         apart -= where.wide[mark][:, None] + where.wide[None]
-    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2) + _TOUCHING
+    gap = np.nan_to_num(np.linalg.norm(np.maximum(apart, 0.0), axis=2), nan=np.inf) + _TOUCHING
     gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
     if _E_FOLD[name] < 0.0:
         gap = np.broadcast_to(gap.min(axis=0), gap.shape)
