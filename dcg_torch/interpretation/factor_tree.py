@@ -7,10 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
+from dcg_torch.interpretation.from_you import from_you
 from dcg_torch.interpretation.joined import each_meant
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
-from dcg_torch.interpretation.scene_kinds import scene_kind
+from dcg_torch.interpretation.scene_kinds import scene_kind, stands_among
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,
@@ -106,11 +109,13 @@ class Setting(NamedTuple):
         there: the names of the types that may be there.
         level: does all stand on one level, or as on a page that stands upright?
         scene: the kind of scene.
+        among: does the robot stand among the things?
     """
 
     there: frozenset[str]
     level: tuple[bool, bool]
     scene: str
+    among: bool = False
 
 
 _NOWHERE = Setting(frozenset(), (False, False), "")
@@ -118,17 +123,19 @@ _NOWHERE = Setting(frozenset(), (False, False), "")
 
 def setting_of(world: WorldModel) -> Setting:
     """Of a world."""
-    heights = [o.position[2] for o in world.objects if o.position is not None]
-    flat = bool(heights) and max(heights) - min(heights) < _LEVEL
+    at = np.array([o.position for o in world.objects if o.position is not None]).reshape(-1, 3)
+    flat = len(at) > 0 and float(np.ptp(at[:, 2])) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
-    return Setting(heads(world.classes), (flat, upright), scene_kind(world))
+    among = world.robot is not None and stands_among(at[:, :2] - (world.robot.x, world.robot.y))
+    return Setting(heads(world.classes), (flat, upright), scene_kind(world), among)
 
 
 @functools.lru_cache(maxsize=1024)
 def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
-    there, (flat, upright), scene = setting
-    found = _described(in_plain_words(in_whole_line(tree), there, flat=flat or upright, upright=upright))
+    there, (flat, upright), scene, among = setting
+    said = from_you(in_whole_line(tree), among=among)
+    found = _described(in_plain_words(said, there, flat=flat or upright, upright=upright))
     return _said_in(found, scene) if scene else found
 
 

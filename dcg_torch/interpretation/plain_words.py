@@ -13,6 +13,7 @@ from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of
 from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
+    BESIDE_WHOM,
     BY_COMPASS,
     COMPASS,
     DEGREES,
@@ -271,6 +272,9 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         return ()
     if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")
+    owner = next((word for word, who in OWNED_BY.items() if who == phrase.noun), None)
+    if owner is not None and name in BESIDE_WHOM:  # "left of you" is not beside you alone
+        name, phrase = "on", replace(phrase, noun=BESIDE_WHOM[name], words=(owner,))
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
         if name in SIDE_OF:
             name, phrase = "on", replace(phrase, noun=SIDE_OF[name], words=())

@@ -6,6 +6,9 @@ are taught together agree on what they share, and keep apart what they don't.
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from dcg_torch.types import WorldModel
 
 _MANY = 25
@@ -30,3 +33,12 @@ def scene_kind(world: WorldModel) -> str:
         "heights": any(abs(z - low) > step for z in {o.position[2] for o in seen if o.position is not None}),
     }
     return " ".join(name for name, holds in told.items() if holds) or "bare"
+
+
+def stands_among(seen: NDArray[np.float64]) -> bool:
+    """Is there something on every side of the robot?
+
+    Args:
+        seen: (n, 2) where things are, from the robot; all finite.
+    """
+    return len(seen) > 0 and bool((seen.min(axis=0) <= 0.0).all() and (seen.max(axis=0) >= 0.0).all())

@@ -1,0 +1,42 @@
+"""Adverbs that say where a thing is for the one who is spoken to: "the chair straight ahead", "the one behind"."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from dcg_torch.names.vocabulary import ADVERBS, BEARINGS
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
+
+_YOU = ParseTree(Phrase(PhraseKind.NOUN, "you", (), "you"))
+
+
+def from_you(tree: ParseTree, *, among: bool) -> ParseTree:
+    """A tree in which such words are places: "in front of you", "behind you".
+
+    Args:
+        among: does the robot stand among the things? Else nothing is behind it, and "in front" is a side of theirs.
+    """
+    children = tuple(_of_place(from_you(child, among=among), among) for child in tree.children)
+    phrase = tree.phrase
+    said = [word for word in phrase.words if word in ADVERBS and (among or word not in BEARINGS)]
+    if phrase.kind is not PhraseKind.NOUN or not said or phrase.noun is None:
+        return tree if children == tree.children else replace(tree, children=children)
+    places = tuple(_place(word, ADVERBS[word]) for word in said)
+    kept = tuple(word for word in phrase.words if word not in said)
+    return ParseTree(replace(phrase, words=kept), (*children, *places))
+
+
+def _of_place(place: ParseTree, among: bool) -> ParseTree:
+    """ "In front", "at your back", where the robot stands among the things."""
+    if not among or place.phrase.kind is not PhraseKind.PREPOSITION or len(place.children) != 1:
+        return place
+    side = place.children[0]
+    own = side.phrase.words == ("your",)
+    bare = place.phrase.words[:1] == ("in",) and side.phrase.text == side.phrase.noun and not side.phrase.words
+    if side.children or side.phrase.noun not in BEARINGS or not (own or bare):
+        return place
+    return _place(place.phrase.text, BEARINGS[side.phrase.noun])
+
+
+def _place(text: str, relation: str) -> ParseTree:
+    return ParseTree(Phrase(PhraseKind.PREPOSITION, text, (relation,)), (_YOU,))
