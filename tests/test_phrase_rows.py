@@ -69,8 +69,8 @@ def test_scores_and_their_transpose_belong_together() -> None:
     assert float((rows.scores(d) * residual).sum()) == pytest.approx(float((rows.gradient(residual) * d).sum()))
 
 
-def test_both_ways_to_merge_find_the_same_rows(monkeypatch: pytest.MonkeyPatch) -> None:
-    """By a table of phrases and groundings, and phrase after phrase."""
+def test_all_ways_to_merge_find_the_same_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a table of phrases and groundings, by their numbers, and phrase after phrase."""
     rng = np.random.default_rng(2)
     language, things = rng.integers(-1, 6, (30, 2)), rng.integers(-1, 5, (9_000, 3))
     phrase, label, weight = rng.integers(0, 30, 9_000), rng.integers(0, 2, 9_000), rng.uniform(0.5, 2.0, 9_000)
@@ -86,12 +86,14 @@ def test_both_ways_to_merge_find_the_same_rows(monkeypatch: pytest.MonkeyPatch) 
         return dict(zip(keys, map(tuple, found.count.T.tolist()), strict=True))
 
     by_table = counted()
+    monkeypatch.setattr(designs, "_TABLE", 0)
+    by_number = counted()
     monkeypatch.setattr(designs, "_CHUNK", 1_000)
-    monkeypatch.setattr(designs, "may_have_few", lambda *_: False)
     by_phrase = counted()
-    assert by_phrase.keys() == by_table.keys()
+    assert by_phrase.keys() == by_number.keys() == by_table.keys()
     for key, counts in by_table.items():
         assert by_phrase[key] == pytest.approx(counts)
+        assert by_number[key] == pytest.approx(counts)
 
 
 def test_runs_of_phrases_hold_all_rows_once() -> None:

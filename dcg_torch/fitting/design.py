@@ -243,27 +243,30 @@ _Counted = Callable[[Numbers | slice, Ints, int], Floats]
 def _merged(language: Bag, grounding: Bag, phrase: Numbers, counted: _Counted) -> DesignMatrix:
     """Labelled factors in the order of their phrases, identical ones merged.
 
-    Where groundings are few, by a table of phrases and groundings; else by hashes, those of some phrases at a time.
+    Where groundings or factors are few, by the number of each grounding; else those of some phrases at a time.
     """
     phrases, number = distinct_rows(language)
     own = number.astype(shortest(len(phrases)))[phrase]
     most = (_TABLE * len(own) + 1024) / max(1, len(phrases))
     if may_have_few(grounding, most):
         things, thing = distinct_rows(grounding)
-        if len(things) <= most:
-            return _by_table(phrases, own, things, thing, counted)
+        if len(things) <= most or len(own) <= _CHUNK:
+            return _by_number(phrases, own, things, thing, counted)
     return _by_phrase(phrases, own, grounding, counted)
 
 
-def _by_table(phrases: Bag, own: Numbers, things: Bag, thing: Ints, counted: _Counted) -> DesignMatrix:
+def _by_number(phrases: Bag, own: Numbers, things: Bag, thing: Ints, counted: _Counted) -> DesignMatrix:
     """The factors from which phrase and grounding each has."""
     thing += own.astype(np.int64) * len(things)
-    present = np.zeros(len(phrases) * len(things), dtype=np.bool_)
-    present[thing] = True
-    cells = np.flatnonzero(present)
+    if len(phrases) * len(things) > _TABLE * len(own) + 1024:
+        first, which = numbered(thing.view(np.uint64))
+        cells = thing[first]
+    else:
+        present = np.zeros(len(phrases) * len(things), dtype=np.bool_)
+        present[thing] = True
+        cells, which = np.flatnonzero(present), (present.cumsum() - 1)[thing]
     phrase, kind = np.divmod(cells, max(1, len(things)))
-    count = counted(slice(None), (present.cumsum() - 1)[thing], len(cells))
-    return DesignMatrix(phrases, things[kind], phrase, count, True)
+    return DesignMatrix(phrases, things[kind], phrase, counted(slice(None), which, len(cells)), True)
 
 
 def _by_phrase(phrases: Bag, own: Numbers, grounding: Bag, counted: _Counted) -> DesignMatrix:

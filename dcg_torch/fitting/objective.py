@@ -181,6 +181,9 @@ class Objective:
 
     def _hessian(self, curvature: Floats) -> Callable[[Floats], Floats]:
         """As a function of d (Q, K), from the curvature (Q, Q, N) of each row."""
+        if len(curvature) == 1:
+            own, strength = curvature[0], self.strength / 2.0
+            return lambda d: self.rows.through(d, lambda rows, u: own[:, rows] * u) + strength * d
 
         def bend(rows: slice, u: Floats) -> Floats:
             return _times(curvature[:, :, rows], u[:, None])[:, 0]
