@@ -226,25 +226,23 @@ class Search:
         meant = [c for c in self._tables.factor.correspondences if c is not Correspondence.INACTIVE]
         n, number = self._meanable, self.encoder.number
         spread = Spread(self._tables, tree.phrase, GROUNDING_OF[tree.phrase.kind], n)
-        found, base, row, about = list[Floats](), list[float](), list[int](), list[int]()
-        first, own_of = list[int](), list[int]()
-        for c, combo in enumerate(combos):
-            own = tuple([number[h.child.grounding.object.id] for h in combo])
-            found.append(spread.of(tuple([h.child for h in combo]), own))
-            first.append(len(base))
-            base += [sum([h.log_score for h in combo])] * len(found[-1])
-            things = own if len(own) == 1 else tuple(dict.fromkeys(own))
-            own_of += range(first[-1] + 1, len(base))
-            row += [c] * len(things)
-            about += things
-        cells = np.concatenate(found) + np.array(base)[:, None]
+        about = [[number[h.child.grounding.object.id] for h in combo] for combo in combos]
+        base = np.array([sum([h.log_score for h in combo]) for combo in combos])
         scores = np.empty((len(combos), n, len(meant)))
-        scores[:] = cells[first][:, None]
-        scores[row, about] = cells[own_of]
+        if combos[0] and len(combos[0]) == 1:  # as nearly all have
+            cells = spread.of_one([h.child for (h,) in combos]) + base[:, None, None]
+            scores[:] = cells[:, :1]
+            scores[range(len(combos)), [j for (j,) in about]] = cells[:, 1]
+        else:
+            for own, combo, things, total in zip(scores, combos, about, base.tolist(), strict=True):
+                cells = spread.of([h.child for h in combo], things) + total
+                own[:] = cells[0]
+                own[list(dict.fromkeys(things))] = cells[1:]
         if n <= FEW:
             return Scored(tree, combos, meant, scores)
         code = np.zeros(n, dtype=np.int64)
-        code[about] = np.array(about) + 1
+        some = [j for things in about for j in things]
+        code[some] = np.array(some) + 1
         return Scored(tree, combos, meant, scores, code)
 
     def _only_named(self, tree: ParseTree, found: Scored) -> Scored:
