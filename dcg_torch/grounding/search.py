@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
+from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.scored import FEW, Scored
-from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.evidence import is_generic
@@ -86,7 +87,7 @@ class Search:
             tree,
             world,
             best,
-            dict(zip(number, np.exp(totals - np.logaddexp.reduce(totals)).tolist(), strict=False)),
+            ByThing(number, np.exp(totals - np.logaddexp.reduce(totals))),
             {} if fits is None else ByThing(number, fits),
             {} if odds is None else ByThing(number, odds),
             None if brief else self.runner_up(tree, best),
