@@ -41,11 +41,11 @@ def test_peers_have_our_objective(rows: Rows) -> None:
 
 
 def test_a_fit_of_many_rows_takes_little_beside_them() -> None:
-    """60 MB beside 100,000 sparse rows, which take 7.7 MB themselves, is the goal: eight times as much."""
-    rows = sparse_rows(20_000, np.random.default_rng(1))
+    """60 MB beside a million sparse rows, which take 77 MB themselves, is the goal; few take more for each."""
+    rows = sparse_rows(100_000, np.random.default_rng(1))
     ours(rows)  # what is imported at the first time is not the fit's
     own = sum(part.nbytes for part in (rows.language, rows.grounding, rows.phrase, rows.label)) / 2**20
-    assert peak(lambda: ours(rows)) < 8 * own
+    assert peak(lambda: ours(rows)) < 2.6 * own
 
 
 @pytest.mark.parametrize("told", [True, False])

@@ -30,9 +30,10 @@ from making import (
 from oracle import KIND, Configuration
 
 from dcg_torch.fitting.psi import BINARY, TERNARY
+from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.solution import ByThing, Hypothesis, Solution
+from dcg_torch.grounding.solution import Hypothesis, Solution
 from dcg_torch.types import (
     Child,
     Correspondence,
@@ -271,3 +272,14 @@ def test_values_by_id_are_a_mapping_of_the_first_things() -> None:
     assert "place" not in found
     with pytest.raises(KeyError):
         found["place"]
+
+
+def test_a_mixture_of_values_by_id_is_of_the_same_things_alone() -> None:
+    number = {"a": 0, "b": 1, "place": 2}
+    one, other = ByThing(number, np.array([0.25, 0.75])), ByThing(number, np.array([1.0, 0.0]))
+    mixed = ByThing.mixture([one, other], [0.5, 0.5])
+    assert mixed is not None
+    assert dict(mixed) == {"a": 0.625, "b": 0.375}
+    assert repr(one) == "{'a': 0.25, 'b': 0.75}"
+    assert ByThing.mixture([one, ByThing({"a": 0, "c": 1}, np.array([1.0, 0.0]))], [0.5, 0.5]) is None
+    assert ByThing.mixture([one, {"a": 1.0, "b": 0.0}], [0.5, 0.5]) is None

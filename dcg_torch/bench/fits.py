@@ -25,7 +25,7 @@ from dcg_torch.storage.arguments import Arguments
 def ours(rows: Rows, solver: str = "auto") -> LogLinearFactor:
     """From labelled rows to weights."""
     factor = rows.factor()
-    weight = np.ones(len(rows.phrase))
+    weight = np.broadcast_to(1.0, len(rows.phrase))
     design = merge(rows.language, rows.grounding, rows.phrase, rows.label, weight, len(rows.correspondences))
     fit(factor, [design], l2=L2, tolerance=TOLERANCE, max_steps=5_000, solver=solver)  # type: ignore[arg-type]
     return factor

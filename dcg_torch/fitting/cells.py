@@ -5,33 +5,45 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import DesignMatrix, Ints, distinct_rows
-from dcg_torch.fitting.psi import Bag, Floats, binary
-from dcg_torch.fitting.rows import GridRows, Numbers, SparseRows, smallest_index
+from dcg_torch.fitting.design import DesignMatrix, Ints, may_have_few
+from dcg_torch.fitting.phrase_rows import PhraseRows
+from dcg_torch.fitting.psi import Bag, Numbers, binary
+from dcg_torch.fitting.rows import GridRows, SparseRows, smallest_index
 
 Mask = NDArray[np.bool_]
 
 _GRID = 0.25
 """Share of phrases and groundings that occur together from which on the whole product is the faster way."""
+_MANY, _SCATTERED = 1 << 18, 2
+"""Entries of all rows from which on rows are done by phrases, if tables of what each phrase may fire with have at most
+so many times as many cells."""
+_AT_ONCE = 1 << 10
+"""Phrases at once."""
 
 
 def fills_grid(design: DesignMatrix) -> bool:
     """Do most phrases occur with most groundings?"""
-    return len(design.phrase) >= _GRID * len(design.language) * len(design.things[0])
+    most = len(design.phrase) / (_GRID * max(1, len(design.language)))
+    return may_have_few(design.grounding, most) and len(design.things[0]) <= most
 
 
-def cell_rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -> tuple[GridRows | SparseRows, Ints]:
+def cell_rows(
+    design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool
+) -> tuple[GridRows | PhraseRows | SparseRows, Ints | slice]:
     """What fires, and where the design's rows are in the grid, or which of them are left.
 
     Args:
+        design: its rows are merged, or in the order of their phrases.
         fires: (L, G) the pairs that move.
         whole: all pairs may move, whether they fire or not; to a grid they are all the same.
         unique: no two rows fire the same.
     """
-    language, active = binary(design.language, len(fires)), np.flatnonzero(fires)
-    grid = _grid(design, language, fires.shape[1], None if whole else active) if unique else None
-    if grid is not None:
-        return grid
+    active = np.flatnonzero(fires)
+    if unique and fills_grid(design):
+        return _grid(design, fires.shape, None if whole else active)
+    if _MANY < design.grounding.size >= len(design.language) * (fires.shape[1] + 1) / _SCATTERED:
+        return PhraseRows.of(design, active, fires.shape), slice(None)
+    language = binary(design.language, len(fires))
     moving = np.zeros((len(language), fires.shape[1] + 1), dtype=np.bool_)
     moving[:, :-1] = language @ fires > 0.0
     rows, row_cells, cells = _used_cells(design, moving)
@@ -40,12 +52,10 @@ def cell_rows(design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool) -
     return SparseRows.of(row_cells, cell_variables, shape), rows
 
 
-def _grid(design: DesignMatrix, language: Floats, groundings: int, active: Ints | None) -> tuple[GridRows, Ints] | None:
-    """The design's rows as cells of a grid, if they fill it."""
-    things, thing = distinct_rows(design.grounding)
-    if len(thing) < _GRID * len(language) * len(things):
-        return None
-    return GridRows(language, binary(things, groundings), active), design.phrase * len(things) + thing
+def _grid(design: DesignMatrix, shape: tuple[int, int], active: Ints | None) -> tuple[GridRows, Ints]:
+    """The design's rows as cells of a grid."""
+    (things, thing), language = design.things, binary(design.language, shape[0])
+    return GridRows(language, binary(things, shape[1]), active), design.phrase * len(things) + thing
 
 
 def _used_cells(design: DesignMatrix, moving: Mask) -> tuple[Ints, tuple[Ints, Numbers], Ints]:
@@ -71,7 +81,8 @@ def _variables(language: Bag, cells: tuple[Ints, Ints], fires: Mask, active: Int
     phrase, column = cells
     variable = np.full(fires.size + 1, -1, dtype=smallest_index(fires.size))
     variable[active] = np.arange(len(active))
-    pairs = np.where(language >= 0, language * fires.shape[1], fires.size)[phrase]
+    wide = language.astype(np.int64)
+    pairs = np.where(wide >= 0, wide * fires.shape[1], fires.size)[phrase]
     pairs += column[:, None]
     of_cell = variable[np.minimum(pairs, fires.size, out=pairs)]
     fire = of_cell >= 0
@@ -83,9 +94,14 @@ def _starts(lengths: Ints) -> Ints:
     return np.concatenate([[0], np.cumsum(lengths)])
 
 
-def together(design: DesignMatrix, groundings: int) -> Floats:
-    """(A, G) does a grounding column fire in some row of a phrase?"""
-    found = np.zeros((len(design.language), groundings + 1))
+def firing(design: DesignMatrix, active: Mask) -> Mask:
+    """(L, G) which of the active weights fire."""
+    together = np.zeros((len(design.language), active.shape[1] + 1), dtype=np.bool_)
     for column in design.grounding.T:
-        found[design.phrase, column] = 1.0
-    return found[:, :-1]
+        together[design.phrase, column] = True
+    found = np.zeros(active.shape, dtype=np.bool_)
+    for start in range(0, len(together), _AT_ONCE):
+        phrases = slice(start, start + _AT_ONCE)
+        found |= binary(design.language[phrases], len(active)).T @ together[phrases, :-1].astype(np.float64) > 0.0
+    found &= active
+    return found

@@ -1,20 +1,22 @@
 """The design matrix of the log-linear factor: labelled factors with identical rows merged.
 
-Rows are merged by number, not by sorting them. Every phrase and every grounding gets a number from a hash of what it
-fires, and a factor is a cell of the table of phrases and groundings. A hash is the sum of 64 random bits of each
-column, so two different rows among a million share one with a chance below one in ten million.
+Rows are merged by number, not by sorting them: a hash of what they fire gives each phrase and each grounding a number.
+Where nearly all groundings differ, those of a few phrases are compared at a time: a million rows need little memory
+beside their own. A hash is the sum of 64 random bits of each column, so two different rows among a million share
+one with a chance below one in ten million.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.fitting.psi import Bag, Floats, distinct
+from dcg_torch.fitting.psi import Bag, Floats, Numbers, distinct
 
 Ints = NDArray[np.int64]
 Hashes = NDArray[np.uint64]
@@ -23,6 +25,8 @@ _1, _27, _30, _31 = (np.uint64(number) for number in (1, 27, 30, 31))
 _WEYL, _FIRST, _SECOND = (np.uint64(factor) for factor in (0x9E3779B97F4A7C15, 0xBF58476D1CE4E5B9, 0x94D049BB133111EB))
 _CHUNK = 1 << 16
 """Rows that are hashed at once, so that a million of them need little memory beside their own."""
+_TABLE = 4
+"""How many times the factors a table of phrases and groundings may have cells."""
 
 
 @dataclass(frozen=True)
@@ -31,15 +35,17 @@ class DesignMatrix:
 
     Attributes:
         language: (A, k) bag of the distinct phrases.
-        grounding: (N, k') bag of the distinct factors.
+        grounding: (N, k') bag of the distinct factors; in short integers where they were merged.
         phrase: (N,) the phrase of each factor.
         count: (P, N) summed weights of the examples with each label.
+        merged: no two rows are alike, and they are in the order of their phrases.
     """
 
     language: Bag
     grounding: Bag
     phrase: Ints
     count: Floats
+    merged: bool = False
 
     @cached_property
     def things(self) -> tuple[Bag, Ints]:
@@ -54,7 +60,8 @@ class DesignMatrix:
                 that of the padding, all -1.
             grounding: the same for the grounding columns.
         """
-        return replace(self, language=_renamed(self.language, language), grounding=_renamed(self.grounding, grounding))
+        bags = _renamed(self.language, language), _renamed(self.grounding, grounding)
+        return replace(self, language=bags[0], grounding=bags[1], merged=False)
 
 
 def merge(
@@ -75,19 +82,25 @@ def merge(
         weight: (n,) of each factor in the likelihood.
         correspondences: P.
     """
-    cells = _Cells.of(language, grounding, phrase)
-    size = len(cells.phrase)
-    count = np.zeros(correspondences * size)
-    np.add.at(count, label * size + cells.which, weight)
-    return cells.design(count.reshape(correspondences, size))
+
+    def counted(rows: Numbers | slice, which: Ints, size: int) -> Floats:
+        cells = label[rows] * size + which
+        count: Floats = np.bincount(cells, weight[rows], minlength=correspondences * size).astype(np.float64)
+        return count.reshape(correspondences, size)
+
+    return _merged(language, grounding, phrase, counted)
 
 
 def concatenate(parts: Sequence[DesignMatrix]) -> DesignMatrix:
     """One design matrix of several, which is the sum of their likelihoods; identical rows are merged again."""
     stacked = stack(parts)
-    cells = _Cells.of(stacked.language, stacked.grounding, stacked.phrase)
-    size = len(cells.phrase)
-    return cells.design(np.stack([np.bincount(cells.which, c, minlength=size) for c in stacked.count]))
+    if stacked.merged:
+        return stacked
+
+    def counted(rows: Numbers | slice, which: Ints, size: int) -> Floats:
+        return np.stack([np.bincount(which, c[rows], minlength=size) for c in stacked.count])
+
+    return _merged(stacked.language, stacked.grounding, stacked.phrase, counted)
 
 
 def stack(parts: Sequence[DesignMatrix]) -> DesignMatrix:
@@ -105,7 +118,8 @@ def stack(parts: Sequence[DesignMatrix]) -> DesignMatrix:
 
 def stack_bags(bags: Sequence[Bag]) -> Bag:
     """Bags of different widths one after another."""
-    out = np.full((sum(map(len, bags)), max((bag.shape[1] for bag in bags), default=0)), -1, dtype=np.int64)
+    shape = sum(map(len, bags)), max((bag.shape[1] for bag in bags), default=0)
+    out: Bag = np.full(shape, -1, dtype=np.result_type(np.int8, *bags))
     start = 0
     for bag in bags:
         out[start : start + len(bag), : bag.shape[1]] = bag
@@ -113,12 +127,18 @@ def stack_bags(bags: Sequence[Bag]) -> Bag:
     return out
 
 
-def distinct_rows(bag: Bag) -> tuple[Bag, Ints]:
-    """The distinct rows of a bag, each sorted, and which of them every row is."""
+def distinct_rows(bag: Bag, apart: Numbers | None = None) -> tuple[Bag, Ints]:
+    """The distinct rows of a bag, each sorted, and which of them every row is.
+
+    Args:
+        apart: (n,) rows that differ here are never alike; None: there are none such.
+    """
     firsts, parts, seen = [], [], 0
     found: list[Hashes] = []
     for start in range(0, max(1, len(bag)), _CHUNK):
         hashes = row_hashes(bag[start : start + _CHUNK])
+        if apart is not None:
+            hashes += _bits_apart(apart[start : start + _CHUNK])
         first, which = numbered(hashes)
         found.append(hashes[first])
         firsts.append(first + start)
@@ -132,8 +152,16 @@ def distinct_rows(bag: Bag) -> tuple[Bag, Ints]:
     if np.count_nonzero(rows < 0) == np.count_nonzero(bag[first] < 0):
         return rows, which
     # Rows that name a column twice hashed as others do until now.
-    own, among = numbered(row_hashes(rows))
+    hashes = row_hashes(rows)
+    if apart is not None:
+        hashes += _bits_apart(apart[first])
+    own, among = numbered(hashes)
     return rows[own], among[which]
+
+
+def _bits_apart(numbers: Numbers) -> Hashes:
+    """64 bits for each number, others than those of the columns."""
+    return scrambled(~numbers.astype(np.uint64))
 
 
 def row_hashes(bag: Bag) -> Hashes:
@@ -171,6 +199,31 @@ def numbered(keys: Hashes) -> tuple[Ints, Ints]:
     return np.minimum.reduceat(order, new.nonzero()[0]), which
 
 
+def shortest(most: int) -> type[np.signedinteger[Any]]:
+    """The shortest type of whole numbers from -1 to `most`."""
+    return next(t for t in (np.int8, np.int16, np.int32, np.int64) if most <= np.iinfo(t).max)
+
+
+class Run(NamedTuple):
+    """Phrases that follow one another, and their rows."""
+
+    phrases: slice
+    rows: slice
+
+
+def runs(ends: Ints, most: int) -> Iterator[Run]:
+    """Phrases in runs of at most so many rows, but for a phrase that has more.
+
+    Args:
+        ends: (phrases,) how many rows the phrases up to each one have; rows are in their order.
+    """
+    phrase = row = 0
+    while phrase < len(ends):
+        after = max(phrase + 1, int(ends.searchsorted(row + most, "right")))
+        yield Run(slice(phrase, after), slice(row, int(ends[after - 1])))
+        phrase, row = after, int(ends[after - 1])
+
+
 def run_starts(numbers: Ints) -> Ints:
     """Where in (n,) numbers, n > 0, each run of equal ones begins."""
     found = np.flatnonzero(numbers[1:] != numbers[:-1])
@@ -178,37 +231,70 @@ def run_starts(numbers: Ints) -> Ints:
     return np.concatenate([np.zeros(1, dtype=np.int64), found])
 
 
-@dataclass(frozen=True)
-class _Cells:
-    """The distinct factors of many: which phrase and grounding each has, and which of them every factor is."""
+def may_have_few(bag: Bag, most: float) -> bool:
+    """May there be so few distinct rows? The first of many may show that there are not."""
+    return len(bag) <= _CHUNK or len(distinct_rows(bag[:_CHUNK])[0]) <= most
 
-    language: Bag
-    things: Bag
-    phrase: Ints
-    thing: Ints
-    which: Ints
 
-    @classmethod
-    def of(cls, language: Bag, grounding: Bag, phrase: Ints) -> _Cells:
-        phrases, phrase_of = distinct_rows(language)
-        things, code = distinct_rows(grounding)
-        code += phrase_of[phrase] * len(things)
-        if len(phrases) * len(things) > 4 * len(code) + 1024:
-            cells, which = np.unique(code, return_inverse=True)
-        else:
-            present = np.zeros(len(phrases) * len(things), dtype=np.bool_)
-            present[code] = True
-            cells = np.flatnonzero(present)
-            which = (np.cumsum(present) - 1)[code]
-        phrase, thing = np.divmod(cells, max(1, len(things)))
-        return cls(phrases, things, phrase, thing, which)
+_Counted = Callable[[Numbers | slice, Ints, int], Floats]
+"""(P, size) sums of what is counted of the factors of some numbers, by which of `size` distinct ones each one is."""
 
-    def design(self, count: Floats) -> DesignMatrix:
-        return DesignMatrix(self.language, self.things[self.thing], self.phrase, count)
+
+def _merged(language: Bag, grounding: Bag, phrase: Numbers, counted: _Counted) -> DesignMatrix:
+    """Labelled factors in the order of their phrases, identical ones merged.
+
+    Where groundings or factors are few, by the number of each grounding; else those of some phrases at a time.
+    """
+    phrases, number = distinct_rows(language)
+    own = number.astype(shortest(len(phrases)))[phrase]
+    most = (_TABLE * len(own) + 1024) / max(1, len(phrases))
+    if may_have_few(grounding, most):
+        things, thing = distinct_rows(grounding)
+        if len(things) <= most or len(own) <= _CHUNK:
+            return _by_number(phrases, own, things, thing, counted)
+    return _by_phrase(phrases, own, grounding, counted)
+
+
+def _by_number(phrases: Bag, own: Numbers, things: Bag, thing: Ints, counted: _Counted) -> DesignMatrix:
+    """The factors from which phrase and grounding each has."""
+    thing += own.astype(np.int64) * len(things)
+    if len(phrases) * len(things) > _TABLE * len(own) + 1024:
+        first, which = numbered(thing.view(np.uint64))
+        cells = thing[first]
+    else:
+        present = np.zeros(len(phrases) * len(things), dtype=np.bool_)
+        present[thing] = True
+        cells, which = np.flatnonzero(present), (present.cumsum() - 1)[thing]
+    phrase, kind = np.divmod(cells, max(1, len(things)))
+    return DesignMatrix(phrases, things[kind], phrase, counted(slice(None), which, len(cells)), True)
+
+
+def _by_phrase(phrases: Bag, own: Numbers, grounding: Bag, counted: _Counted) -> DesignMatrix:
+    """The factors, phrase after phrase."""
+    order = own.argsort(kind="stable").astype(shortest(len(own)), copy=False)
+    ends = np.bincount(own, minlength=len(phrases)).cumsum()
+    bag_type = shortest(int(grounding.max(initial=0)))
+    bags, owners, counts = list[Bag](), list[Numbers](), list[Floats]()
+    for phrase_run in runs(ends, _CHUNK):
+        rows = order[phrase_run.rows]
+        bag, which = distinct_rows(grounding[rows], own[rows])
+        owner = np.empty_like(own, shape=len(bag))
+        owner[which] = own[rows]
+        by_phrase = owner.argsort(kind="stable")
+        rank = np.empty_like(by_phrase)
+        rank[by_phrase] = np.arange(len(bag))
+        bags.append(bag[by_phrase].astype(bag_type))
+        owners.append(owner[by_phrase])
+        counts.append(counted(rows, rank[which], len(bag)))
+    del own, order
+    count = np.concatenate(counts, axis=1)
+    counts.clear()  # it is the largest
+    return DesignMatrix(phrases, np.concatenate(bags), np.concatenate(owners).astype(np.int64), count, True)
 
 
 def _renamed(bag: Bag, table: Ints) -> Bag:
     """A bag under other columns, without columns of padding alone."""
-    rows = distinct(table[bag].reshape(len(bag), -1))  # two unknown colours of a group are one feature
+    short = table.astype(shortest(int(table.max(initial=0))))
+    rows = distinct(short[bag].reshape(len(bag), -1))  # two unknown colours of a group are one feature
     used = (rows >= 0).any(axis=0)
     return rows[:, used]

@@ -164,7 +164,7 @@ def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -
         return solvers.newton(function, step, start, tolerance=tolerance, max_steps=max_steps, guess=guess)
     sparse = isinstance(objective.rows, SparseRows)
     if solver == "lbfgs" and sparse:
-        root = np.sqrt(objective.diagonal(objective(start))).reshape(-1)
+        root = np.sqrt(objective.diagonal(objective.curvature(objective(start)))).reshape(-1)
         found = solvers.lbfgs(objective.scaled(root), start * root, tolerance=tolerance, max_steps=max_steps)
         return replace(found, point=replace(found.point, at=found.point.at / root))
     if solver != "lbfgs":

@@ -17,13 +17,14 @@ Conventions: K variables of each of the Q differences, N rows, arrays (Q, K) and
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from dcg_torch.fitting.design import Ints
+from dcg_torch.fitting.phrase_rows import PhraseRows
 from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, Rows
 from dcg_torch.fitting.solvers import Direction, Function, Point
@@ -32,6 +33,7 @@ _SETTLED = 1e-10
 """Variables of a block whose gradient is less stay where they are."""
 _OF_TOLERANCE = 0.25
 """Share of the tolerance that may be left of the gradient after a Newton step."""
+_ALL = slice(None)
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""
 
@@ -60,19 +62,32 @@ class Objective:
         total: Floats = self.count.sum(axis=0)
         return total
 
+    def _total(self, rows: slice) -> Floats:
+        """(n,) of some rows; of many it is not kept."""
+        total: Floats = self.total if rows == _ALL else self.count[:, rows].sum(axis=0)
+        return total
+
     def __call__(self, flat: Floats) -> Point:
         """Value, gradient, and the gradient's max-norm over the P weights of each feature."""
-        correspondences = len(self.count)
-        d = flat.reshape(correspondences - 1, -1)
-        u = self.rows.scores(d)
-        if self.offset is not None:
-            u = u + self.offset
-        value, residual, chances = likelihood(u, self.count, self.total)
-        pull = self.strength * (d - d.sum(axis=0) / correspondences)
-        gradient = self.rows.gradient(residual) + pull
-        value += 0.5 * float((pull * d).sum())
-        norm = max_norm(gradient * self.scale)
-        return Point(flat, value, gradient.reshape(-1), norm, chances)
+        d = flat.reshape(len(self.count) - 1, -1)
+        pull = self._pull(d)
+        value, chances = 0.5 * float((pull * d).sum()), np.empty((len(d), 0))
+
+        def bend(rows: slice, u: Floats) -> Floats:
+            nonlocal value, chances
+            own, residual, found = self._likelihood(rows, u)
+            value += own
+            if rows == _ALL:
+                chances = found
+            return residual
+
+        gradient = self.rows.through(d, bend) + pull
+        return Point(flat, value, gradient.reshape(-1), max_norm(gradient * self.scale), chances)
+
+    def _likelihood(self, rows: slice, u: Floats) -> tuple[float, Floats, Floats]:
+        """See `likelihood`, from what the variables add to the scores."""
+        u = u if self.offset is None else u + self.offset[:, rows]
+        return likelihood(u, self.count[:, rows], self._total(rows))
 
     def as_counted(self, flat: Floats) -> Floats | None:
         """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
@@ -101,9 +116,9 @@ class Objective:
         The rows' own variables are eliminated first: what is left is as if their rows were less curved.
         """
         assert isinstance(self.rows, ArrowheadRows)
-        rows, chances, r = self.rows, point.chances, len(self.rows.entry)
-        q, shared = len(chances), rows.patterns.shape[1]
-        curvature = self._curvature(chances)
+        rows, r = self.rows, len(self.rows.entry)
+        q, shared = len(point.chances), rows.patterns.shape[1]
+        curvature = self.curvature(point)
         if not r:
             alone = self._shared_steps(curvature)
             return Direction(alone(-point.gradient.reshape(q, -1)).reshape(-1))
@@ -162,27 +177,40 @@ class Objective:
 
     def product(self, point: Point, d: Floats) -> Floats:
         """(Q, K) the Hessian at a point times d (Q, K)."""
-        return self.hessian(point)(d)
+        return self._hessian(self.curvature(point))(d)
 
-    def hessian(self, point: Point) -> Callable[[Floats], Floats]:
-        """At a point, as a function of d (Q, K)."""
-        rows, chances, total = self.rows, point.chances, self.total
-        if len(chances) == 1:
-            curvature, strength = total * chances * (1.0 - chances), self.strength / 2.0
-            return lambda d: rows.gradient(curvature * rows.scores(d)) + strength * d
-        curvature = self._curvature(chances)
+    def _hessian(self, curvature: Floats) -> Callable[[Floats], Floats]:
+        """As a function of d (Q, K), from the curvature (Q, Q, N) of each row."""
+        if len(curvature) == 1:
+            own, strength = curvature[0], self.strength / 2.0
+            return lambda d: self.rows.through(d, lambda rows, u: own[:, rows] * u) + strength * d
+
+        def bend(rows: slice, u: Floats) -> Floats:
+            return _times(curvature[:, :, rows], u[:, None])[:, 0]
 
         def times(d: Floats) -> Floats:
-            bent: Floats = rows.gradient(_times(curvature, rows.scores(d)[:, None])[:, 0])
-            bent += self.strength * (d - d.sum(axis=0) / len(self.count))
+            bent: Floats = self.rows.through(d, bend)
+            bent += self._pull(d)
             return bent
 
         return times
 
-    def _curvature(self, chances: Floats) -> Floats:
+    def curvature(self, point: Point) -> Floats:
         """(Q, Q, N) of each row by its score differences."""
-        found: Floats = self.total * chances[:, None] * (np.eye(len(chances))[:, :, None] - chances)
+        q = len(point.chances)
+        found, one = np.empty((q, q, self.count.shape[1])), np.eye(q)[:, :, None]
+        parts: Iterable[tuple[slice, Floats]] = [(_ALL, point.chances)]
+        if isinstance(self.rows, PhraseRows):  # so many that their probabilities are not kept
+            scores = self.rows.in_parts(point.at.reshape(q, -1))
+            parts = ((rows, self._likelihood(rows, u)[2]) for rows, u in scores)
+        for rows, chances in parts:
+            np.multiply((self._total(rows) * chances)[:, None], one - chances, out=found[:, :, rows])
         return found
+
+    def _pull(self, d: Floats) -> Floats:
+        """(Q, K) the gradient of the penalty."""
+        pull: Floats = self.strength * (d / 2.0 if len(d) == 1 else d - d.sum(axis=0) / len(self.count))
+        return pull
 
     def newton_cg_step(self, point: Point, tolerance: float = 0.0) -> Direction:
         """An approximate Newton step by preconditioned conjugate gradients.
@@ -192,7 +220,8 @@ class Objective:
         Args:
             tolerance: of the gradient's max-norm; the system is not solved much better than that asks for.
         """
-        solve, hessian = self._preconditioner(point), self.hessian(point)
+        curvature = self.curvature(point)
+        solve, hessian = self._preconditioner(point, curvature), self._hessian(curvature)
         residual, shape = -point.gradient, (len(point.chances), -1)
         step, left = np.zeros_like(residual), residual.reshape(shape)  # a view, as `moving` is
         towards = solve(left).reshape(-1)
@@ -212,17 +241,17 @@ class Objective:
             towards += eased
         return Direction(step)
 
-    def _preconditioner(self, point: Point) -> Callable[[Floats], Floats]:
+    def _preconditioner(self, point: Point, curvature: Floats) -> Callable[[Floats], Floats]:
         """About the inverse Hessian: by the structure of a grid, or else by its diagonal."""
         if isinstance(self.rows, GridRows):
             return self.rows.preconditioner(point.chances, self.total, float(self.strength.mean()))
-        inverse = 1.0 / self.diagonal(point)
+        inverse = 1.0 / self.diagonal(curvature)
         return lambda gradient: inverse * gradient
 
-    def diagonal(self, point: Point) -> Floats:
-        """(Q, K) of the Hessian."""
-        curvature = point.chances * (1.0 - point.chances) * self.total
-        own: Floats = self.rows.gradient(curvature) + self.strength * (1.0 - 1.0 / len(self.count))
+    def diagonal(self, curvature: Floats) -> Floats:
+        """(Q, K) of the Hessian, from the curvature (Q, Q, N) of each row."""
+        of_rows = curvature[0] if len(curvature) == 1 else np.einsum("aan->an", curvature)
+        own: Floats = self.rows.gradient(of_rows) + self.strength * (1.0 - 1.0 / len(self.count))
         return own
 
     def scaled(self, root: Floats) -> Function:

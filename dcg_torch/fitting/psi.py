@@ -25,7 +25,8 @@ from torch import nn
 
 from dcg_torch.types import Correspondence
 
-Bag = NDArray[np.int64]
+Numbers = NDArray[np.signedinteger[Any]]
+Bag = Numbers
 Floats = NDArray[np.float64]
 
 TERNARY = (Correspondence.INVERTED, Correspondence.INACTIVE, Correspondence.ACTIVE)
@@ -157,15 +158,21 @@ def scores(weight: Floats, language: Bag, grounding: Bag, phrase: NDArray[np.int
             if column >= 0:
                 own += weight[:, column]
     flat = of_phrase.reshape(len(weight), m * size)
-    cells = grounding % size + (phrase * size)[:, None]
+    cells = wrapped(grounding, size) + (phrase * size)[:, None]
     total = np.zeros((len(weight), len(grounding)))
     for k in range(grounding.shape[1]):
         total += flat.take(cells[:, k], axis=1)
     return total
 
 
+def wrapped(bag: Bag, size: int) -> NDArray[np.int64]:
+    """The columns of a bag, and size - 1 where it is padded."""
+    found: NDArray[np.int64] = bag.astype(np.int64, copy=False) % size  # short integers may not hold the size
+    return found
+
+
 def binary(bag: Bag, columns: int) -> Floats:
     """The (n, columns) binary matrix of a bag."""
     out = np.zeros((len(bag), columns + 1))
-    np.put_along_axis(out, bag % (columns + 1), 1.0, axis=1)
+    np.put_along_axis(out, wrapped(bag, columns + 1), 1.0, axis=1)
     return out[:, :columns].copy()

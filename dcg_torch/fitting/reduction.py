@@ -16,10 +16,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.fitting.arrowhead import Split, split
-from dcg_torch.fitting.cells import cell_rows, fills_grid, together
+from dcg_torch.fitting.cells import cell_rows, fills_grid, firing
 from dcg_torch.fitting.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.fitting.objective import Objective
-from dcg_torch.fitting.psi import Floats, binary
+from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
 from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
 from dcg_torch.fitting.written import (
@@ -170,12 +170,6 @@ def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength:
     return classes(incidence, rows, bits_of(strength[None], incidence.columns))
 
 
-def _fires(design: DesignMatrix, active: Mask) -> Mask:
-    """(L, G) which of the active weights fire."""
-    fires: Mask = (binary(design.language, active.shape[0]).T @ together(design, active.shape[1]) > 0.0) & active
-    return fires
-
-
 def _may_be_written(designs: Sequence[DesignMatrix], active: Mask) -> bool:
     """May it pay to write rows out? Not if so many share each of many weights that Newton's method takes long."""
     entries: int = sum(design.grounding.size * design.language.shape[1] for design in designs)
@@ -196,7 +190,7 @@ def _factored(
 ) -> Reduced:
     """Rows as cells of the phrases' side times the weights."""
     design = stack(designs)
-    fires = _fires(design, active)
+    fires = firing(design, active)
     left, right = (np.flatnonzero(fires.any(axis=axis)) for axis in (1, 0))
     narrow = (len(left), len(right)) != active.shape
     kept = _kept(left, active.shape[0]), _kept(right, active.shape[1])
@@ -208,7 +202,9 @@ def _factored(
     own, whole = fires[np.ix_(left, right)], bool(active[np.ix_(left, right)].all())
     rows, cells = cell_rows(design, own, whole=whole, unique=offset is None or not narrow)
     count, constant = design.count, 0.0
-    if isinstance(rows, GridRows):
+    if isinstance(cells, slice):
+        pass  # all are left as they are
+    elif isinstance(rows, GridRows):
         size = len(rows.language) * len(rows.grounding)
         count, offset = _placed(count, cells, size), None if offset is None else _placed(offset, cells, size)
     else:

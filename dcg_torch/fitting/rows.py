@@ -1,4 +1,6 @@
-"""Three ways to compute scores from the variables of a fit, and their transposes.
+"""Ways to compute scores from the variables of a fit, and their transposes.
+
+`phrase_rows` has one more, for many rows.
 
 Conventions: K variables of each of Q differences, N rows, arrays (Q, K) and (Q, N); see `objective`.
 """
@@ -8,19 +10,20 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import Ints
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.psi import Floats, Numbers
 from dcg_torch.fitting.symmetry import Incidence
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array
 
-Numbers = NDArray[np.signedinteger[Any]]
+
+Bend = Callable[[slice, Floats], Floats]
+"""(Q, n) from the scores (Q, n) of the rows that a slice names."""
 
 
 class Rows(Protocol):
@@ -34,9 +37,21 @@ class Rows(Protocol):
         """(Q, K) from (Q, N): the transpose of `scores`."""
         ...
 
+    def through(self, d: Floats, bend: Bend) -> Floats:
+        """(Q, K) the transpose of `scores` applied to what `bend` makes of the scores of (Q, K)."""
+        ...
+
+
+class _AllAtOnce:
+    """Rows that are few enough for arrays of all of them."""
+
+    def through(self: Rows, d: Floats, bend: Bend) -> Floats:
+        """As the protocol says."""
+        return self.gradient(bend(slice(None), self.scores(d)))
+
 
 @dataclass(frozen=True)
-class ArrowheadRows:
+class ArrowheadRows(_AllAtOnce):
     """Rows of which many have a variable of their own beside those that they share: the Hessian is an arrowhead.
 
     A noun with a type is such a variable, where every pair of them is shown once. Rows that share the same variables
@@ -95,7 +110,7 @@ class ArrowheadRows:
 
 
 @dataclass(frozen=True)
-class GridRows:
+class GridRows(_AllAtOnce):
     """Every phrase with every grounding: scores are A d B', whose cells are the rows.
 
     Attributes:
@@ -150,7 +165,7 @@ _FEW_ENTRIES = 200_000
 
 
 @dataclass(frozen=True)
-class SparseRows:
+class SparseRows(_AllAtOnce):
     """Rows that are sums of cells, and cells that are sums of variables: a cell is a phrase with a grounding column.
 
     Attributes:
@@ -172,7 +187,7 @@ class SparseRows:
             shape: N, cells, K.
         """
         (starts, cells), (cell_starts, variables) = row_cells, cell_variables
-        factors = _ones(starts, cells, shape[:2]), _ones(cell_starts, variables, shape[1:])
+        factors = ones_at(starts, cells, shape[:2]), ones_at(cell_starts, variables, shape[1:])
         few = int(np.diff(cell_starts)[cells].sum()) <= _FEW_ENTRIES
         return cls((factors[0] @ factors[1],) if few else factors)
 
@@ -204,8 +219,13 @@ def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
     return found[None] if len(values) == 1 else np.ascontiguousarray(found.T)
 
 
-def _ones(starts: Ints, numbers: Numbers, shape: tuple[int, ...]) -> csr_array:
-    return _csr(starts, numbers, np.ones(len(numbers)), shape)
+def ones_at(starts: Ints, numbers: Numbers, shape: tuple[int, ...], ones: Floats | None = None) -> csr_array:
+    """The binary matrix of some shape whose rows begin at `starts` (n + 1,) in the numbers of the columns that fire.
+
+    Args:
+        ones: as many or more, which are not copied; None: they are made.
+    """
+    return _csr(starts, numbers, np.ones(len(numbers)) if ones is None else ones[: len(numbers)], shape)
 
 
 def _csr(starts: Ints, numbers: Numbers, values: Floats, shape: tuple[int, ...]) -> csr_array:

@@ -36,7 +36,7 @@ class Point:
     Attributes:
         at: the variables.
         norm: what decides when to stop.
-        chances: probabilities of the rows, from which the curvature follows.
+        chances: probabilities of the rows, from which the curvature follows; where these are too many, of none.
     """
 
     at: Floats

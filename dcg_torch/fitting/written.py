@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix, Ints, numbered
 from dcg_torch.fitting.objective import likelihood
-from dcg_torch.fitting.psi import Bag, Floats, scores
+from dcg_torch.fitting.psi import Bag, Floats, scores, wrapped
 from dcg_torch.fitting.symmetry import Incidence, bits_of, count_distinct, row_keys
 
 Mask = NDArray[np.bool_]
@@ -129,8 +129,8 @@ def differences(weight: Floats, fixed: Floats, columns: Ints) -> Floats:
 def _codes(design: DesignMatrix, shape: tuple[int, int]) -> Ints:
     """(N, k, k') the cell of each pair that fires, in a table of one language and one grounding column more."""
     languages, groundings = shape
-    left = (design.language % (languages + 1) * (groundings + 1))[design.phrase]
-    return left[:, :, None] + (design.grounding % (groundings + 1))[:, None, :]
+    left = (wrapped(design.language, languages + 1) * (groundings + 1))[design.phrase]
+    return left[:, :, None] + wrapped(design.grounding, groundings + 1)[:, None, :]
 
 
 def _one_more(mask: Mask) -> Mask:

@@ -197,6 +197,10 @@ class WorldEncoder:
         """(families, landmarks, things) to each tuple of numbers of landmarks, see `scene.Relations`."""
         return self._relations.to(landmarks, counted.among, members, counted.ordinal, counted.count)
 
+    def distances(self, landmarks: Sequence[int]) -> NDArray[np.float64]:
+        """(landmarks, things) units from each to every thing, between their extents; not to be written to."""
+        return self._relations.standing.of(landmarks)[1]
+
     def placed(
         self,
         landmarks: Sequence[tuple[int, ...]],

@@ -38,23 +38,32 @@ class Spread:
         self._tables, self._phrase, self._kind, self._count = tables, phrase, kind, count
         self._kept = tables.spread(phrase, count)
 
-    def of(self, children: tuple[Child, ...], about: tuple[int, ...]) -> Floats:
+    def of_one(self, children: Sequence[Child]) -> Floats:
+        """(children, 2, meant) what `of` says of each by itself; nearly always it is the same of all."""
+        keys = [(child.grounding.kind._value_, child.correspondence._value_) for child in children]  # hashed quickly
+        kept = {}
+        for key, child in zip(keys, children, strict=True):
+            if key not in kept:
+                kept[key] = self._looked_up(key, (child,), (0,))
+        found: Floats = kept[keys[0]][None] if len(kept) == 1 else np.array([kept[key] for key in keys])
+        return found
+
+    def of(self, children: Sequence[Child], about: Sequence[int]) -> Floats:
         """(1 + k, meant) the log-score of all factors if the one that is not INACTIVE is about none of the k things of
         the children, and if it is about each of them.
 
         Args:
             about: the number of the thing that each child is about.
         """
-        if len(children) == 1:  # as nearly all have
-            key: object = children[0].grounding.kind._value_, children[0].correspondence._value_  # hashed quickly
-        else:
-            key = tuple(patterns_of(children, about))
+        return self._looked_up(tuple(patterns_of(children, about)), children, about)
+
+    def _looked_up(self, key: object, children: Sequence[Child], about: Sequence[int]) -> Floats:
         found = self._kept.get(key)
         if found is None:
             found = self._kept[key] = self._found(children, patterns_of(children, about))
         return found
 
-    def _found(self, children: tuple[Child, ...], patterns: Sequence[Pattern]) -> Floats:
+    def _found(self, children: Sequence[Child], patterns: Sequence[Pattern]) -> Floats:
         table = self._tables.patterns(self._phrase, self._kind, dict.fromkeys(patterns, children))
         correspondences = self._tables.factor.correspondences
         inactive = table[correspondences.index(Correspondence.INACTIVE)]

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.scene.order import numbered
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -66,24 +67,20 @@ def by_distance(
     """
     alike = np.flatnonzero(scores >= scores.max() - _ALIKE)
     lost = np.zeros((len(landmarks), len(encoder.all)))
-    if len(alike) < 2 or name not in _E_FOLD:
+    fold = _E_FOLD.get(name, 0.0)
+    if len(alike) < 2 or not fold:
         return lost
-    where, mark = encoder.layout, np.array(landmarks)[alike]
-    apart = np.abs(where.position[mark, None, :2] - where.position[None, :, :2]) - where.half[mark][:, None]
-    if where.wide is not None:
-        apart -= where.wide[mark][:, None] + where.wide[None]
-    gap = np.nan_to_num(np.linalg.norm(np.maximum(apart, 0.0), axis=2), nan=np.inf) + _TOUCHING
+    mark = np.array(landmarks)[alike]
+    gap = encoder.distances(mark.tolist()) + _TOUCHING
+    gap[~np.isfinite(gap)] = np.inf
     gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
-    if _E_FOLD[name] < 0.0:
-        gap = np.broadcast_to(gap.min(axis=0), gap.shape)
-    stands = np.isfinite(gap).any(axis=0) & where.solid
-    kinds = [o.type for o in encoder.all] if compared is None else compared.tolist()
-    for kind in set(kinds):
-        of = np.flatnonzero(stands & np.array([one == kind for one in kinds]))
-        if len(of):
-            away = np.log(gap[:, of])
-            ends = away.min() if _E_FOLD[name] > 0.0 else away.max()
-            lost[np.ix_(alike, of)] = np.maximum(_FARTHEST, -_E_FOLD[name] * (away - ends))
+    nearest = gap.min(axis=0)
+    there = (np.isfinite(nearest) & encoder.layout.solid).nonzero()[0]
+    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    away = fold * np.log(gap[:, there] if fold > 0.0 else nearest[None, there])
+    ends = np.full(len(kind) + 1, np.inf)
+    np.minimum.at(ends, kind[there], away.min(axis=0))
+    lost[np.ix_(alike, there)] = np.maximum(_FARTHEST, ends[kind[there]] - away)
     return lost
 
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-import operator
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import repeat
 
 import numpy as np
 
+from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
 from dcg_torch.grounding.frames import from_the_other_side
@@ -252,18 +251,28 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
     most = max(scores)
     shares = [math.exp(s - most) for s in scores]
     whole = sum(shares)
-    total: dict[str, float] = {}
-    for share, solution in zip(shares, solutions, strict=True):
-        own = solution.probabilities
-        part = np.fromiter(own.values(), np.float64, len(own)) * share / whole
-        total.update(zip(own, map(operator.add, map(total.get, own, repeat(0.0)), part.tolist()), strict=True))
+    total = _mixed([s.probabilities for s in solutions], [share / whole for share in shares])
     meant = [[o.id for o in (s.object, *s.objects) if o is not None] for s in solutions]
     grounded = [k for k, ids in enumerate(meant) if ids]
     if not grounded:
         return solutions[0]
     # Of several that one reading means alike any may be the likeliest.
     best = max(grounded, key=lambda k: (max(total[id_] for id_ in meant[k]), shares[k]))
-    return replace(solutions[best], probabilities={id_: total[id_] for id_ in solutions[best].probabilities})
+    own = solutions[best].probabilities
+    own = total if isinstance(total, ByThing) else {id_: total[id_] for id_ in own}
+    return replace(solutions[best], probabilities=own)
+
+
+def _mixed(parts: Sequence[Mapping[str, float]], shares: Sequence[float]) -> Mapping[str, float]:
+    """The sum of probabilities, each mapping times its share, of all ids that are in some."""
+    found = ByThing.mixture(parts, shares)
+    if found is not None:
+        return found
+    total: dict[str, float] = {}
+    for part, share in zip(parts, shares, strict=True):
+        for id_, value in part.items():
+            total[id_] = total.get(id_, 0.0) + value * share
+    return total
 
 
 def sense(solution: Solution) -> float:

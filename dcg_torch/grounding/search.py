@@ -11,13 +11,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
+from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.scored import FEW, Scored
-from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.evidence import is_generic
@@ -86,7 +87,7 @@ class Search:
             tree,
             world,
             best,
-            dict(zip(number, np.exp(totals - np.logaddexp.reduce(totals)).tolist(), strict=False)),
+            ByThing(number, np.exp(totals - np.logaddexp.reduce(totals))),
             {} if fits is None else ByThing(number, fits),
             {} if odds is None else ByThing(number, odds),
             None if brief else self.runner_up(tree, best),
@@ -226,25 +227,23 @@ class Search:
         meant = [c for c in self._tables.factor.correspondences if c is not Correspondence.INACTIVE]
         n, number = self._meanable, self.encoder.number
         spread = Spread(self._tables, tree.phrase, GROUNDING_OF[tree.phrase.kind], n)
-        found, base, row, about = list[Floats](), list[float](), list[int](), list[int]()
-        first, own_of = list[int](), list[int]()
-        for c, combo in enumerate(combos):
-            own = tuple([number[h.child.grounding.object.id] for h in combo])
-            found.append(spread.of(tuple([h.child for h in combo]), own))
-            first.append(len(base))
-            base += [sum([h.log_score for h in combo])] * len(found[-1])
-            things = own if len(own) == 1 else tuple(dict.fromkeys(own))
-            own_of += range(first[-1] + 1, len(base))
-            row += [c] * len(things)
-            about += things
-        cells = np.concatenate(found) + np.array(base)[:, None]
+        about = [[number[h.child.grounding.object.id] for h in combo] for combo in combos]
+        base = np.array([sum([h.log_score for h in combo]) for combo in combos])
         scores = np.empty((len(combos), n, len(meant)))
-        scores[:] = cells[first][:, None]
-        scores[row, about] = cells[own_of]
+        if combos[0] and len(combos[0]) == 1:  # as nearly all have
+            cells = spread.of_one([h.child for (h,) in combos]) + base[:, None, None]
+            scores[:] = cells[:, :1]
+            scores[range(len(combos)), [j for (j,) in about]] = cells[:, 1]
+        else:
+            for own, combo, things, total in zip(scores, combos, about, base.tolist(), strict=True):
+                cells = spread.of([h.child for h in combo], things) + total
+                own[:] = cells[0]
+                own[list(dict.fromkeys(things))] = cells[1:]
         if n <= FEW:
             return Scored(tree, combos, meant, scores)
         code = np.zeros(n, dtype=np.int64)
-        code[about] = np.array(about) + 1
+        some = [j for things in about for j in things]
+        code[some] = np.array(some) + 1
         return Scored(tree, combos, meant, scores, code)
 
     def _only_named(self, tree: ParseTree, found: Scored) -> Scored:

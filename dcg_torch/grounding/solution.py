@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -48,31 +47,6 @@ class Hypothesis(NamedTuple):
     def walk(self) -> list[Hypothesis]:
         """This hypothesis and those below, parents first."""
         return [self, *(h for child in self.children for h in child.walk())]
-
-
-class ByThing(Mapping[str, float]):
-    """A value for each of the first things of a world, by id.
-
-    Args:
-        number: id of a thing -> its number, in the order of the numbers.
-        values: (things,) those of the first of them.
-    """
-
-    def __init__(self, number: Mapping[str, int], values: NDArray[np.float64]) -> None:
-        self._number = number
-        self._values = values
-
-    def __getitem__(self, id_: str) -> float:
-        number = self._number[id_]
-        if number >= len(self._values):
-            raise KeyError(id_)
-        return float(self._values[number])
-
-    def __iter__(self) -> Iterator[str]:
-        return islice(self._number, len(self._values))
-
-    def __len__(self) -> int:
-        return len(self._values)
 
 
 SLIP = 0.02

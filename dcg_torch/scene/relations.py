@@ -57,7 +57,7 @@ _FEW = 1024
 
 
 class Relations:
-    """The relation features of all things to landmarks. What is worked out of each landmark is kept.
+    """The relation features of all things to landmarks. What is worked out of each is kept: in `standing`, `_standing`.
 
     Args:
         where: the things.
@@ -66,7 +66,7 @@ class Relations:
     def __init__(self, where: Layout) -> None:
         self._where = where
         self._most = None if len(where.things) <= _FEW else 1
-        self._standing = KeptRows(lambda first: _standing(where, first), self._most)
+        self.standing = KeptRows(lambda first: _standing(where, first), self._most)
         self._ordered: dict[str, KeptRows] = {}
 
     def to(
@@ -90,7 +90,7 @@ class Relations:
             (families, c, n) indices into `RELATION_NAMES`, -1 where no value of a family fires.
         """
         first = [of[0] for of in landmarks]
-        found = self._standing.of(first)[0].copy()
+        found = self.standing.of(first)[0].copy()
         if members is None and ordinal is None and count is None:
             if among not in self._ordered:
                 alike = self._where.alike(among)
@@ -104,7 +104,7 @@ class Relations:
         return found
 
     def _orders(self, first: Ints, alike: Alike, ordinal: int | None = None, count: int | None = None) -> Ints:
-        _, distance, may = self._standing.of(first.tolist())
+        _, distance, may = self.standing.of(first.tolist())
         return _orders(self._where, first, distance, may, alike, ordinal, count)
 
 
