@@ -58,14 +58,17 @@ def by_distance(
     Args:
         name: of the relation.
         landmarks: (combos,) number of each.
-        scores: (combos,) of the landmarks; those described alike are weighed against one another.
+        scores: (combos,) of the landmarks; those described alike are weighed against one another, corners and objects
+            each with their like.
         compared: (things,) those that are compared; None: those of one type.
 
     Returns:
         What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
         or nearer to any landmark than the farthest.
     """
-    alike = np.flatnonzero(scores >= scores.max() - _ALIKE)
+    solid, best = encoder.layout.solid, landmarks[int(scores.argmax())]
+    same = np.array([solid[j] if solid[best] else encoder.all[j].type == encoder.all[best].type for j in landmarks])
+    alike = np.flatnonzero((scores >= scores.max() - _ALIKE) & same)
     lost = np.zeros((len(landmarks), len(encoder.all)))
     fold = _E_FOLD.get(name, 0.0)
     if len(alike) < 2 or not fold:

@@ -1,0 +1,60 @@
+"""Where a thing is for a robot that stands among the things: adverbs and sides of its own. Scenes that we wrote."""
+
+from __future__ import annotations
+
+import cmath
+import functools
+import math
+import random
+
+import pytest
+
+from dcg_torch.model import GroundingModel
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.types import Percept, Pose
+
+SIDES = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
+
+
+@functools.cache
+def _model() -> GroundingModel:
+    return pretrained()
+
+
+def _scene(seed: int) -> tuple[Pose, list[Percept]]:
+    """A chair on each side of the robot, within 25 degrees of its middle, and boxes anywhere."""
+    rng = random.Random(seed)
+    robot = Pose(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-3.0, 3.0))
+    things = []
+    for side, middle in SIDES.items():
+        spot = cmath.rect(rng.uniform(2.0, 5.0), robot.yaw + math.radians(middle + rng.uniform(-25.0, 25.0)))
+        things.append(Percept(side, "chair", "brown", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
+    boxes = [(rng.uniform(-8.0, 8.0), rng.uniform(-8.0, 8.0), 0.0) for _ in range(4)]
+    return robot, things + [Percept(f"b{k}", "box", "blue", place) for k, place in enumerate(boxes)]
+
+
+@pytest.mark.parametrize(
+    ("text", "side"),
+    [
+        ("go to the chair behind", "behind"),
+        ("take the chair at your back", "behind"),
+        ("drive to the chair straight ahead", "ahead"),
+        ("the chair in front", "ahead"),
+        ("go to the chair left of you", "left"),
+        ("the chair to the right of you", "right"),
+    ],
+)
+def test_sides_of_a_robot_among_the_things(text: str, side: str) -> None:
+    right = 0
+    for seed in range(10):
+        robot, things = _scene(seed)
+        right += [o.id for o in _model().ground(text, _model().world_model(things, robot=robot)).objects] == [side]
+    assert right >= 8  # by chance 2.5 are
+
+
+def test_in_front_of_a_robot_at_a_table_is_the_tables_own_side() -> None:
+    things = [
+        Percept(f"c{k}", "cup", "red", (x, y, 0.0)) for k, (x, y) in enumerate([(0.4, 0.1), (0.9, 0.0), (0.7, -0.3)])
+    ]
+    world = _model().world_model(things, robot=Pose(0.0, 0.0))
+    assert [o.id for o in _model().ground("take the cup at the front", world).objects] == ["c0"]
