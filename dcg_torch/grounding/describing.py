@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.contrary import of_contradictions
+from dcg_torch.grounding.dimensions import measured
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
@@ -190,7 +191,8 @@ def comparison_set(
     counts = np.where(of_color, own if close else fit + log_size, -np.inf)
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
-        log_size = log_size + shades_among(shades, among[0], encoder)
+        phrase, log_extent = measured(phrase, told, among[0], encoder)
+        log_size = log_size + shades_among(shades, among[0], encoder) + log_extent
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
@@ -198,7 +200,8 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    return Comparison(described, log_size + log_shade, phrase)
+    phrase, log_extent = measured(phrase, told, described, encoder)
+    return Comparison(described, log_size + log_shade + log_extent, phrase)
 
 
 def _sized(

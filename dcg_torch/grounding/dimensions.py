@@ -1,0 +1,120 @@
+"""How wide, long, thin or flat things are: "the widest box", "the long table", "the second thinnest of the books".
+
+Measured of the extents, and compared among what the rest of a noun phrase describes: nothing of it is learned.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+from collections.abc import Callable, Collection
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.normal import read_data
+from dcg_torch.names.vocabulary import ORDINALS
+from dcg_torch.types import Object, Phrase
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_EVEN = 0.04
+"""Logarithms of measures that differ by less are even."""
+_BY_PLACE = 3.0
+"""Nats for each place by which a thing stays behind "the second widest"."""
+_BY_DEGREE = 5.0
+"""Nats that the narrowest loses where a thing is called wide; less by the square of how far it is from the widest."""
+_LIKE = {"wider": "largest", "widest": "largest"}
+"""What is said much like a word, where no extents are known: of groups."""
+
+
+class Dimension(NamedTuple):
+    """What a word measures: the logarithm of a measure of extents, and is more of it meant (1) or less (-1)."""
+
+    measure: Callable[[Collection[float], float], float]
+    sign: int
+
+
+def _footprint(sides: Collection[float], height: float) -> float:
+    return math.log(math.prod(sides)) / len(sides)
+
+
+def _length(sides: Collection[float], height: float) -> float:
+    return math.log(max(sides))
+
+
+def _thickness(sides: Collection[float], height: float) -> float:
+    return math.log(min((*sides, height) if height > 0.0 else sides))
+
+
+def _flatness(sides: Collection[float], height: float) -> float:
+    return _footprint(sides, height) - (math.log(height) if height > 0.0 else 0.0)
+
+
+_MEASURES = {"footprint": _footprint, "length": _length, "thickness": _thickness, "flatness": _flatness}
+
+
+@functools.cache
+def dimensions() -> dict[str, Dimension]:
+    """Word -> what it measures.
+
+    >>> dimensions()["narrowest"].sign, "biggest" in dimensions()
+    (-1, False)
+    """
+    data = read_data("extents.yaml")
+    signs = {"more": 1, "less": -1}
+    return {
+        word: Dimension(_MEASURES[name], signs[way])
+        for name, ways in data.items()
+        for way, words in ways.items()
+        for word in words
+    }
+
+
+def measure(thing: Object, word: str) -> float | None:
+    """How much of what a word says a thing has, as a logarithm; None where its extents are not known."""
+    dimension = dimensions()[word]
+    sides = [] if thing.size is None else [side for side in thing.size[:2] if side > 0.0]
+    return dimension.sign * dimension.measure(sides, thing.size[2]) if sides and thing.size is not None else None
+
+
+def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+    """What the words of a noun phrase that measure things say of each.
+
+    Args:
+        told: words that attributes answer.
+        among: (things,) what the rest of the phrase describes.
+
+    Returns:
+        The phrase without the words that are taken up, and the log-factor of each thing.
+    """
+    words = [word for word in phrase.words if word in dimensions() and word not in told]
+    log, taken = np.zeros(len(among)), set[str]()
+    number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
+    for word in words:
+        values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
+        known = among & np.isfinite(values)
+        if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
+            continue
+        compared = word.endswith(("er", "est"))
+        loss = _behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
+        log[known] -= loss
+        log[~known] -= loss.max()
+        taken |= {word, *(ORDINALS if compared else ())}
+    kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
+    return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
+
+
+def _behind(values: Floats, number: int, count: int) -> Floats:
+    """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing."""
+    ahead: Floats = (values[None, :] > values[:, None] + _EVEN).sum(axis=1).astype(np.float64)
+    return _BY_PLACE * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))
+
+
+def _by_degree(values: Floats) -> Floats:
+    off: Floats = (values.max() - values) / np.ptp(values)
+    return _BY_DEGREE * off**2
