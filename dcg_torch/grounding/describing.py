@@ -18,15 +18,16 @@ from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.measuring import MORE_THAN, log_more
 from dcg_torch.grounding.modifiers import is_in_a_group
+from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.plain_words import in_group
-from dcg_torch.grounding.reach import AROUND, inside_of, of_none, within_reach
+from dcg_torch.grounding.reach import AROUND, ON_A_SIDE, all_between, inside_of, of_none, on_the_side, within_reach
 from dcg_torch.grounding.sameness import SAME_AS, log_same
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, OF_TWO, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -92,8 +93,7 @@ def modifier_factor(
         log_psi = table[tables.factor.correspondences.index(asserted)]
         outside = None if denied else inside_of(tree.phrase.words[0], landmarks, encoder)
         log_psi = log_psi if outside is None else log_psi + outside
-        if tree.phrase.plural and not denied and tree.phrase.words[0] in AROUND:
-            log_psi = within_reach(log_psi, [of[0] for of in landmarks], encoder)
+        log_psi = _of_all(tree.phrase, log_psi, landmarks, encoder) if tree.phrase.plural and not denied else log_psi
         if not denied and tree.phrase.words[0] in _MEMBER:
             row = counted(tree.children[0].phrase.words) is not None
             log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
@@ -110,6 +110,18 @@ def modifier_factor(
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
+
+
+def _of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos, things) of a modifier in the plural: all that stand so are meant, not the likeliest above all."""
+    name = phrase.words[0]
+    if name in AROUND:
+        return within_reach(log_psi, [of[0] for of in landmarks], encoder)
+    if name in ON_A_SIDE and phrase.count is None:
+        return on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
+    if name in OF_TWO and phrase.count is None and all(len(of) > 1 for of in landmarks):
+        return all_between(log_psi, landmarks, encoder)
+    return log_psi
 
 
 def _fewer(beams: Sequence[Sequence[Hypothesis]]) -> list[Sequence[Hypothesis]]:
@@ -201,7 +213,8 @@ def comparison_set(
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
     phrase, log_extent = measured(phrase, told, described, encoder)
-    return Comparison(described, log_size + log_shade + log_extent, phrase)
+    phrase, log_end = outermost(phrase, described, encoder)
+    return Comparison(described, log_size + log_shade + log_extent + log_end, phrase)
 
 
 def _sized(

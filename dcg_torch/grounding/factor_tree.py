@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from dcg_torch.grounding.joined import each_meant
+from dcg_torch.grounding.joined import each_meant, either_color
 from dcg_torch.grounding.plain_lines import in_whole_line
 from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
 from dcg_torch.grounding.scene_kinds import scene_kind
@@ -82,8 +82,9 @@ def _joined(tree: ParseTree) -> tuple[ParseTree, ...]:
     if tree.phrase.kind is PhraseKind.NOUN:
         return ()
     if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
-        return first.children
-    return tuple(child for child in tree.children if child.phrase.kind is PhraseKind.NOUN)
+        return tuple(one for noun in first.children for one in either_color(noun))
+    nouns = (child for child in tree.children if child.phrase.kind is PhraseKind.NOUN)
+    return tuple(one for noun in nouns for one in either_color(noun))
 
 
 def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTree:

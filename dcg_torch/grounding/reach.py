@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.scene.relations import RELATION_NAMES, between
 
 Floats = NDArray[np.float64]
 
@@ -34,6 +36,42 @@ def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncode
 AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _REACH, _VAGUE = 0.6, 0.12
 """Units of a gap up to which things stand around another, and how vague that is."""
+
+
+def on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
+
+    Args:
+        name: one of `ON_A_SIDE`.
+        log_psi: what is known of the one that is meant.
+        landmarks: numbers of things.
+    """
+    where, (x, y) = encoder.layout, ON_A_SIDE[name]
+    offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
+    half = where.half[landmarks][:, None]
+    offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
+    ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
+    aslant = np.arctan2(aside, ahead)
+    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - _ASLANT) / _UNSURE), log_psi)
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
+"""Preposition -> the direction in which what is so stands, as who looks sees it."""
+_ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
+"""Angle off that direction up to which a thing is on that side, and how vague that is."""
+
+
+def all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs between the table and the door" are all of them, as much as the likeliest is."""
+    name = RELATION_NAMES.index(f"{_BETWEEN}between")
+    inside = between(encoder.layout, landmarks) == name
+    best = np.where(inside, log_psi, -np.inf).max(axis=1, keepdims=True)
+    return np.where(inside, best, log_psi)
+
+
+_BETWEEN = "relation: between, "
 
 
 def of_none(log_psi: Floats, scores: Floats) -> Floats:
