@@ -27,11 +27,11 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from dcg_torch.fitting.fit import FitResult
+    from dcg_torch.fitting.psi import LogLinearFactor
     from dcg_torch.grounding.explanation import explain, rivalry
     from dcg_torch.grounding.features import Group
-    from dcg_torch.grounding.fit import FitResult
     from dcg_torch.grounding.graph import FactorGraph
-    from dcg_torch.grounding.psi import LogLinearFactor
     from dcg_torch.grounding.solution import Solution
     from dcg_torch.language import Parse, Parser
     from dcg_torch.language import parse_command as parse
@@ -49,8 +49,8 @@ _WHERE = {
     "grounding.explanation": "explain rivalry",
     "grounding.features": "Group",
     "grounding.graph": "FactorGraph",
-    "grounding.fit": "FitResult",
-    "grounding.psi": "LogLinearFactor",
+    "fitting.fit": "FitResult",
+    "fitting.psi": "LogLinearFactor",
     "grounding.solution": "Solution",
     "language": "Parse Parser",
     "lessons": "initial_training read_training",

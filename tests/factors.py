@@ -10,8 +10,8 @@ import pytest
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, merge
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
+from dcg_torch.fitting.design import DesignMatrix, merge
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.types import Correspondence
 
 both_settings = pytest.mark.parametrize("correspondences", [BINARY, TERNARY], ids=["binary", "ternary"])

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from factors import both_settings
 
-from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.fit import fit, objective_at
-from dcg_torch.grounding.psi import LogLinearFactor
-from dcg_torch.grounding.reduction import reduce
-from dcg_torch.grounding.rows import ArrowheadRows, SparseRows
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.fit import fit, objective_at
+from dcg_torch.fitting.psi import LogLinearFactor
+from dcg_torch.fitting.reduction import reduce
+from dcg_torch.fitting.rows import ArrowheadRows, SparseRows
 from dcg_torch.types import Correspondence
 
 

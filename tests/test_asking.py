@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from dcg_torch.agent.asking import AskingPolicy, Question, Reply, candidates, describe, question, truthful
@@ -76,8 +76,10 @@ def understood(what: str, where: str, world: Sequence[Percept], start: Pose) -> 
     if measured := re.fullmatch(r"([\d.]+) m (in front of|behind) me and ([\d.]+) m to the (left|right)", where):
         ahead, depth, left, side = measured.groups()
         said = (ahead, depth == "in front of", left, side == "left")
+        exact = len(ahead.partition(".")[2])  # decimals that are said
         measures = {
-            id_: (f"{abs(z.real):.1f}", z.real >= 0, f"{abs(z.imag):.1f}", z.imag >= 0) for id_, z in seen.items()
+            id_: (f"{abs(z.real):.{exact}f}", z.real >= 0, f"{abs(z.imag):.{exact}f}", z.imag >= 0)
+            for id_, z in seen.items()
         }
         return [p.id for p in alike if measures[p.id] == said]
     if quarter := re.fullmatch(r"(in front of|behind) me to the (left|right)", where):
@@ -89,6 +91,7 @@ def understood(what: str, where: str, world: Sequence[Percept], start: Pose) -> 
 
 @settings(max_examples=60)
 @given(st.integers(0, 10**6), st.integers(2, 12), st.floats(-3.0, 3.0))
+@example(554984, 8, 2.5)  # two things five centimetres apart
 def test_a_listener_understands_every_description_as_one_object(seed: int, count: int, yaw: float) -> None:
     rng = np.random.default_rng(seed)
     kinds, colors = ["cube", "sphere", "drill"], ["red", "blue"]

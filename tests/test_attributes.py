@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from dcg_torch.evaluation.episodes import EpisodeObject
-from dcg_torch.grounding.attributes import by_attributes
+from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.language import parse_command, target_phrase
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.attributes import attribute_evidence, named_key

@@ -15,8 +15,8 @@ from dcg_torch.bench.page import main
 from dcg_torch.bench.peers import L2, peers
 from dcg_torch.bench.result import Result, result
 from dcg_torch.bench.rows import Rows, dense_rows, sparse_rows
-from dcg_torch.grounding.design import merge
-from dcg_torch.grounding.fit import objective_at
+from dcg_torch.fitting.design import merge
+from dcg_torch.fitting.fit import objective_at
 
 MACHINE = {"python": "3.11", "processors": 2, "load": 0.5}
 

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from dcg_torch.grounding.factor_tree import speaks_of_lines, to_factor_tree
+from dcg_torch.interpretation.factor_tree import speaks_of_lines, to_factor_tree
 from dcg_torch.language import default_parser
 from dcg_torch.lessons.arranged import KINDS
 from dcg_torch.lessons.boards import board_scene

@@ -11,10 +11,10 @@ import pytest
 import dcg_torch
 from dcg_torch.grounding.describing import comparison_set, modifier_factor
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import target_of
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.language import Parser
 from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons
 from dcg_torch.lessons.clutter import clutter_scene

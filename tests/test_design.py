@@ -8,9 +8,9 @@ from factors import Problem, bag, problems, seeds
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.grounding.design import concatenate, distinct_rows, run_starts
-from dcg_torch.grounding.fit import objective_at
-from dcg_torch.grounding.psi import BINARY, LogLinearFactor
+from dcg_torch.fitting.design import concatenate, distinct_rows, run_starts
+from dcg_torch.fitting.fit import objective_at
+from dcg_torch.fitting.psi import BINARY, LogLinearFactor
 
 
 def test_identical_factors_are_merged() -> None:

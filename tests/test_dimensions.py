@@ -8,7 +8,7 @@ import math
 import pytest
 
 from dcg_torch.evaluation.episodes import Episode
-from dcg_torch.grounding.dimensions import dimensions, measure
+from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained

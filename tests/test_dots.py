@@ -7,8 +7,8 @@ import functools
 import numpy as np
 import pytest
 
-from dcg_torch.grounding.marks import heard
-from dcg_torch.grounding.plain_words import in_plain_words
+from dcg_torch.interpretation.marks import heard
+from dcg_torch.interpretation.plain_words import in_plain_words
 from dcg_torch.language import default_parser, parse_command, target_phrase
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained

@@ -21,8 +21,8 @@ from making import (
     verb_phrase,
 )
 
+from dcg_torch.fitting.psi import TERNARY
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet
-from dcg_torch.grounding.psi import TERNARY
 from dcg_torch.model import GroundingModel, TrainingSet
 from dcg_torch.types import (
     Child,

@@ -9,7 +9,7 @@ import pytest
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
-from dcg_torch.grounding.people import of_people
+from dcg_torch.interpretation.people import of_people
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained

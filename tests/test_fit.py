@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 from sklearn.linear_model import LogisticRegression
 
-from dcg_torch.grounding.design import DesignMatrix, merge
+from dcg_torch.fitting.design import DesignMatrix, merge
+from dcg_torch.fitting.fit import Solver, fit, objective_at
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
+from dcg_torch.fitting.reduction import reduce
+from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
+from dcg_torch.fitting.written import count_firing
 from dcg_torch.grounding.encode import encode
-from dcg_torch.grounding.fit import Solver, fit, objective_at
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.reduction import reduce
-from dcg_torch.grounding.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.grounding.written import count_firing
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
 

@@ -29,9 +29,9 @@ from making import (
 )
 from oracle import KIND, Configuration
 
+from dcg_torch.fitting.psi import BINARY, TERNARY
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.psi import BINARY, TERNARY
 from dcg_torch.grounding.solution import ByThing, Hypothesis, Solution
 from dcg_torch.types import (
     Child,

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from making import COLORS, VARIANTS, chains, command_tree, trees, worlds
 
-from dcg_torch.grounding.psi import TERNARY
+from dcg_torch.fitting.psi import TERNARY
 from dcg_torch.types import Object, ParseTree, WorldModel
 
 

@@ -7,7 +7,7 @@ import pytest
 from dcg_torch import GroundingModel, pretrained
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
-from dcg_torch.grounding.grids import by_cells
+from dcg_torch.interpretation.grids import by_cells
 from dcg_torch.language import default_parser, parse_command
 from dcg_torch.scene.grids import grid_of
 from dcg_torch.types import Object, WorldModel

@@ -18,8 +18,9 @@ PACKAGE = Path(__file__).parent.parent / "dcg_torch"
 # Rooms from the lowest to the highest floor: a room imports rooms that stand in a line above its own.
 LAYERS = (
     {"types", "storage", "names", "english"},
-    {"language", "report", "scene", "world"},
-    {"grounding", "settings", "simulator", "speech_acts"},
+    {"fitting", "language", "report", "scene", "world"},
+    {"interpretation", "settings", "simulator", "speech_acts"},
+    {"grounding"},
     {"learning"},
     {"agent", "lessons"},
     {"model"},
@@ -37,7 +38,7 @@ ONLY = {
     "pybullet_data": {"simulator"},
     "hydra": HYDRA,
     "omegaconf": HYDRA,
-    "torch": {"grounding", "experiment.worker", "bench", "cli.evaluate", "report.board"},
+    "torch": {"fitting", "grounding.tables", "experiment.worker", "bench", "cli.evaluate", "report.board"},
     "safetensors": {"model.stored"},
     "tensorboard": {"report.board"},
     "sentence_transformers": {"names.embedding"},

@@ -6,7 +6,7 @@ import functools
 
 import pytest
 
-from dcg_torch.grounding.factor_tree import coordinated
+from dcg_torch.interpretation.factor_tree import coordinated
 from dcg_torch.language import default_parser, parse_command, target_phrase
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained

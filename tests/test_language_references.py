@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dcg_torch.grounding.factor_tree import to_factor_tree
+from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.language import default_parser, target_phrase
 from dcg_torch.types import Object, ParseTree, WorldModel
 

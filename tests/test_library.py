@@ -12,7 +12,7 @@ import torch
 
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose, WorldModel
-from dcg_torch.grounding.threads import one_thread
+from dcg_torch.fitting.threads import one_thread
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model.checkpoint import CheckpointError
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from dcg_torch.grounding import lifting
-from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.fit import fit, objective_at
-from dcg_torch.grounding.lifting import lift
-from dcg_torch.grounding.psi import BINARY, LogLinearFactor
+from dcg_torch.fitting import lifting
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.fit import fit, objective_at
+from dcg_torch.fitting.lifting import lift
+from dcg_torch.fitting.psi import BINARY, LogLinearFactor
 
 WORDS, TYPES = 12, 6
 LANGUAGE, GROUNDING = WORDS + 2, TYPES + 1

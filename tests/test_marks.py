@@ -13,7 +13,7 @@ from dcg_torch import GroundingModel, pretrained
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
 from dcg_torch.grounding.features.names import word_features
-from dcg_torch.grounding.marks import heard
+from dcg_torch.interpretation.marks import heard
 from dcg_torch.language import default_parser, parse_command
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.marks import marks_of

@@ -11,7 +11,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from dcg_torch.grounding.factor_tree import to_factor_tree
+from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.language import default_parser, target_phrase
 from dcg_torch.lessons.arranged import KINDS
 from dcg_torch.lessons.parts import part_scene

@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.fit import fit
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
+from dcg_torch.fitting.fit import fit
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.types import Correspondence
 
 

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from dcg_torch import scene
+from dcg_torch.fitting.psi import TERNARY
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.explanation import explain
-from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.features import PAPER, Group, ranking
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.psi import TERNARY
 from dcg_torch.grounding.solution import SLIP
+from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.relations import KNOWN, relational_lessons
 from dcg_torch.model import GroundingModel, TrainingSet, Variant

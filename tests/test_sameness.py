@@ -7,7 +7,7 @@ import math
 
 import pytest
 
-from dcg_torch.grounding.sameness import SAME_AS, log_same
+from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained

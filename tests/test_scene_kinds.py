@@ -8,8 +8,8 @@ import pytest
 
 import dcg_torch
 from dcg_torch import Percept, Pose
-from dcg_torch.grounding.factor_tree import to_factor_tree
-from dcg_torch.grounding.scene_kinds import scene_kind
+from dcg_torch.interpretation.factor_tree import to_factor_tree
+from dcg_torch.interpretation.scene_kinds import scene_kind
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Taught

@@ -7,11 +7,11 @@ import sys
 import numpy as np
 import pytest
 
-from dcg_torch.grounding.design import DesignMatrix
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.objective import likelihood
+from dcg_torch.fitting.psi import TERNARY, LogLinearFactor
+from dcg_torch.fitting.reduction import reduce
 from dcg_torch.grounding.features import PAPER, FeatureSet
-from dcg_torch.grounding.objective import likelihood
-from dcg_torch.grounding.psi import TERNARY, LogLinearFactor
-from dcg_torch.grounding.reduction import reduce
 from dcg_torch.learning.assignment import propagate
 from dcg_torch.model.growth import start_as_the_last, widened
 from dcg_torch.scene import groups

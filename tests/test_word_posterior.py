@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from dcg_torch.grounding.explanation import rivalry
-from dcg_torch.grounding.factor_tree import to_factor_tree
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.grounding.graph import FactorGraph
+from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import Experience, GroundingModel, Learned, TrainingSet, Variant

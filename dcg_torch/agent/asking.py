@@ -27,6 +27,7 @@ _SIDES = (
     ("behind me", math.pi),
 )
 _SIDE = math.radians(40.0)  # from the middle of a side, within which a thing is there
+_DECIMALS = (1, 2, 3)  # of metres, until what is measured fits one thing
 _MARGIN = 0.3  # metres by which the closest and the farthest must stand out, so that it can be seen
 
 
@@ -120,10 +121,19 @@ def describe(thing: Percept, percepts: Sequence[Percept], start: Pose, names: Ma
     for where, fits in location_phrases(thing, percepts, rivals, start, names):
         if [p.id for p in rivals if fits(p)] == [thing.id]:
             return base, where
+    for decimals in _DECIMALS:
+        where = _measured(thing, start, decimals)
+        if [p.id for p in rivals if _measured(p, start, decimals) == where] == [thing.id]:
+            break  # so exact that it fits no other
+    return base, where
+
+
+def _measured(thing: Percept, start: Pose, decimals: int) -> str:
+    """As in "1.5 m in front of me and 0.2 m to the left"."""
     ahead, left = _relative(thing, start)
-    return base, (
-        f"{abs(ahead):.1f} m {'in front of' if ahead >= 0 else 'behind'} me and "
-        f"{abs(left):.1f} m to the {'left' if left >= 0 else 'right'}"
+    return (
+        f"{abs(ahead):.{decimals}f} m {'in front of' if ahead >= 0 else 'behind'} me and "
+        f"{abs(left):.{decimals}f} m to the {'left' if left >= 0 else 'right'}"
     )
 
 

@@ -13,9 +13,9 @@ from typing import Any, Protocol
 from dcg_torch.agent.asking import AskingPolicy, Listener, Question, Reply, candidates, question
 from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
-from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.spoken import CommandParser, ParsedCommand, ReadCommand
+from dcg_torch.interpretation.marks import heard
+from dcg_torch.interpretation.spoken import CommandParser, ParsedCommand, ReadCommand
 from dcg_torch.learning.learner import Experience
 from dcg_torch.types import DriveResult, Percept, Pose, WorldModel
 

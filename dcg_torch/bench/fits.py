@@ -16,9 +16,9 @@ import numpy as np
 from dcg_torch.bench.peers import L2, TOLERANCE, Peer, peers
 from dcg_torch.bench.result import Result, cpu_milliseconds, repeated, result
 from dcg_torch.bench.rows import Rows, dense_rows, sparse_rows
-from dcg_torch.grounding.design import merge
-from dcg_torch.grounding.fit import fit, objective_at
-from dcg_torch.grounding.psi import Floats, LogLinearFactor
+from dcg_torch.fitting.design import merge
+from dcg_torch.fitting.fit import fit, objective_at
+from dcg_torch.fitting.psi import Floats, LogLinearFactor
 from dcg_torch.storage.arguments import Arguments
 
 

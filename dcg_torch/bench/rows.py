@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import BINARY, TERNARY, Bag, LogLinearFactor
+from dcg_torch.fitting.design import Ints
+from dcg_torch.fitting.psi import BINARY, TERNARY, Bag, LogLinearFactor
 from dcg_torch.types import Correspondence
 
 

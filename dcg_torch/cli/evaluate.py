@@ -32,7 +32,7 @@ from dcg_torch.evaluation.summary import by_file, summarise
 from dcg_torch.evaluation.summary import figures as of_all
 from dcg_torch.experiment.factory import make_model
 from dcg_torch.experiment.lessons_note import lessons_note
-from dcg_torch.grounding.devices import device_of
+from dcg_torch.fitting.devices import device_of
 from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel

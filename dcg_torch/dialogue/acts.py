@@ -10,7 +10,7 @@ from typing import Any
 
 import yaml
 
-from dcg_torch.grounding.marks import heard
+from dcg_torch.interpretation.marks import heard
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import SETS
 from dcg_torch.language.parser import MAX_CHARACTERS

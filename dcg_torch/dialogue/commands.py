@@ -9,8 +9,8 @@ from dcg_torch.agent.command import Look
 from dcg_torch.dialogue.events import Done, Learned, Understood
 from dcg_torch.dialogue.sentences import ENDINGS, kind_of, said_of
 from dcg_torch.dialogue.situation import ASKING, Errand, Situation
-from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.interpretation.marks import heard
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.language.lexicon import VERBS
 from dcg_torch.learning.learner import Experience

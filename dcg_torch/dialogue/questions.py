@@ -9,8 +9,8 @@ from dcg_torch.dialogue.acts import replies
 from dcg_torch.dialogue.events import Done, Understood
 from dcg_torch.dialogue.situation import Errand, Situation
 from dcg_torch.grounding.explanation import explain, rivalry
-from dcg_torch.grounding.marks import heard
 from dcg_torch.grounding.solution import Solution, target_of
+from dcg_torch.interpretation.marks import heard
 from dcg_torch.language import Parse, parse_command
 from dcg_torch.learning.beliefs import UNMET
 from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_WORDS

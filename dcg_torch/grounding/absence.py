@@ -17,12 +17,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.fitting.psi import Floats
 from dcg_torch.grounding.contrary import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import Group
-from dcg_torch.grounding.plain_words import in_group
-from dcg_torch.grounding.psi import Floats
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.evidence import is_generic, may_be_meant_for, unheard_of
 from dcg_torch.names.palette import lab, region
 from dcg_torch.names.vocabulary import PLACE_WORDS

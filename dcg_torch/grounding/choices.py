@@ -27,12 +27,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding import solvers
-from dcg_torch.grounding.design import row_hashes, stack_bags
+from dcg_torch.fitting import solvers
+from dcg_torch.fitting.design import row_hashes, stack_bags
+from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
+from dcg_torch.fitting.threads import one_thread
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import Bag, Floats, LogLinearFactor
 from dcg_torch.grounding.solution import SLIP
-from dcg_torch.grounding.threads import one_thread
 from dcg_torch.types import Correspondence, Phrase
 
 Ints = NDArray[np.int64]

@@ -11,23 +11,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.contrary import of_contradictions
-from dcg_torch.grounding.dimensions import measured
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
-from dcg_torch.grounding.measuring import MORE_THAN, log_more
+from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.outermost import outermost
-from dcg_torch.grounding.plain_words import in_group
-from dcg_torch.grounding.reach import AROUND, ON_A_SIDE, all_between, inside_of, of_none, on_the_side, within_reach
-from dcg_torch.grounding.sameness import SAME_AS, log_same
+from dcg_torch.grounding.reach import by_distance, inside_of, means_all, of_all, of_none
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
+from dcg_torch.interpretation.measuring import MORE_THAN, log_more
+from dcg_torch.interpretation.plain_words import in_group
+from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
-from dcg_torch.names.vocabulary import GROUP_WORDS, OF_TWO, TOGETHER, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -81,22 +81,7 @@ def modifier_factor(
     combos = list(itertools.product(*_fewer(beams)))
     landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
     denied = NOT in tree.phrase.words
-    if is_in_a_group(tree) and not encoder.layout.members:
-        log_psi = np.zeros((len(combos), len(encoder.all)))  # "in the row" tells nothing where no row is seen
-    elif tree.phrase.words[0] in SAME_AS:
-        log_psi = log_same(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
-    elif tree.phrase.words[0] in MORE_THAN:
-        log_psi = log_more(tree.phrase.words[0], encoder.all, landmarks, denied=denied)
-    else:
-        table = tables.placed(encoder, tree.phrase, landmarks, compared)
-        asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
-        log_psi = table[tables.factor.correspondences.index(asserted)]
-        outside = None if denied else inside_of(tree.phrase.words[0], landmarks, encoder)
-        log_psi = log_psi if outside is None else log_psi + outside
-        log_psi = _of_all(tree.phrase, log_psi, landmarks, encoder) if tree.phrase.plural and not denied else log_psi
-        if not denied and tree.phrase.words[0] in _MEMBER:
-            row = counted(tree.children[0].phrase.words) is not None
-            log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
+    log_psi = _log_psi(tree, landmarks, encoder, tables, compared)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -104,23 +89,41 @@ def modifier_factor(
         landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     scores = np.array([sum(h.log_score for h in combo) for combo in combos])
-    if denied and len(beams) == 1 and not of_each:
-        log_psi = of_none(log_psi, scores)
+    if len(beams) == 1 and not of_each:
+        if denied:
+            log_psi = of_none(log_psi, scores)
+        elif not means_all(tree.phrase):
+            log_psi = log_psi + by_distance(
+                tree.phrase.words[0], [of[0] for of in landmarks], scores, compared, encoder
+            )
     if of_each or len(beams) > 1:
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
 
 
-def _of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos, things) of a modifier in the plural: all that stand so are meant, not the likeliest above all."""
-    name = phrase.words[0]
-    if name in AROUND:
-        return within_reach(log_psi, [of[0] for of in landmarks], encoder)
-    if name in ON_A_SIDE and phrase.count is None:
-        return on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
-    if name in OF_TWO and phrase.count is None and all(len(of) > 1 for of in landmarks):
-        return all_between(log_psi, landmarks, encoder)
+def _log_psi(
+    tree: ParseTree, landmarks: list[tuple[int, ...]], encoder: WorldEncoder, tables: Tables, compared: Bools | None
+) -> Floats:
+    """(landmarks, things) log Psi of a modifier, and what is measured of it."""
+    name, denied = tree.phrase.words[0], NOT in tree.phrase.words
+    if is_in_a_group(tree) and not encoder.layout.members:
+        return np.zeros((len(landmarks), len(encoder.all)))  # "in the row" tells nothing where no row is seen
+    if name in SAME_AS:
+        return log_same(name, encoder.all, landmarks, denied=denied)
+    if name in MORE_THAN:
+        return log_more(name, encoder.all, landmarks, denied=denied)
+    table = tables.placed(encoder, tree.phrase, landmarks, compared)
+    asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
+    log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
+    if denied:
+        return log_psi
+    outside = inside_of(name, landmarks, encoder)
+    log_psi = log_psi if outside is None else log_psi + outside
+    log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
+    if name in _MEMBER:
+        row = counted(tree.children[0].phrase.words) is not None
+        log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
     return log_psi
 
 

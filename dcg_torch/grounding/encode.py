@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import scene
-from dcg_torch.grounding.design import DesignMatrix, distinct_rows, merge, stack_bags
+from dcg_torch.fitting.design import DesignMatrix, distinct_rows, merge, stack_bags
+from dcg_torch.fitting.psi import Bag
 from dcg_torch.grounding.features import (
     GROUNDING_OF,
     FeatureSet,
@@ -22,7 +23,6 @@ from dcg_torch.grounding.features import (
     padded,
     ranking,
 )
-from dcg_torch.grounding.psi import Bag
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, WorldModel
 
 Ints = NDArray[np.int64]

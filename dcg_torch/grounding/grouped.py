@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import GROUP_WORDS, counted
 from dcg_torch.scene.groups import ROW
 from dcg_torch.types import Phrase

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dcg_torch.grounding.plain_words import in_group
+from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import INSIDE, RANKING, SIDED, WITHIN
 from dcg_torch.types import ParseTree
 

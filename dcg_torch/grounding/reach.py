@@ -9,12 +9,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.vocabulary import OF_TWO
 from dcg_torch.scene.relations import RELATION_NAMES, between
+from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 
-def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def means_all(phrase: Phrase) -> bool:
+    """Does a modifier in the plural describe all that stand so, and not the nearest of them above all?"""
+    whole = phrase.count is None and (phrase.words[0] in _ON_A_SIDE or phrase.words[0] in OF_TWO)
+    return phrase.plural and (whole or phrase.words[0] in _AROUND)
+
+
+def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos, things) of a modifier that `means_all`; the rest as it was."""
+    name = phrase.words[0]
+    if not means_all(phrase):
+        return log_psi
+    if name in _AROUND:
+        return _within_reach(log_psi, [of[0] for of in landmarks], encoder)
+    if name in _ON_A_SIDE:
+        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
+    return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
+
+
+def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
 
     Where extents are known, by the gap between the two; the rest as it was.
@@ -33,20 +54,20 @@ def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncode
     return found
 
 
-AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _REACH, _VAGUE = 0.6, 0.12
 """Units of a gap up to which things stand around another, and how vague that is."""
 
 
-def on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
 
     Args:
-        name: one of `ON_A_SIDE`.
+        name: one of `_ON_A_SIDE`.
         log_psi: what is known of the one that is meant.
         landmarks: numbers of things.
     """
-    where, (x, y) = encoder.layout, ON_A_SIDE[name]
+    where, (x, y) = encoder.layout, _ON_A_SIDE[name]
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
     half = where.half[landmarks][:, None]
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
@@ -57,13 +78,13 @@ def on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: W
     return found
 
 
-ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
+_ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
 """Preposition -> the direction in which what is so stands, as who looks sees it."""
 _ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
 """Angle off that direction up to which a thing is on that side, and how vague that is."""
 
 
-def all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+def _all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs between the table and the door" are all of them, as much as the likeliest is."""
     name = RELATION_NAMES.index(f"{_BETWEEN}between")
     inside = between(encoder.layout, landmarks) == name
@@ -84,6 +105,54 @@ def of_none(log_psi: Floats, scores: Floats) -> Floats:
 
 _ALIKE = 1.0
 """Nats by which the scores of landmarks of one name may differ."""
+
+
+def by_distance(
+    name: str, landmarks: Sequence[int], scores: Floats, compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) "the mug closest to a lamp" is the nearest of all mugs to any lamp, not one for each lamp.
+
+    Args:
+        name: of the relation.
+        landmarks: (combos,) number of each.
+        scores: (combos,) of the landmarks; those described alike are weighed against one another.
+        compared: (things,) those that are compared; None: those of one type.
+
+    Returns:
+        What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
+        or nearer to any landmark than the farthest.
+    """
+    alike = np.flatnonzero(scores >= scores.max() - _ALIKE)
+    lost = np.zeros((len(landmarks), len(encoder.all)))
+    if len(alike) < 2 or name not in _E_FOLD:
+        return lost
+    where, mark = encoder.layout, np.array(landmarks)[alike]
+    apart = np.abs(where.position[mark, None, :2] - where.position[None, :, :2]) - where.half[mark][:, None]
+    if where.wide is not None:
+        apart -= where.wide[mark][:, None] + where.wide[None]
+    gap = np.nan_to_num(np.linalg.norm(np.maximum(apart, 0.0), axis=2), nan=np.inf) + _TOUCHING
+    gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
+    if _E_FOLD[name] < 0.0:
+        gap = np.broadcast_to(gap.min(axis=0), gap.shape)
+    stands = np.isfinite(gap).any(axis=0) & where.solid
+    kinds = [o.type for o in encoder.all] if compared is None else compared.tolist()
+    for kind in set(kinds):
+        of = np.flatnonzero(stands & np.array([one == kind for one in kinds]))
+        if len(of):
+            away = np.log(gap[:, of])
+            ends = away.min() if _E_FOLD[name] > 0.0 else away.max()
+            lost[np.ix_(alike, of)] = np.maximum(_FARTHEST, -_E_FOLD[name] * (away - ends))
+    return lost
+
+
+_TOUCHING = 0.1
+"""Units of a gap below which distances are alike."""
+_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(
+    ("close to", *_AROUND - {"around", "surrounded by"}), 1.5
+)
+"""Nats for each e-fold of a distance, by relation."""
+_FARTHEST = -6.0
+"""The most that is lost."""
 
 
 def inside_of(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats | None:

@@ -11,12 +11,16 @@ from itertools import repeat
 
 import numpy as np
 
-from dcg_torch.grounding.attributes import by_attributes
-from dcg_torch.grounding.compounds import by_compounds
-from dcg_torch.grounding.containers import in_what_holds_it
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
-from dcg_torch.grounding.factor_tree import (
+from dcg_torch.grounding.frames import from_the_other_side
+from dcg_torch.grounding.search import Search
+from dcg_torch.grounding.solution import Solution, several_there
+from dcg_torch.grounding.tables import Tables
+from dcg_torch.interpretation.attributes import by_attributes
+from dcg_torch.interpretation.compounds import by_compounds
+from dcg_torch.interpretation.containers import in_what_holds_it
+from dcg_torch.interpretation.factor_tree import (
     Setting,
     coordinated,
     in_setting,
@@ -26,18 +30,15 @@ from dcg_torch.grounding.factor_tree import (
     speaks_of_groups,
     speaks_of_lines,
 )
-from dcg_torch.grounding.frames import from_the_other_side
-from dcg_torch.grounding.grids import by_cells, with_cells
-from dcg_torch.grounding.looking import Looks, told_by_looking
-from dcg_torch.grounding.room_parts import by_corners, by_heights, with_corners
-from dcg_torch.grounding.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
-from dcg_torch.grounding.search import Search
-from dcg_torch.grounding.solution import Solution, several_there
-from dcg_torch.grounding.spoken import ReadCommand, WeightedReading, Words
-from dcg_torch.grounding.stacks import by_levels, with_levels
-from dcg_torch.grounding.tables import Tables
+from dcg_torch.interpretation.grids import by_cells, with_cells
+from dcg_torch.interpretation.looking import Looks, told_by_looking
+from dcg_torch.interpretation.room_parts import by_corners, by_heights, with_corners
+from dcg_torch.interpretation.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
+from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
+from dcg_torch.interpretation.stacks import by_levels, with_levels
 from dcg_torch.names.attributes import OF_KEY
-from dcg_torch.scene.workspace import with_groups
+from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.scene.workspace import with_groups, with_places_of_all
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
 
 _NEGLIGIBLE = 3.0
@@ -98,10 +99,18 @@ def _in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
     return tree
 
 
+_OF_ALL = frozenset({"corner", "middle"})
+"""Places of what is there as a whole: sides are the robot's own where there are no edges."""
+
+
 def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
-    """The world whose things are told the cells, rooms and corners that readings speak of."""
+    """The world whose things are told the cells, rooms and corners that readings speak of, with places if need be."""
     trees = [reading.tree for reading in readings]
-    if not any(OF_KEY in word for tree in trees for node in tree.walk() for word in node.phrase.words):
+    phrases = [node.phrase for tree in trees for node in tree.walk()]
+    kinds = {PLACE_WORDS[p.noun][0] for p in phrases if p.noun in PLACE_WORDS} & _OF_ALL
+    if kinds:
+        world = with_places_of_all(world, kinds)
+    if not any(OF_KEY in word for phrase in phrases for word in phrase.words):
         return world
     return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
 

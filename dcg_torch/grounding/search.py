@@ -16,10 +16,10 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
-from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.scored import FEW, Scored
 from dcg_torch.grounding.solution import ByThing, Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind

@@ -15,11 +15,11 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, Ints
+from dcg_torch.fitting.design import DesignMatrix, Ints
+from dcg_torch.fitting.psi import Bag, Floats
 from dcg_torch.grounding.encode import encode
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Said, child_feature, ranking
 from dcg_torch.grounding.features.said import facts
-from dcg_torch.grounding.psi import Bag, Floats
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, PhraseKind
 
 Value = TypeVar("Value")

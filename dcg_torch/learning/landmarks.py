@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, Modified
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.factor_tree import coordinated, speaks_of_groups, speaks_of_lines, to_factor_tree
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
-from dcg_torch.grounding.plain_words import in_group
 from dcg_torch.grounding.readings import Reading
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.interpretation.factor_tree import coordinated, speaks_of_groups, speaks_of_lines, to_factor_tree
+from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.learning.evidence import told_by_look
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught

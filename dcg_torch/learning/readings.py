@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.fitting.solvers import Point, lbfgs
 from dcg_torch.grounding.readings import Reading, log_weight, sense
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.solvers import Point, lbfgs
 from dcg_torch.learning.landmarks import Lesson
 
 Floats = NDArray[np.float64]

@@ -12,19 +12,19 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.devices import device_of
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.devices import device_of
+from dcg_torch.fitting.fit import FitResult, fit
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
-from dcg_torch.grounding.fit import FitResult, fit
 from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.marks import heard
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, told_where, worth_grounding
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.spoken import ReadCommand
 from dcg_torch.grounding.statistics import Statistics
+from dcg_torch.interpretation.marks import heard
+from dcg_torch.interpretation.spoken import ReadCommand
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet

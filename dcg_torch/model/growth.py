@@ -11,8 +11,8 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.types import Symbol
 
 Value = TypeVar("Value", bound=np.generic)

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.fitting.psi import Floats, LogLinearFactor
 from dcg_torch.grounding.encode import LastWorld
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import Floats, LogLinearFactor
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.types import Example

@@ -22,8 +22,8 @@ from safetensors import SafetensorError
 from safetensors.numpy import load as load_bytes
 from safetensors.numpy import save as to_bytes
 
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.learner import Learner
 from dcg_torch.learning.word_posterior import WordPosterior

@@ -9,13 +9,13 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.fit import FitResult
+from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.choices import Choice, correspondence_signs, fit_choices
-from dcg_torch.grounding.design import DesignMatrix
 from dcg_torch.grounding.encode import WorldEncoder, encode, firing
 from dcg_torch.grounding.features import FeatureSet, Group
-from dcg_torch.grounding.fit import FitResult
 from dcg_torch.grounding.graph import solver
-from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -75,6 +75,20 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
     if bounds is None and there:
         bounds = scene_bounds(there, world.robot)
     return replace(world, places=places(bounds, world.robot, world.speaker), unit=workspace.unit)
+
+
+def with_places_of_all(world: WorldModel, kinds: Collection[str]) -> WorldModel:
+    """A world without edges with places of these kinds, in the box around what is there.
+
+    One who says "the mug in the corner" sees a corner, and who says "in the middle" the middle of something. Places
+    that the world has already stay; a world of which nothing can be spoken stays as it is.
+    """
+    missing = {*kinds} - {place.type for place in world.places}
+    there = [o.position for o in world.objects if o.position is not None]
+    if not (missing and world.places and there):
+        return world
+    found = places(scene_bounds(there, world.robot), world.robot, world.speaker)
+    return replace(world, places=(*world.places, *(place for place in found if place.type in missing)))
 
 
 def with_groups(world: WorldModel, *, lines: bool = False) -> WorldModel:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch import scene
+from dcg_torch.fitting.psi import Bag
 from dcg_torch.grounding.features.names import (
     PAIRS,
     Feature,
@@ -23,7 +24,6 @@ from dcg_torch.grounding.features.names import (
     word_features,
 )
 from dcg_torch.grounding.features.said import Said, facts
-from dcg_torch.grounding.psi import Bag
 from dcg_torch.types import (
     LOOKED_ROUND,
     Child,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
+from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.features.columns import FeatureSet
 from dcg_torch.grounding.features.said import fact_odds
-from dcg_torch.grounding.psi import LogLinearFactor
 from dcg_torch.types import Correspondence
 
 

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.dimensions import dimensions, measure
+from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.palette import lab
 from dcg_torch.names.vocabulary import THAN
 from dcg_torch.scene.bodies import bulk

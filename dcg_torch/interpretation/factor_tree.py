@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-from dcg_torch.grounding.joined import each_meant, either_color
-from dcg_torch.grounding.plain_lines import in_whole_line
-from dcg_torch.grounding.plain_words import heads, in_group, in_plain_words
-from dcg_torch.grounding.scene_kinds import scene_kind
+from dcg_torch.interpretation.joined import each_meant, either_color
+from dcg_torch.interpretation.plain_lines import in_whole_line
+from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
+from dcg_torch.interpretation.scene_kinds import scene_kind
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,

@@ -17,8 +17,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import Hashes, Ints, numbered, run_starts, scrambled
-from dcg_torch.grounding.psi import Floats
+from dcg_torch.fitting.design import Hashes, Ints, numbered, run_starts, scrambled
+from dcg_torch.fitting.psi import Floats
 
 
 @dataclass(frozen=True)

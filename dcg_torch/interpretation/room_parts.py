@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.grounding.spoken import Words
+from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT

@@ -14,9 +14,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, Hashes, Ints, row_hashes, scrambled
-from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.symmetry import bits_of, count_distinct
+from dcg_torch.fitting.design import DesignMatrix, Hashes, Ints, row_hashes, scrambled
+from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.symmetry import bits_of, count_distinct
 
 Mask = NDArray[np.bool_]
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.grounding.spoken import Words
+from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.everyday import everyday
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.weights import log_odds

@@ -15,14 +15,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.grounding.arrowhead import Split, split
-from dcg_torch.grounding.cells import cell_rows, fills_grid, together
-from dcg_torch.grounding.design import DesignMatrix, Ints, concatenate, stack
-from dcg_torch.grounding.objective import Objective
-from dcg_torch.grounding.psi import Floats, binary
-from dcg_torch.grounding.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.grounding.symmetry import Classes, Incidence, bits_of, classes
-from dcg_torch.grounding.written import (
+from dcg_torch.fitting.arrowhead import Split, split
+from dcg_torch.fitting.cells import cell_rows, fills_grid, together
+from dcg_torch.fitting.design import DesignMatrix, Ints, concatenate, stack
+from dcg_torch.fitting.objective import Objective
+from dcg_torch.fitting.psi import Floats, binary
+from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
+from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
+from dcg_torch.fitting.written import (
     Mask,
     Written,
     at_cells,

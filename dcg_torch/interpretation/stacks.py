@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.grounding.spoken import Words
+from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel

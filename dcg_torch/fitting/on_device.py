@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 import torch
 
-from dcg_torch.grounding import solvers
-from dcg_torch.grounding.objective import max_norm
-from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.written import Written
+from dcg_torch.fitting import solvers
+from dcg_torch.fitting.objective import max_norm
+from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.written import Written
 
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""

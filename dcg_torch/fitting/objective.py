@@ -23,10 +23,10 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.rows import ArrowheadRows, GridRows, Rows
-from dcg_torch.grounding.solvers import Direction, Function, Point
+from dcg_torch.fitting.design import Ints
+from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.rows import ArrowheadRows, GridRows, Rows
+from dcg_torch.fitting.solvers import Direction, Function, Point
 
 _SETTLED = 1e-10
 """Variables of a block whose gradient is less stay where they are."""

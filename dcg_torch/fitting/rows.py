@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import Ints
-from dcg_torch.grounding.psi import Floats
-from dcg_torch.grounding.symmetry import Incidence
+from dcg_torch.fitting.design import Ints
+from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.symmetry import Incidence
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -15,9 +15,9 @@ from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import replace
 from typing import Any, Final, TypeVar
 
-from dcg_torch.grounding.mark_finder import FoundMark, find_marks
-from dcg_torch.grounding.people import of_people
-from dcg_torch.grounding.spoken import ParsedCommand
+from dcg_torch.interpretation.mark_finder import FoundMark, find_marks
+from dcg_torch.interpretation.people import of_people
+from dcg_torch.interpretation.spoken import ParsedCommand
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.marks import OF_CLASS, Marks, is_strange, mark_words, marks_of, words_of

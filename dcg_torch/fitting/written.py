@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, Ints, numbered
-from dcg_torch.grounding.objective import likelihood
-from dcg_torch.grounding.psi import Bag, Floats, scores
-from dcg_torch.grounding.symmetry import Incidence, bits_of, count_distinct, row_keys
+from dcg_torch.fitting.design import DesignMatrix, Ints, numbered
+from dcg_torch.fitting.objective import likelihood
+from dcg_torch.fitting.psi import Bag, Floats, scores
+from dcg_torch.fitting.symmetry import Incidence, bits_of, count_distinct, row_keys
 
 Mask = NDArray[np.bool_]
 

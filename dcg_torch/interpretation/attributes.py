@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dcg_torch.grounding.people import OF_PEOPLE
+from dcg_torch.interpretation.people import OF_PEOPLE
 from dcg_torch.names.attributes import (
     HAS,
     NOT_,

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.design import DesignMatrix, Ints, distinct_rows
-from dcg_torch.grounding.psi import Bag, Floats, binary
-from dcg_torch.grounding.rows import GridRows, Numbers, SparseRows, smallest_index
+from dcg_torch.fitting.design import DesignMatrix, Ints, distinct_rows
+from dcg_torch.fitting.psi import Bag, Floats, binary
+from dcg_torch.fitting.rows import GridRows, Numbers, SparseRows, smallest_index
 
 Mask = NDArray[np.bool_]
 

@@ -19,17 +19,17 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from dcg_torch.grounding import solvers
-from dcg_torch.grounding.design import DesignMatrix
-from dcg_torch.grounding.devices import device_of
-from dcg_torch.grounding.lifting import lift
-from dcg_torch.grounding.objective import likelihood, max_norm
-from dcg_torch.grounding.on_device import minimise
-from dcg_torch.grounding.psi import Floats, LogLinearFactor, scores
-from dcg_torch.grounding.reduction import Reduced, reduce
-from dcg_torch.grounding.rows import ArrowheadRows, SparseRows
-from dcg_torch.grounding.threads import one_thread
-from dcg_torch.grounding.written import weight_at, write_out
+from dcg_torch.fitting import solvers
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.devices import device_of
+from dcg_torch.fitting.lifting import lift
+from dcg_torch.fitting.objective import likelihood, max_norm
+from dcg_torch.fitting.on_device import minimise
+from dcg_torch.fitting.psi import Floats, LogLinearFactor, scores
+from dcg_torch.fitting.reduction import Reduced, reduce
+from dcg_torch.fitting.rows import ArrowheadRows, SparseRows
+from dcg_torch.fitting.threads import one_thread
+from dcg_torch.fitting.written import weight_at, write_out
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 

@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.psi import Bag, Floats, distinct
+from dcg_torch.fitting.psi import Bag, Floats, distinct
 
 Ints = NDArray[np.int64]
 Hashes = NDArray[np.uint64]

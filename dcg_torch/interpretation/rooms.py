@@ -12,7 +12,7 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.grounding.spoken import Words
+from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.rooms import room_keys, room_named, told_rooms, within_words

@@ -7,10 +7,10 @@ import functools
 from collections.abc import Iterable
 from dataclasses import replace
 
-from dcg_torch.grounding.measuring import compared_with
-from dcg_torch.grounding.plain_lines import line_of_all, read_along
-from dcg_torch.grounding.plain_sets import middle_of_set, of_a_pair, one_of_those, together
-from dcg_torch.grounding.stacks import from_the_ground, levels_of_stack
+from dcg_torch.interpretation.measuring import compared_with
+from dcg_torch.interpretation.plain_lines import line_of_all, read_along
+from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
+from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
     BY_COMPASS,
