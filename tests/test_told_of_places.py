@@ -90,3 +90,38 @@ def test_cells_of_a_board(text: str, meant: str) -> None:
 )
 def test_what_a_text_is_about_where_it_tells_what_stands_by_it(text: str, noun: str) -> None:
     assert default_parser().parse(text).noun == noun
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the second kite from the right", "k2"),
+        ("3rd kite from left", "k2"),
+        ("the second to last kite from the left", "k2"),
+        ("the penultimate kite from the right", "k1"),
+        ("second kite from the left", "k1"),
+    ],
+)
+def test_places_in_a_picture_are_counted_along_it_however_high_things_are(text: str, meant: str) -> None:
+    kites = [("k0", 0.7, 0.9, 0.1), ("k1", 0.3, -0.7, 0.3), ("k2", -0.1, 0.8, 0.05), ("k3", -0.6, -0.2, 0.2)]
+    percepts = [Percept(id_, "kite", None, (2.0, y, z), size=(0.0, size, size)) for id_, y, z, size in kites]
+    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in _model().ground(text, world).objects] == [meant]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the gate straight ahead", "front"),
+        ("go to the gate ahead", "front"),
+        ("the gate right in front", "front"),
+        ("the closer gate to the well", "side"),
+        ("the gate away from the others", "alone"),
+    ],
+)
+def test_what_is_ahead_and_what_is_closer(text: str, meant: str) -> None:
+    things = [("front", "gate", 4.0, 0.2), ("side", "gate", 2.9, -1.1), ("alone", "gate", 2.0, 5.5)]
+    things += [("well", "well", 2.0, -1.9), ("cart", "cart", 4.6, 1.0)]
+    percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
+    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in _model().ground(text, world).objects] == [meant]

@@ -41,7 +41,7 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
     words = [word for word in phrase.words if word in dimensions() and word not in told]
-    log, taken = np.zeros(len(among)), set[str]()
+    log, taken = _counted_along(phrase, among, encoder), set[str]()
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
     for word in words:
         values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
@@ -55,6 +55,26 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
         taken |= {word, *(ORDINALS if compared else ())}
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
+
+
+def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of "the second (to last) from the left", by the place among what the rest describes.
+
+    0 for all where nothing is counted so, or in a group, which counts its own.
+    """
+    log, where, last = np.zeros(len(among)), encoder.layout, "last" in phrase.words
+    numbers = [ORDINALS[word] for word in phrase.words if word in ORDINALS] or [1] * last
+    sides = [_ALONG[word] for word in phrase.words if word in _ALONG and (where.picture or word not in _DEEP)]
+    at = np.flatnonzero(among & where.solid & np.isfinite(where.position).all(axis=1))
+    if len(numbers) == len(sides) == 1 and len(at) >= numbers[0] and phrase.among != "row":
+        first = where.position[at, :2] @ np.array(sides[0])
+        log[at] = -_behind(-first if last else first, numbers[0], phrase.count or 1)
+    return log
+
+
+_DEEP = {"from the back": (1.0, 0.0), "from the front": (-1.0, 0.0)}
+_ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
+"""From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""
 
 
 def _behind(values: Floats, number: int, count: int) -> Floats:
