@@ -256,7 +256,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
         PhraseKind.MODIFIER,
         tree.phrase.text,
         words,
-        plural=head.plural,
+        plural=head.plural and not in_group(head),
         count=several,
         context=_landmark_context(tree),
         among=head.among,
