@@ -57,9 +57,9 @@ def _is_number(key: str, value: object) -> bool:
 class EpisodeObject(_Record):
     """One object: metres; `size` are its extents, one number for all three, or a word, if known.
 
-    A size of 0 is what scanners write when they could not tell: it counts as unknown. `rgb` is what the object looks
-    like, 0 to 255. Further keys are `attributes` where they are true, false or a text; what else they hold is not used,
-    and `unused_keys` counts it.
+    A size of 0 is what scanners write when they could not tell: it counts as unknown, but for the depth of what is in a
+    picture, see `Episode.percepts`. `rgb` is what the object looks like, 0 to 255. Further keys are `attributes` where
+    they are true, false or a text; what else they hold is not used, and `unused_keys` counts it.
     """
 
     id: _Name
@@ -71,9 +71,9 @@ class EpisodeObject(_Record):
 
     @property
     def extents(self) -> tuple[float, float, float] | None:
-        """Along x, y and z, if they are given as numbers above 0."""
+        """Along x, y and z, if they are given as numbers of which one is above 0."""
         sizes = (self.size,) * 3 if isinstance(self.size, float) else self.size
-        return sizes if isinstance(sizes, tuple) and all(sizes) else None
+        return sizes if isinstance(sizes, tuple) and any(sizes) else None
 
     @property
     def attributes(self) -> frozenset[str]:
@@ -116,14 +116,19 @@ class Episode(_Record):
         return None if self.speaker is None else Pose(self.speaker.x, self.speaker.y, self.speaker.yaw)
 
     def percepts(self) -> list[Percept]:
-        """The objects, all of them perceived."""
+        """The objects, all of them perceived.
+
+        What all of them lack is the depth of a picture; else extents of 0 say that nobody knows how large a thing is.
+        """
+        given = [o.extents for o in self.objects if o.extents is not None]
+        flat = [not any(of) for of in zip(*given, strict=True)]
         return [
             Percept(
                 o.id,
                 o.type,
                 o.color,
                 (*o.position[:2], o.position[2] if len(o.position) == 3 else 0.0),
-                o.extents,
+                o.extents if o.extents is None or all(e or no for e, no in zip(o.extents, flat, strict=True)) else None,
                 o.attributes | {"held"} if o.id == self.holding else o.attributes,
                 o.rgb,
             )

@@ -12,6 +12,7 @@ from itertools import pairwise, product
 from typing import Final
 
 from dcg_torch.evaluation.episodes import Episode, EpisodeObject
+from dcg_torch.scene.bodies import bulk
 
 Measure = Callable[[EpisodeObject], float]
 """Of a thing; the greater, the further to the side."""
@@ -63,7 +64,7 @@ def distance(at: Point) -> Measure:
 
 def volume(o: EpisodeObject) -> float:
     """Of the extents; 0.0 where they are unknown."""
-    return 0.0 if o.extents is None else math.prod(o.extents)
+    return 0.0 if o.extents is None else bulk(o.extents)
 
 
 def ranked(things: Sequence[EpisodeObject], measure: Measure) -> list[str | None]:

@@ -15,8 +15,10 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import is_in_a_group
-from dcg_torch.grounding.reach import AROUND, by_distance, inside_of, of_none, within_reach
+from dcg_torch.grounding.outermost import outermost
+from dcg_torch.grounding.reach import by_distance, inside_of, means_all, of_all, of_none
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
@@ -90,7 +92,7 @@ def modifier_factor(
     if len(beams) == 1 and not of_each:
         if denied:
             log_psi = of_none(log_psi, scores)
-        elif not tree.phrase.plural or tree.phrase.words[0] not in AROUND:
+        elif not means_all(tree.phrase):
             log_psi = log_psi + by_distance(
                 tree.phrase.words[0], [of[0] for of in landmarks], scores, compared, encoder
             )
@@ -118,8 +120,7 @@ def _log_psi(
         return log_psi
     outside = inside_of(name, landmarks, encoder)
     log_psi = log_psi if outside is None else log_psi + outside
-    if tree.phrase.plural and name in AROUND:
-        log_psi = within_reach(log_psi, [of[0] for of in landmarks], encoder)
+    log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     if name in _MEMBER:
         row = counted(tree.children[0].phrase.words) is not None
         log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
@@ -205,7 +206,8 @@ def comparison_set(
     counts = np.where(of_color, own if close else fit + log_size, -np.inf)
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
-        log_size = log_size + shades_among(shades, among[0], encoder)
+        phrase, log_extent = measured(phrase, told, among[0], encoder)
+        log_size = log_size + shades_among(shades, among[0], encoder) + log_extent
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
@@ -213,7 +215,9 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    return Comparison(described, log_size + log_shade, phrase)
+    phrase, log_extent = measured(phrase, told, described, encoder)
+    phrase, log_end = outermost(phrase, described, encoder)
+    return Comparison(described, log_size + log_shade + log_extent + log_end, phrase)
 
 
 def _sized(

@@ -2,19 +2,41 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.vocabulary import OF_TWO
 from dcg_torch.scene.order import numbered
+from dcg_torch.scene.relations import RELATION_NAMES, between
+from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
 
-def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def means_all(phrase: Phrase) -> bool:
+    """Does a modifier in the plural describe all that stand so, and not the nearest of them above all?"""
+    whole = phrase.count is None and (phrase.words[0] in _ON_A_SIDE or phrase.words[0] in OF_TWO)
+    return phrase.plural and (whole or phrase.words[0] in _AROUND)
+
+
+def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos, things) of a modifier that `means_all`; the rest as it was."""
+    name = phrase.words[0]
+    if not means_all(phrase):
+        return log_psi
+    if name in _AROUND:
+        return _within_reach(log_psi, [of[0] for of in landmarks], encoder)
+    if name in _ON_A_SIDE:
+        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
+    return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
+
+
+def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
 
     Where extents are known, by the gap between the two; the rest as it was.
@@ -33,9 +55,45 @@ def within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncode
     return found
 
 
-AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _REACH, _VAGUE = 0.6, 0.12
 """Units of a gap up to which things stand around another, and how vague that is."""
+
+
+def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
+
+    Args:
+        name: one of `_ON_A_SIDE`.
+        log_psi: what is known of the one that is meant.
+        landmarks: numbers of things.
+    """
+    where, (x, y) = encoder.layout, _ON_A_SIDE[name]
+    offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
+    half = where.half[landmarks][:, None]
+    offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
+    ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
+    aslant = np.arctan2(aside, ahead)
+    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - _ASLANT) / _UNSURE), log_psi)
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+_ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
+"""Preposition -> the direction in which what is so stands, as who looks sees it."""
+_ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
+"""Angle off that direction up to which a thing is on that side, and how vague that is."""
+
+
+def _all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+    """(combos, things) "the chairs between the table and the door" are all of them, as much as the likeliest is."""
+    name = RELATION_NAMES.index(f"{_BETWEEN}between")
+    inside = between(encoder.layout, landmarks) == name
+    best = np.where(inside, log_psi, -np.inf).max(axis=1, keepdims=True)
+    return np.where(inside, best, log_psi)
+
+
+_BETWEEN = "relation: between, "
 
 
 def of_none(log_psi: Floats, scores: Floats) -> Floats:
@@ -90,7 +148,7 @@ def by_distance(
 _TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
 _E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(
-    ("close to", *AROUND - {"around", "surrounded by"}), 1.5
+    ("close to", *_AROUND - {"around", "surrounded by"}), 1.5
 )
 """Nats for each e-fold of a distance, by relation."""
 _FARTHEST = -6.0

@@ -158,7 +158,7 @@ class SharedSearch:
         further = tuple([self._described(part, brief=False) for part in others])
         found = self._described(first, brief=brief)
         if offers_choice(tree):
-            return sum_over([found, *further], [0.0] * (1 + len(further)))
+            return sum_over([found, *further], [_log_there(one) for one in (found, *further)])
         return replace(found, further=further) if further else found
 
     def _described(self, tree: ParseTree, *, brief: bool) -> Solution:
@@ -225,6 +225,12 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
         np.logaddexp.reduce([w + _fit(s) for w, s in zip(*of, strict=True)]) for of in zip(weights, found, strict=True)
     ]
     return replace(solution, speakers_frame=float(1.0 / (1.0 + np.exp(told[0] - told[1]))))
+
+
+def _log_there(solution: Solution) -> float:
+    """Logarithm of the probability that what a noun phrase means is there: of two to choose from, one may not be."""
+    unseen = sum(solution.probabilities.get(o.id, 0.0) for o in solution.world.objects if o.hypothetical)
+    return math.log(max(1e-6, 1.0 - unseen))
 
 
 def _fit(solution: Solution) -> float:

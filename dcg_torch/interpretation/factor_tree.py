@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from dcg_torch.interpretation.from_you import from_you
-from dcg_torch.interpretation.joined import each_meant
+from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import scene_kind, stands_among
@@ -85,8 +85,9 @@ def _joined(tree: ParseTree) -> tuple[ParseTree, ...]:
     if tree.phrase.kind is PhraseKind.NOUN:
         return ()
     if first is not None and first.phrase.kind is PhraseKind.PREPOSITION:
-        return first.children
-    return tuple(child for child in tree.children if child.phrase.kind is PhraseKind.NOUN)
+        return tuple(one for noun in first.children for one in either_color(noun))
+    nouns = (child for child in tree.children if child.phrase.kind is PhraseKind.NOUN)
+    return tuple(one for noun in nouns for one in either_color(noun))
 
 
 def to_factor_tree(tree: ParseTree, world: WorldModel | None = None) -> ParseTree:
@@ -262,7 +263,7 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
         PhraseKind.MODIFIER,
         tree.phrase.text,
         words,
-        plural=head.plural,
+        plural=head.plural and not in_group(head),
         count=several,
         context=_landmark_context(tree),
         among=head.among,

@@ -18,12 +18,16 @@ from dcg_torch.types import LOOKED_ROUND, NOT, Object, ParseTree, Phrase, Phrase
 
 _WITHIN = INSIDE | {"on", "at", "to", "into"}
 _BESIDE = frozenset({"next to", "touching", "beside"})
+_DIAGONAL = "diagonal to"
 _ANY, _FEW = 3, 6
 """Neighbours at least of what is surrounded, and landmarks up to which "left of the white one" is read in a grid."""
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
+_ASLANT: tuple[Cell, ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 _MIDDLES = frozenset({"middle", "center", "central", "middlemost"})
 _SPOTS = frozenset({"corner", "side", "edge", "end", "middle", "center"})
-_TELLING = frozenset().union(LINE_OF, LINE_ENDS, CELL_STEPS, _BESIDE, _SPOTS, _MIDDLES, ("between", "surrounded by"))
+_TELLING = frozenset().union(
+    LINE_OF, LINE_ENDS, CELL_STEPS, _BESIDE, _SPOTS, _MIDDLES, ("between", "surrounded by", _DIAGONAL)
+)
 _SAME = frozenset({"color: equal", "color: same hue", "color: alike"})
 
 
@@ -115,11 +119,20 @@ class _Speaking:
         if place.phrase.kind is not PhraseKind.PREPOSITION or place.phrase.words[0] not in _WITHIN:
             return
         for landmark in place.children:
-            cells = self.line(landmark.phrase)
+            cells = self.line(landmark.phrase) or self.line_of_another(landmark)
             if cells is not None:
                 yield cells
                 for below in landmark.children:
                     yield from self.lines(below)
+
+    def line_of_another(self, landmark: ParseTree) -> set[Cell] | None:
+        """The cells of "the same row as the red tile", without that tile; None where it means none for certain."""
+        marks = [c.children[0].phrase for c in landmark.children if c.phrase.words[:1] == ("as",) and c.children]
+        if landmark.phrase.noun not in LINE_OF or "same" not in landmark.phrase.words or len(marks) != 1:
+            return None
+        axis = 0 if landmark.phrase.noun != "column" else 1
+        own = self.fitting(marks[0], set(self.things))
+        return {c for c in self.things if c not in own and any(c[axis] == of[axis] for of in own)} or None
 
     def aside(self, tree: ParseTree) -> list[tuple[int | None, int]]:
         """At which end of a line a thing is: "in the third row on the left" is the leftmost there."""
@@ -132,6 +145,8 @@ class _Speaking:
             yield place
             return
         for landmark in place.children:
+            if self.line_of_another(landmark) is not None:
+                continue
             if self.line(landmark.phrase) is None:
                 yield replace(place, children=(landmark,))
             else:
@@ -216,8 +231,9 @@ class _Speaking:
             return None
         if name in CELL_STEPS:
             found = {cell for mark in marks[0] for cell in self.stepped(phrase, mark, CELL_STEPS[name])}
-        elif name in _BESIDE:
-            near = {(r + dr, c + dc) for r, c in marks[0] for dr, dc in _AROUND}
+        elif name in _BESIDE or name == _DIAGONAL:
+            around = _ASLANT if name == _DIAGONAL else _AROUND
+            near = {(r + dr, c + dc) for r, c in marks[0] for dr, dc in around}
             found = self.fitting(phrase, near)
         else:
             return None

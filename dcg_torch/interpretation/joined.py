@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
+from dcg_torch.names.palette import region
+from dcg_torch.names.vocabulary import OF_TWO, OR, ORDINALS, PLACE_WORDS, is_superlative
 from dcg_torch.types import ParseTree, Phrase
 
 _AND, _LAST, _FROM = "and", "last", "from "
@@ -16,6 +17,24 @@ def each_meant(nouns: Sequence[ParseTree]) -> list[ParseTree]:
     """The noun phrases of one thing, or of several alike, that joined noun phrases mean."""
     found = [one for noun in nouns for part in _own_and_repeated(noun) for one in _each_picked(part)]
     return _counted_alike(found)
+
+
+def either_color(noun: ParseTree) -> tuple[ParseTree, ...]:
+    """ "The red or green cube": the red cube, or the green cube; "all red or green cubes": those and these."""
+    phrase = noun.phrase
+    others = [word for word in phrase.words if word.startswith(f"{OR} ") or _is_another_color(word, phrase)]
+    if not others:
+        return (noun,)
+    words = tuple(word for word in phrase.words if word not in others)
+    again = words if phrase.plural else (*words, OR)
+    more = (replace(phrase, color=word.removeprefix(f"{OR} "), words=again) for word in others)
+    return (replace(noun, phrase=replace(phrase, words=words)), *(replace(noun, phrase=one) for one in more))
+
+
+def _is_another_color(word: str, phrase: Phrase) -> bool:
+    """ "All the red and green cubes": of several, some are of the one colour and some of the other."""
+    several = phrase.plural and phrase.count is None and _AND in phrase.text.split()
+    return several and phrase.color is not None and region(word) is not None
 
 
 def _own_and_repeated(noun: ParseTree) -> list[ParseTree]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
@@ -9,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.palette import lab
 from dcg_torch.names.vocabulary import THAN
 from dcg_torch.scene.bodies import bulk
@@ -42,6 +44,7 @@ _MORE: dict[str, tuple[Callable[[Object], float | None], float]] = {
     **dict.fromkeys(("shorter",), (_height, -1.0)),
     **dict.fromkeys(("lighter", "brighter", "paler"), (_lightness, 1.0)),
     **dict.fromkeys(("darker",), (_lightness, -1.0)),
+    **{word: (functools.partial(measure, word=word), 1.0) for word in dimensions() if word.endswith("er")},
 }
 """Words that compare: what is measured, and whether more of it is meant or less."""
 MORE_THAN = {f"{word} {THAN}": how for word, how in _MORE.items()}

@@ -151,6 +151,9 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         if place.phrase.words[:1] and place.phrase.words[0] in _COUNTED_FROM and side.phrase.noun not in PLACE_WORDS:
             # "The second one to the right of the cup" is the second that one comes to.
             return replace(tree, phrase=replace(phrase, words=(*phrase.words, _COUNTED_FROM[place.phrase.words[0]])))
+        if place.phrase.words[:1] == ("from",) and _is_a_thing(side):  # "the second chair from the door"
+            nearest = replace(place, phrase=replace(place.phrase, words=(NEAREST, *place.phrase.words[1:])))
+            return replace(tree, children=(*tree.children[:k], nearest, *tree.children[k + 1 :]))
         beside = place.phrase.words[:1] == ("from",) or place.phrase.text.split()[:1] == ["to"]
         if beside and side.phrase.noun in SIDED and not (side.children or {*side.phrase.words} - {"your", "my"}):
             word = f"from the {side.phrase.noun}"
@@ -158,6 +161,17 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
                 replace(phrase, words=(*phrase.words, word)), (*tree.children[:k], *tree.children[k + 1 :])
             )
     return tree
+
+
+def _is_a_thing(landmark: ParseTree) -> bool:
+    """Is it no side, place or group, nor what lies at one of them?"""
+    phrase = landmark.phrase
+    return (
+        phrase.kind is PhraseKind.NOUN
+        and phrase.noun is not None
+        and not phrase.plural
+        and not (phrase.noun in PLACE_WORDS or phrase.noun in SIDED or phrase.noun in WORKSPACE or in_group(phrase))
+    )
 
 
 _NTH = {str(number): word for word, number in ORDINALS.items()}

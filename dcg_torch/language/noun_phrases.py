@@ -93,8 +93,8 @@ class NounPhrase:
         if self.tokens[self.at + 1].tag == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
             self.item.words += (f"{token.value[0]} {after}",)  # "white-haired": it is no colour of the whole
             return 2
-        if self.item.color is not None:
-            self.item.words += (token.value[0],)  # "the red and blue tower": the first is its colour
+        if self.item.color is not None:  # "the red and blue tower": the first is its colour
+            self.item.words += ("or " * (self.tokens[self.at - 1].text == "or") + token.value[0],)
         self.item.color = self.item.color or token.value[0]
         return 1 + (after in SETS["color_fillers"])
 

@@ -52,8 +52,7 @@ def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
 def list_places(clauses: Sequence[Clause]) -> None:
     """ "Dirty plate. Dining table.": names without articles, of which the first is by the others."""
     bare = [clause.objects[0] for clause in clauses if len(clause.objects) == 1 and not (clause.verb or clause.places)]
-    names = {noun.noun for noun in bare if noun.is_a("listed")}
-    if len(names) == len(clauses) > 1:
+    if len({noun.noun for noun in bare if noun.is_a("listed")}) == len(clauses) > 1:
         bare.sort(key=lambda noun: room_named(noun.noun or "") is not None)  # "kitchen, mug": a mug
         bare[0].children += [noun.behind("near") for noun in bare[1:]]
         for clause in clauses:
@@ -74,9 +73,10 @@ def hang_fragments(clauses: Sequence[Clause]) -> None:
 
 
 def tells_of_neighbour(clause: Clause) -> bool:
-    """ "Beside it (there) is a stand": a clause that says what stands by what was named before."""
+    """ "Beside it (there) is a stand", "the stand is beside it": a clause that says what stands by what was named."""
     thing = clause.objects[0] if len(clause.objects) == 1 and clause.tells else END
-    return thing.is_a("new") and about_it(thing)
+    said = clause.statement and any(place.start > clause.statement.start for place in thing.children)
+    return bool(thing.is_a("new") or said) and about_it(thing)
 
 
 def exists(clause: Clause) -> bool:
@@ -85,9 +85,8 @@ def exists(clause: Clause) -> bool:
 
 
 def about_it(noun: Item) -> bool:
-    """ "(There is) a blue pillow next to it"."""
-    words = SETS["stands_for"] | SETS["owners"]  # "(a bin) to its left"
-    return any(below.text.split(" ")[0] in words for child in noun.children for below in child.children)
+    """ "(There is) a blue pillow next to it", "(a bin) to its left"."""
+    return any(b.text.split(" ")[0] in SETS["stands_for"] | SETS["owners"] for c in noun.children for b in c.children)
 
 
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:

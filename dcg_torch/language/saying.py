@@ -65,7 +65,7 @@ class NounPhrases:
             item.beside = True
             item.words += ("or",) * (self.conjunction == "or")
             conjoin(item, self.nouns, self.pending, self.clause)
-        elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the "):
+        elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the ") or item.is_a("told_apart"):
             self.mention(item)
 
     def mention(self, item: Item) -> None:

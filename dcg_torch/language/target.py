@@ -54,7 +54,8 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
         before = (noun for other in clauses for noun in other.objects if noun.text in SETS["stands_for"])
         if clause.verb is not None and any(noun.stop == clause.verb.start for noun in before):
             return TARGETS["identified"]
-        if clause.verb is None and clause is clauses[-1] and clause.sentence > clauses[0].sentence:
+        last = clause.verb is None and clause is clauses[-1] and clause.sentence > clauses[0].sentence
+        if last and not (told and all(other.tells for other in clauses)):
             return TARGETS["named_last"]
     # "The mirror above the sink, there are other mirrors", "there is another one", "beside it is a stand".
     more = any(m.noun.noun == target.noun and m.noun.definite > m.noun.plural for m in found) and target.plural

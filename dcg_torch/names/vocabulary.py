@@ -156,7 +156,6 @@ DEGREES = frozenset({"far", "very", "extreme", "utmost", "farthest", "outer"})
 SYNONYMS = {
     **{"smaller": "smallest", "littler": "smallest", "littlest": "smallest", "tiniest": "smallest"},
     **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
-    **{"wider": "largest", "widest": "largest"},
     **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "centric": "middle"},
     **dict.fromkeys(("lone", "single", "freestanding", "solitary", "lonely", "standalone"), "alone"),
     **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},

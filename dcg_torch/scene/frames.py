@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER
+from dcg_torch.scene.places import places, scene_bounds
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import wrap_angle
 
@@ -52,7 +53,24 @@ def seen_facing(world: WorldModel, thing: Object, *, away: bool = False) -> Worl
     if math.hypot(*ahead) < world.unit / 2.0:
         return None
     yaw = _straight_at(thing, ahead)
-    return _turned(world, Pose(*thing.position[:2], yaw + math.pi) if away else Pose(x, y, yaw))
+    viewer = Pose(*thing.position[:2], yaw + math.pi) if away else Pose(x, y, yaw)
+    turned = _turned(world, viewer)
+    return replace(turned, places=_bordered_anew(turned.places, world, viewer))
+
+
+def _bordered_anew(found: tuple[Object, ...], world: WorldModel, viewer: Pose) -> tuple[Object, ...]:
+    """Places with the edges of a box around the objects that is as the viewer looks: a room's own walls may be aslant,
+    and who stands at a slant has no wall on the left."""
+    there = [o.position for o in world.objects if o.position is not None]
+    others = tuple(place for place in found if place.type not in _OF_A_BOX)
+    if len(others) == len(found) or not there:
+        return found
+    boxed = places(scene_bounds(there, viewer), viewer, None)
+    return (*(place for place in boxed if place.type in _OF_A_BOX), *others)
+
+
+_OF_A_BOX = frozenset({"edge", "corner", "middle"})
+"""The places that a box around all objects has."""
 
 
 def _straight_at(thing: Object, ahead: tuple[float, float]) -> float:

@@ -1,0 +1,88 @@
+"""How wide, long, thin or flat things are: "the widest box", "the long table", "the second thinnest of the books".
+
+Measured of the extents, and compared among what the rest of a noun phrase describes: nothing of it is learned.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.interpretation.dimensions import dimensions, measure
+from dcg_torch.names.vocabulary import ORDINALS
+from dcg_torch.types import Phrase
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_EVEN = 0.04
+"""Logarithms of measures that differ by less are even."""
+_BY_PLACE = 3.0
+"""Nats for each place by which a thing stays behind "the second widest"."""
+_BY_DEGREE = 5.0
+"""Nats that the narrowest loses where a thing is called wide; less by the square of how far it is from the widest."""
+_LIKE = {"wider": "largest", "widest": "largest"}
+"""What is said much like a word, where no extents are known: of groups."""
+
+
+def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+    """What the words of a noun phrase that measure things say of each.
+
+    Args:
+        told: words that attributes answer.
+        among: (things,) what the rest of the phrase describes.
+
+    Returns:
+        The phrase without the words that are taken up, and the log-factor of each thing.
+    """
+    words = [word for word in phrase.words if word in dimensions() and word not in told]
+    log, taken = _counted_along(phrase, among, encoder), set[str]()
+    number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
+    for word in words:
+        values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
+        known = among & np.isfinite(values)
+        if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
+            continue
+        compared = word.endswith(("er", "est"))
+        loss = _behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
+        log[known] -= loss
+        log[~known] -= loss.max()
+        taken |= {word, *(ORDINALS if compared else ())}
+    kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
+    return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
+
+
+def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Floats:
+    """(things,) log-factor of "the second (to last) from the left", by the place among what the rest describes.
+
+    0 for all where nothing is counted so, or in a group, which counts its own.
+    """
+    log, where, last = np.zeros(len(among)), encoder.layout, "last" in phrase.words
+    numbers = [ORDINALS[word] for word in phrase.words if word in ORDINALS] or [1] * last
+    sides = [_ALONG[word] for word in phrase.words if word in _ALONG and (where.picture or word not in _DEEP)]
+    at = np.flatnonzero(among & where.solid & np.isfinite(where.position).all(axis=1))
+    if len(numbers) == len(sides) == 1 and len(at) >= numbers[0] and phrase.among != "row":
+        first = where.position[at, :2] @ np.array(sides[0])
+        log[at] = -_behind(-first if last else first, numbers[0], phrase.count or 1)
+    return log
+
+
+_DEEP = {"from the back": (1.0, 0.0), "from the front": (-1.0, 0.0)}
+_ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
+"""From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""
+
+
+def _behind(values: Floats, number: int, count: int) -> Floats:
+    """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing."""
+    ahead: Floats = (values[None, :] > values[:, None] + _EVEN).sum(axis=1).astype(np.float64)
+    return _BY_PLACE * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))
+
+
+def _by_degree(values: Floats) -> Floats:
+    off: Floats = (values.max() - values) / np.ptp(values)
+    return _BY_DEGREE * off**2
