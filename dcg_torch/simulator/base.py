@@ -17,7 +17,7 @@ ROBOT_RADIUS = 0.178
 """Metres; nothing of the robot is farther from its middle, seen from above."""
 MAX_SPEED, MAX_TURN = 0.65, 2.0  # m/s, rad/s: the TurtleBot 2's own limit, and a brisk turn
 _ACCELERATION, _TURN_ACCELERATION = 1.2, 6.0  # m/s2, rad/s2
-_TICK_STEPS = 4
+_TICK_STEPS = 2
 TICK = _TICK_STEPS * STEP
 """Seconds between two commands to the wheels (30 Hz)."""
 _WHEEL_RADIUS, _HALF_TRACK = 0.038, 0.115  # metres, as in robot.urdf
