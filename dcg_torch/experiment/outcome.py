@@ -13,8 +13,8 @@ from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
-from dcg_torch.experiment.pool import cores, may_start_processes, work_off, works_alone
-from dcg_torch.report.intervals import Estimate
+from dcg_torch.experiment.pool import may_start_processes, work_off, works_alone
+from dcg_torch.report.intervals import Estimate, student_quantile
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
 from dcg_torch.report.runs import read_rows, read_timings, varied_settings
@@ -46,13 +46,16 @@ def save_outcome(
         drawing: what `begin_drawing` gave, if it was asked.
     """
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
-    with contextlib.closing(drawing or begin_drawing(settings, directory)) as drawing:
+    curves: list[Job] = []
+    if settings.tensorboard:
+        curves = [_load_board, functools.partial(_write_curves, settings, directory)]
+    drawing = drawing or begin_drawing(settings, directory)
+    with contextlib.closing(drawing), contextlib.closing(_working(curves, settings)) as writing:
         next(drawing, None)  # the figures begin
+        next(writing, None)  # what the curves need is loaded meanwhile
         measures, seconds = measure(rows), summarise_seconds(timings)
         _finish(drawing)
-    if settings.tensorboard:
-        with contextlib.closing(_working([functools.partial(_write_curves, settings, directory)], settings)) as writing:
-            _finish(writing)
+        _finish(writing)
     summary = directory / SUMMARY
     if wall is not None:
         seconds["wall"] = wall
@@ -83,10 +86,11 @@ def begin_drawing(settings: Settings, directory: Path) -> Generator[object]:
         jobs.append(functools.partial(_draw_ahead, pictures, settings.figures))
     if settings.figures:
         jobs.append(functools.partial(_draw_figures, settings, directory))
-    if not jobs or works_alone(settings) or not may_start_processes():
+    if works_alone(settings) or not may_start_processes():
         return _one_by_one(jobs)
     drawing = work_off(_do, jobs, 1, bare=True)
     next(drawing)
+    student_quantile(1)  # what it imports is loaded while the workers wake, and not when all wait for the summary
     return drawing
 
 
@@ -101,17 +105,22 @@ def _draw_ahead(pictures: Sequence[Job], figures: bool) -> None:
         job()
     if figures:
         import dcg_torch.report.figures  # noqa: F401
+        from dcg_torch.report.canvas import warm_up
+
+        warm_up()
+        student_quantile(1)
 
 
 def _working(jobs: Sequence[Job], settings: Settings) -> Generator[object]:
-    """Do all jobs where the trials ran, for there is imported what takes longest: here, or in several processes.
+    """Do jobs one after another where the trials ran, for there is torch: here, or in a process of their own.
 
-    Those in other processes have begun when the first value comes.
+    A job begins when a value is asked for after that of the job before; in another process the first has begun when the
+    first value comes.
     """
     if works_alone(settings):
         yield from _one_by_one(jobs)
     else:
-        yield from work_off(_do, jobs, settings.workers or cores())
+        yield from work_off(_do, jobs, 1)
 
 
 def _finish(working: Iterator[object]) -> None:
@@ -128,6 +137,10 @@ def _draw_figures(settings: Settings, directory: Path) -> None:
 
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
     save_figures(rows, timings, directory / _FIGURES, beside_paper=follows_paper(asdict(settings)))
+
+
+def _load_board() -> None:
+    import dcg_torch.report.board  # noqa: F401
 
 
 def _write_curves(settings: Settings, directory: Path) -> None:
