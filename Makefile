@@ -2,7 +2,9 @@
 VENV := .venv
 BIN := $(VENV)/bin
 RUN := $(BIN)/python -m dcg_torch
-PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --root-user-action=ignore
+# Without --no-compile pip compiles every module of every package, which takes longer than all the rest; Python compiles
+# what is used as it is used.
+PIP := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --root-user-action=ignore
 
 # python3.11 where there is one (PyBullet has wheels for it), else a python3 that is new enough.
 PYTHON ?= $(shell for p in python3.11 python3; do \

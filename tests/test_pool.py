@@ -7,6 +7,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 import pytest
@@ -78,7 +79,7 @@ def test_a_worker_that_dies_before_it_has_a_task_is_noticed(monkeypatch: pytest.
 def test_nobody_waits_for_a_consumer_who_left(tmp_path: Path) -> None:
     results = work_off(functools.partial(note, tmp_path), range(100), 2)
     next(filter(None, results))
-    results.close()  # type: ignore[attr-defined]
+    results.close()
     pids = {path.read_text() for path in tmp_path.iterdir()}
     assert not any(Path(f"/proc/{pid}").exists() for pid in pids if pid)
 
@@ -96,3 +97,15 @@ def test_a_process_that_was_prepared_in_vain_ends_with_its_parent() -> None:
     assert done.stderr == ""
     pid = done.stdout.strip()
     assert not pid or not Path(f"/proc/{pid}").exists() or "Z" in Path(f"/proc/{pid}/stat").read_text()
+
+
+def test_a_bare_process_waits_with_its_next_task_until_it_is_asked_for(tmp_path: Path) -> None:
+    results = work_off(functools.partial(note, tmp_path), [1, 2], 1, bare=True)
+    assert next(results) == []
+    until = time.monotonic() + 60.0
+    while not (tmp_path / "1").exists() and time.monotonic() < until:
+        time.sleep(0.05)
+    time.sleep(0.2)
+    assert not (tmp_path / "2").exists()
+    assert [task for ended in results for task in ended] == [1, 2]
+    assert (tmp_path / "1").read_text() == (tmp_path / "2").read_text() != str(os.getpid())

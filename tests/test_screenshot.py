@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from dcg_torch.simulator.screenshot import HIGHLIGHT, save_pair_screenshots, world_screenshot
-from dcg_torch.simulator.view import fitting_view
+from dcg_torch.simulator.stage import Stage
+from dcg_torch.simulator.view import View, direction, fitting_view
 from dcg_torch.world.files import World, load_worlds
 
 SIZE = (320, 240)
@@ -54,6 +55,18 @@ def test_the_camera_has_all_points_in_the_picture_and_is_no_further_than_needed(
     assert from_middle.max() <= 0.86 + 1e-6
     assert depth >= 8.0 - 1e-6
     assert from_middle.max() >= 0.86 - 1e-6 or depth <= 8.0 + 1e-6
+
+
+@pytest.mark.parametrize("down", [0.6, 0.02, -0.5])
+def test_the_painted_floor_is_the_one_that_the_renderer_draws(worlds: list[World], down: float) -> None:
+    with Stage(worlds[1]) as stage:
+        far = View(np.array([-1.0, 0.3, 1.2]), direction(0.4, down), 0.9, SIZE, near=2.0, far=12.0)
+        for view in (stage.overview(SIZE, 0.6), far):
+            drawn, bodies = view.render(stage.client)
+            painted, mask = stage.unshaded(view)
+            assert (mask == bodies).mean() > 0.999
+            assert (abs(painted.astype(int) - drawn).max(axis=2) <= 1).mean() > 0.999
+        assert (stage.floor in mask) == (down > 0.0)
 
 
 def test_a_picture_leaves_no_client_behind(worlds: list[World]) -> None:

@@ -13,6 +13,7 @@ from physics import distance, everything, seen, world
 from dcg_torch.simulator import Client, SimulatedRobot, SimulatorError
 from dcg_torch.simulator.base import ROBOT_RADIUS
 from dcg_torch.simulator.bodies import footprint
+from dcg_torch.simulator.client import STEP
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.world.files import World
 from dcg_torch.world.generator import generate_world
@@ -28,7 +29,7 @@ def test_spin_turns_by_the_angle_and_stays_in_place(shared: SimulatedRobot, angl
     assert shared.path_length < 0.05
     # and it stands: nothing moves in the next simulated second
     before = shared.client.pose(shared._visit.base.body)
-    shared.client.step(120)
+    shared.client.step(round(1.0 / STEP))
     after = shared.client.pose(shared._visit.base.body)
     assert math.dist((before.x, before.y), (after.x, after.y)) < 1e-3
     assert abs(before.yaw - after.yaw) < 1e-3

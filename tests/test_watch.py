@@ -14,7 +14,7 @@ from PIL import Image
 
 from dcg_torch.agent.command import Look
 from dcg_torch.experiment.folder import ITERATIONS, animation_of
-from dcg_torch.experiment.outcome import save_screenshots
+from dcg_torch.experiment.outcome import begin_drawing
 from dcg_torch.experiment.recording import paint
 from dcg_torch.experiment.recording.animation import SIZE, animate, frames, schedule
 from dcg_torch.experiment.recording.floor import FloorPanel
@@ -363,9 +363,12 @@ def test_the_fake_robot_has_nothing_to_show(changes: dict[str, object]) -> None:
     assert "\n" not in str(error.value)
 
 
-def test_a_picture_for_every_pair(tmp_path: Path) -> None:
-    save_screenshots(laboratory(), tmp_path / "shots")
-    paths = {path.name: path for path in (tmp_path / "shots").iterdir()}
+@pytest.mark.parametrize("workers", [1, 2])
+def test_a_picture_for_every_pair_needs_no_trial(tmp_path: Path, workers: int) -> None:
+    settings = laboratory(trials=2, workers=workers, screenshots=True, figures=False)
+    for _ in begin_drawing(settings, tmp_path):
+        pass
+    paths = {path.name: path for path in (tmp_path / "screenshots").iterdir()}
     assert paths.keys() == {f"laboratory-{id_}.png" for id_ in ("cone", "cube", "crate")}
     for path in paths.values():
         with Image.open(path) as image:

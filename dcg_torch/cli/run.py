@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 from dataclasses import asdict, replace
 from pathlib import Path
@@ -57,12 +58,13 @@ def _run(settings: Settings, directory: Path, began: float) -> float:
         f"[bold]{escape(settings.name)}[/bold]: {settings.trials} trials of {settings.iterations} commands, "
         f"model {escape(settings.model.name)}, in {escape(str(directory))}"
     )
-    with CommandBar(settings.trials * settings.iterations, console) as bar:
-        ran = run(settings, directory, bar, lambda note: console.print(f"note: {escape(note)}"))
-    from dcg_torch.experiment.outcome import save_outcome, value_of
+    from dcg_torch.experiment.outcome import begin_drawing, save_outcome, value_of
     from dcg_torch.report.show import print_run
 
-    outcome = save_outcome(settings, directory, time.perf_counter() - began if ran else None)
+    with contextlib.closing(begin_drawing(settings, directory)) as drawing:
+        with CommandBar(settings.trials * settings.iterations, console) as bar:
+            ran = run(settings, directory, bar, lambda note: console.print(f"note: {escape(note)}"))
+        outcome = save_outcome(settings, directory, time.perf_counter() - began if ran else None, drawing)
     print_run(outcome.measures, outcome.seconds, asdict(settings), console)
     _print_lexicon(lexicon_of(directory, settings.trials - 1), console)
     shown = escape(str(directory))

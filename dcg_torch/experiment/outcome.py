@@ -7,24 +7,24 @@ import functools
 import os
 import tempfile
 import threading
-from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Iterable, Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS
 from dcg_torch.experiment.plan import trial_generators, trial_worlds
-from dcg_torch.experiment.pool import cores, work_off, works_alone
-from dcg_torch.report.intervals import Estimate
+from dcg_torch.experiment.pool import may_start_processes, work_off, works_alone
+from dcg_torch.report.intervals import Estimate, student_quantile
 from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.paper import follows_paper
 from dcg_torch.report.runs import read_rows, read_timings, varied_settings
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, read_summary, write_summary
 from dcg_torch.settings import Metric, Settings
-from dcg_torch.storage.records import Iteration, Timing
 from dcg_torch.storage.whole import sweep_parts
 from dcg_torch.world.files import World
 
+_FIGURES = "figures"
 _EVENTS = "events.out.tfevents.*"
 
 
@@ -36,17 +36,26 @@ class Outcome:
     seconds: Mapping[str, float]
 
 
-def save_outcome(settings: Settings, directory: Path, wall: float | None) -> Outcome:
+def save_outcome(
+    settings: Settings, directory: Path, wall: float | None, drawing: Generator[object] | None = None
+) -> Outcome:
     """Draw and write what the settings ask for, from the rows in a run folder, in place of what was there.
 
     Args:
         wall: seconds that the run took; None for one that was finished before, whose time stays.
+        drawing: what `begin_drawing` gave, if it was asked.
     """
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
-    with contextlib.closing(_working(_jobs(settings, directory), settings)) as drawing:
-        next(drawing, None)  # it begins
+    curves: list[Job] = []
+    if settings.tensorboard:
+        curves = [_load_board, functools.partial(_write_curves, settings, directory)]
+    drawing = drawing or begin_drawing(settings, directory)
+    with contextlib.closing(drawing), contextlib.closing(_working(curves, settings)) as writing:
+        next(drawing, None)  # the figures begin
+        next(writing, None)  # what the curves need is loaded meanwhile
         measures, seconds = measure(rows), summarise_seconds(timings)
         _finish(drawing)
+        _finish(writing)
     summary = directory / SUMMARY
     if wall is not None:
         seconds["wall"] = wall
@@ -66,26 +75,52 @@ def value_of(measures: Measures, metric: Metric) -> float:
 Job = Callable[[], object]
 
 
-def _jobs(settings: Settings, directory: Path) -> list[Job]:
-    """What there is to draw, the longest first: pieces that don't wait for one another."""
+def begin_drawing(settings: Settings, directory: Path) -> Generator[object]:
+    """Begin to draw what needs no trial, in a process of its own where the trials have some as well; go on at once.
+
+    What is asked for draws the rest; ask for nothing before the rows of all trials are there.
+    """
     jobs: list[Job] = []
-    if settings.figures or settings.tensorboard:
-        jobs.append(functools.partial(_draw, settings, directory))
-    if settings.screenshots:
-        jobs += _screenshots(settings, directory / "screenshots")
-    return jobs
+    if settings.screenshots or settings.figures:
+        pictures = _screenshots(settings, directory / "screenshots") if settings.screenshots else []
+        jobs.append(functools.partial(_draw_ahead, pictures, settings.figures))
+    if settings.figures:
+        jobs.append(functools.partial(_draw_figures, settings, directory))
+    if works_alone(settings) or not may_start_processes():
+        return _one_by_one(jobs)
+    drawing = work_off(_do, jobs, 1, bare=True)
+    next(drawing)
+    student_quantile(1)  # what it imports is loaded while the workers wake, and not when all wait for the summary
+    return drawing
+
+
+def _one_by_one(jobs: Iterable[Job]) -> Generator[object]:
+    for job in jobs:
+        yield job()
+
+
+def _draw_ahead(pictures: Sequence[Job], figures: bool) -> None:
+    """Pictures that need no trial, and what figures need, which takes a while to import."""
+    for job in pictures:
+        job()
+    if figures:
+        import dcg_torch.report.figures  # noqa: F401
+        from dcg_torch.report.canvas import warm_up
+
+        warm_up()
+        student_quantile(1)
 
 
 def _working(jobs: Sequence[Job], settings: Settings) -> Generator[object]:
-    """Do all jobs where the trials ran, for there is imported what takes longest: here, or in several processes.
+    """Do jobs one after another where the trials ran, for there is torch: here, or in a process of their own.
 
-    Those in other processes have begun when the first value comes.
+    A job begins when a value is asked for after that of the job before; in another process the first has begun when the
+    first value comes.
     """
     if works_alone(settings):
-        for job in jobs:
-            yield job()
+        yield from _one_by_one(jobs)
     else:
-        yield from work_off(_do, jobs, settings.workers or cores())
+        yield from work_off(_do, jobs, 1)
 
 
 def _finish(working: Iterator[object]) -> None:
@@ -97,24 +132,23 @@ def _do(job: Job) -> None:
     job()
 
 
-def _draw(settings: Settings, directory: Path) -> None:
-    """Figures, and curves beside which they are shown."""
+def _draw_figures(settings: Settings, directory: Path) -> None:
+    from dcg_torch.report.figures import save_figures
+
     rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
-    figures: list[Path] = []
-    if settings.figures:
-        from dcg_torch.report.figures import save_figures
-
-        figures = save_figures(rows, timings, directory / "figures", beside_paper=follows_paper(asdict(settings)))
-    if settings.tensorboard:
-        _write_curves(directory, rows, timings, figures)
+    save_figures(rows, timings, directory / _FIGURES, beside_paper=follows_paper(asdict(settings)))
 
 
-def _write_curves(
-    directory: Path, rows: Sequence[Iteration], timings: Sequence[Timing], figures: Sequence[Path]
-) -> None:
-    """Write the event file beside the old one, then put it in its place."""
+def _load_board() -> None:
+    import dcg_torch.report.board  # noqa: F401
+
+
+def _write_curves(settings: Settings, directory: Path) -> None:
+    """Write the event file, with the figures in it, beside the old one, then put it in its place."""
     from dcg_torch.report.board import write_board
 
+    rows, timings = read_rows(directory / ITERATIONS), read_timings(directory)
+    figures = sorted((directory / _FIGURES).glob("*.png")) if settings.figures else []
     with tempfile.TemporaryDirectory(prefix=".curves.", suffix=".part", dir=directory) as part:
         with _quiet_threads():
             write_board(Path(part), rows, timings, varied_settings(directory), figures)
@@ -136,19 +170,15 @@ def _quiet_threads() -> Iterator[None]:
         threading.excepthook = before
 
 
-def save_screenshots(settings: Settings, directory: Path) -> None:
-    """Write `<world>-<object id>.png` for every pair of a world and an object, as people are shown to ask for commands.
+def _screenshots(settings: Settings, directory: Path) -> list[Job]:
+    """A job for each world, in a folder that is made for it.
 
-    The worlds are those of the experiment; where each trial has its own, those of the first.
+    It writes `<world>-<object id>.png` for every object, as people are shown to ask for commands. The worlds are those
+    of the experiment; where each trial has its own, those of the first.
 
     Raises:
         WorldFileError: a world file is missing or not valid.
     """
-    _finish(_working(_screenshots(settings, directory), settings))
-
-
-def _screenshots(settings: Settings, directory: Path) -> list[Job]:
-    """A job for each world, in a folder that is made for it."""
     worlds = trial_worlds(settings, trial_generators(settings.seed, 0)[0])
     directory.mkdir(parents=True, exist_ok=True)
     sweep_parts(directory)

@@ -20,7 +20,7 @@ import threading
 import time
 import traceback
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from multiprocessing import forkserver, resource_tracker, util
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkServerContext, SpawnContext
@@ -97,13 +97,16 @@ def _end_forkserver() -> None:
             os.kill(pid, signal.SIGTERM)
 
 
-def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
+def work_off(
+    work: Callable[[T], object], tasks: Sequence[T], workers: int, *, bare: bool = False
+) -> Generator[list[T]]:
     """Do `work` for every task, each in one of several new processes; a script needs `if __name__ == "__main__"`.
 
     Args:
         work: what can be pickled; its result is thrown away.
-        tasks: handed out in this order.
+        tasks: handed out in this order, the next one to a process when a value is asked for after its last.
         workers: how many processes, at the most.
+        bare: processes that have imported nothing, and are there while what the others are forked from still imports.
 
     Yields:
         The tasks that ended since, about four times a second; mostly none, and none when the first have begun.
@@ -117,16 +120,16 @@ def work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> I
             work(task)
             yield [task]
         return
-    yield from _work_off(work, tasks, workers)
+    yield from _work_off(work, tasks, workers, bare)
 
 
-def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int) -> Iterator[list[T]]:
+def _work_off(work: Callable[[T], object], tasks: Sequence[T], workers: int, bare: bool) -> Generator[list[T]]:
     waiting = deque(tasks)
     links: dict[Connection, BaseProcess] = {}
     try:
         with _interrupts_wait():
             for _ in range(min(workers, len(tasks))):
-                link, process = _start(work)
+                link, process = _start(work, bare)
                 links[link] = process
                 _send(link, waiting.popleft())
         yield []
@@ -186,8 +189,8 @@ def _keep_sockets_in(folder: Path) -> None:
     util.Finalize(None, shutil.rmtree, args=(folder, True), exitpriority=-200)  # after what multiprocessing removes
 
 
-def _start(work: Callable[[T], object]) -> tuple[Connection, BaseProcess]:
-    context = _context()
+def _start(work: Callable[[T], object], bare: bool) -> tuple[Connection, BaseProcess]:
+    context = multiprocessing.get_context("spawn") if bare else _context()
     ours, theirs = context.Pipe()
     process = context.Process(target=_serve, args=(theirs, work), daemon=True)
     try:

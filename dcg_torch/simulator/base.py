@@ -17,7 +17,7 @@ ROBOT_RADIUS = 0.178
 """Metres; nothing of the robot is farther from its middle, seen from above."""
 MAX_SPEED, MAX_TURN = 0.65, 2.0  # m/s, rad/s: the TurtleBot 2's own limit, and a brisk turn
 _ACCELERATION, _TURN_ACCELERATION = 1.2, 6.0  # m/s2, rad/s2
-_TICK_STEPS = 4
+_TICK_STEPS = 2
 TICK = _TICK_STEPS * STEP
 """Seconds between two commands to the wheels (30 Hz)."""
 _WHEEL_RADIUS, _HALF_TRACK = 0.038, 0.115  # metres, as in robot.urdf
@@ -26,15 +26,18 @@ _MODEL = Path(__file__).parent / "models" / "robot.urdf"
 _TORQUE = 4.0  # N m, at most, for each wheel
 
 
-def add_robot(client: int, pose: Pose) -> int:
-    """Put the robot into the physics client of this number, standing at `pose`; its body number."""
-    body: int = pybullet.loadURDF(
-        str(_MODEL),
-        [pose.x, pose.y, 0.0],
-        pybullet.getQuaternionFromEuler([0.0, 0.0, pose.yaw]),
-        flags=pybullet.URDF_USE_INERTIA_FROM_FILE,
-        physicsClientId=client,
-    )
+def add_robot(client: int, pose: Pose, *, shown: bool = True) -> int:
+    """Put the robot into the physics client of this number, standing at `pose`; its body number.
+
+    Args:
+        shown: it has looks; without them it takes half of the time. Its own camera never sees it.
+    """
+    flags = pybullet.URDF_USE_INERTIA_FROM_FILE | (0 if shown else pybullet.URDF_IGNORE_VISUAL_SHAPES)
+    turn = pybullet.getQuaternionFromEuler([0.0, 0.0, pose.yaw])
+    body: int = pybullet.loadURDF(str(_MODEL), [pose.x, pose.y, 0.0], turn, flags=flags, physicsClientId=client)
+    if not shown:  # what can collide would be drawn in place of looks
+        for link in range(-1, pybullet.getNumJoints(body, physicsClientId=client)):
+            pybullet.changeVisualShape(body, link, rgbaColor=[0.0] * 4, physicsClientId=client)
     return body
 
 
@@ -49,7 +52,7 @@ class Base:
     def __init__(self, client: Client, start: Pose, observed: int = 3) -> None:
         self._client = client
         self._observed = observed
-        self.body = add_robot(client.id, start)
+        self.body = add_robot(client.id, start, shown=client.gui)
         names = [
             pybullet.getJointInfo(self.body, joint, physicsClientId=client.id)[1].decode()
             for joint in range(pybullet.getNumJoints(self.body, physicsClientId=client.id))

@@ -165,7 +165,7 @@ class _Screenshot:
             return covers, int(shown[y : y + framed, x : x + framed].sum())
 
         x, y = min(places, key=hidden)
-        picture, _ = self._near_view(item, side).render(self._stage.client)
+        picture, _ = self._stage.unshaded(self._near_view(item, side))
         ImageDraw.Draw(image).rectangle((x, y, x + framed - 1, y + framed - 1), fill=HIGHLIGHT)
         image.paste(Image.fromarray(picture), (x + margin, y + margin))
 

@@ -11,16 +11,16 @@ from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFilter
 
 from dcg_torch.simulator.base import add_robot
-from dcg_torch.simulator.bodies import Model, Part, add_model, add_object, extent, footprint
-from dcg_torch.simulator.bodies.meshes import Mesh, merged
+from dcg_torch.simulator.bodies import add_model, add_object, extent, footprint
 from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.engine import pybullet
+from dcg_torch.simulator.tiles import TILES, paint_floor, tiled
 from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
 from dcg_torch.types import Pose
 from dcg_torch.world.files import World
 
 ROBOT_RADIUS, ROBOT_HEIGHT = 0.2, 0.4  # metres that a picture should leave it
-_TILES: Final = ((0.89, 0.89, 0.87), (0.85, 0.85, 0.83))
+_AROUND: Final = 14  # metres of floor about the outermost object
 _FIELD_OF_VIEW: Final = math.radians(18.0)  # vertical; narrow, so that upright things stay upright at the edges
 
 
@@ -38,7 +38,9 @@ class Stage(Closing):
         self.world = world
         self.client = Client()
         try:
-            self.floor = add_model(self.client.id, _floor(world), _TILES[0], (0.0, 0.0))
+            places = [o.position for o in world.objects] + [(world.robot.x, world.robot.y)]
+            self._reach = math.ceil(max(abs(c) for place in places for c in place)) + _AROUND
+            self.floor = add_model(self.client.id, tiled(self._reach), TILES[0], (0.0, 0.0))
             self.bodies = {o.id: add_object(self.client.id, o.type, o.color, o.position, o.yaw) for o in world.objects}
             self.robot = add_robot(self.client.id, world.start)
         except BaseException:
@@ -66,9 +68,16 @@ class Stage(Closing):
 
     def render(self, view: View) -> tuple[Pixels, NDArray[np.int64]]:
         """Colours (h, w, 3) with the objects' shadows on the floor, and body ids (h, w)."""
-        image, mask = view.render(self.client)
+        image, mask = self.unshaded(view)
         spots = [circle(o.position, 0.8 * footprint(o.type) + 0.03) for o in self.world.objects]
         return shaded(image, mask == self.floor, view, spots), mask
+
+    def unshaded(self, view: View) -> tuple[Pixels, NDArray[np.int64]]:
+        """The same without shadows."""
+        with self.client.hidden([self.floor]):
+            image, mask = view.render(self.client)
+        paint_floor(view, image, mask, self.floor, self._reach)
+        return image, mask
 
 
 def shaded(image: Pixels, floor: NDArray[np.bool_], view: View, spots: Sequence[Points]) -> Pixels:
@@ -77,23 +86,20 @@ def shaded(image: Pixels, floor: NDArray[np.bool_], view: View, spots: Sequence[
     draw = ImageDraw.Draw(shade)
     for spot in spots:
         draw.polygon(view.outline(spot), fill=150)
-    soft = np.asarray(shade.filter(ImageFilter.GaussianBlur(view.size[1] / 160)), dtype=float) / 255
-    return (image * (1.0 - soft * floor)[..., None]).astype(np.uint8)
+    if (box := shade.getbbox()) is None:
+        return image
+    blur = view.size[1] / 160
+    beyond = math.ceil(4 * blur)  # where nothing is left of it
+    left, top = max(0, box[0] - beyond), max(0, box[1] - beyond)
+    right, bottom = min(view.size[0], box[2] + beyond), min(view.size[1], box[3] + beyond)
+    soft = np.asarray(shade.crop((left, top, right, bottom)).filter(ImageFilter.GaussianBlur(blur)), dtype=float) / 255
+    part = np.s_[top:bottom, left:right]
+    dark = np.nonzero((soft > 0.0) & floor[part])  # few pixels
+    image = image.copy()
+    image[part][dark] = (image[part][dark] * (1.0 - soft[dark])[:, None]).astype(np.uint8)
+    return image
 
 
 def _corners(position: tuple[float, float], radius: float, height: float) -> Points:
     x, y = position
     return np.array([[x + a * radius, y + b * radius, z] for a in (-1, 1) for b in (-1, 1) for z in (0.0, height)])
-
-
-def _floor(world: World) -> Model:
-    """Tiles of a metre in two light tones, with their upper side on z = 0, well beyond the objects."""
-    reach = math.ceil(max(abs(c) for o in world.objects for c in (*o.position, world.robot.x, world.robot.y))) + 14
-    tiles: tuple[list[Mesh], list[Mesh]] = ([], [])
-    square = np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]])
-    up, halves = np.tile([0.0, 0.0, 1.0], (4, 1)), np.array([[0, 1, 2], [0, 2, 3]])
-    tile = Mesh(square, up, halves)
-    for x in range(-reach, reach):
-        for y in range(-reach, reach):
-            tiles[(x + y) % 2].append(tile.moved(x, y))
-    return Model((Part(merged(tiles[0])), Part(merged(tiles[1]), _TILES[1])))

@@ -21,6 +21,7 @@ Pixels = NDArray[np.uint8]
 Box = tuple[int, int, int, int]  # left, top, right, bottom in pixels, the last two not included
 
 HAZE: Final = (225, 225, 220)  # where the floor ends
+_AMBIENT, _DIFFUSE, _SPECULAR = 0.55, 0.5, 0.05  # of the light, as shares of a paint
 _NEAREST: Final = 8.0  # metres from a fitted camera to the nearest point
 _FILLED: Final = 0.86  # share of the picture's width and height that the points may take
 
@@ -62,12 +63,24 @@ class View:
 
         Shadows are left out: they triple the time, and the renderer's end in the middle of a large floor.
         """
-        axis, up = self.axes
-        light = up - 0.6 * axis - 0.9 * self.forward  # over the left shoulder
-        colors, mask = self._shot(client, box or (0, 0, *self.size), light.tolist())
+        colors, mask = self._shot(client, box or (0, 0, *self.size), self._light.tolist())
         image = np.array(colors, dtype=np.uint8).reshape(*mask.shape, 4)[..., :3]
-        image[mask < 0] = HAZE
+        np.copyto(image, np.array(HAZE, dtype=np.uint8), where=(mask < 0)[..., None])
         return image, mask
+
+    def lit(self, paint: tuple[float, float, float], normal: tuple[float, float, float]) -> list[int]:
+        """What `render` makes of a paint (each part in [0, 1]) on a face with this unit normal, in bytes."""
+        light = self._light / np.linalg.norm(self._light)
+        along = float(light @ normal)
+        mirrored = max(0.0, 2.0 * along * normal[2] - float(light[2]))
+        share = _AMBIENT + _DIFFUSE * max(0.0, along) + _SPECULAR * mirrored**2
+        return [min(255, int(share * int(255 * part))) for part in paint]
+
+    @property
+    def _light(self) -> Points:
+        """Where it comes from: over the left shoulder."""
+        right, up = self.axes
+        return up - 0.6 * right - 0.9 * self.forward
 
     def mask(self, client: Client) -> NDArray[np.int64]:
         """Body ids (h, w), -1 where there is nothing: those of `render`, for less time."""
@@ -92,9 +105,9 @@ class View:
                 self.far,
             ),
             lightDirection=light,
-            lightAmbientCoeff=0.55,
-            lightDiffuseCoeff=0.5,
-            lightSpecularCoeff=0.05,
+            lightAmbientCoeff=_AMBIENT,
+            lightDiffuseCoeff=_DIFFUSE,
+            lightSpecularCoeff=_SPECULAR,
             shadow=0,
             renderer=pybullet.ER_TINY_RENDERER,  # the same pixels with and without a window
             physicsClientId=client.id,

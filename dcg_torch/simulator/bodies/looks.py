@@ -39,12 +39,14 @@ class Model:
     round_hull: bool = False
 
     @property
+    @functools.cache  # noqa: B019 - models are few, and kept anyway
     def bounds(self) -> tuple[np.ndarray, np.ndarray]:
         """Lowest and highest corner of the bounding box, (3,) each, in metres."""
         vertices = np.concatenate([part.mesh.vertices for part in self.parts])
         return vertices.min(axis=0), vertices.max(axis=0)
 
     @property
+    @functools.cache  # noqa: B019
     def radius(self) -> float:
         """Of the smallest upright cylinder about the foot that holds every part, in metres."""
         return float(max(np.hypot(*part.mesh.vertices[:, :2].T).max() for part in self.parts))
