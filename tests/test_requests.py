@@ -71,6 +71,8 @@ def test_what_is_no_bare_motion(text: str) -> None:
         ("what is behind you?", "identify", "behind you"),
         ("why did you go there?", "why", None),
         ("which words do you know?", "words", None),
+        ("Which cup is next to the lamp?", "where", "cup next to the lamp"),
+        ("what is the leftmost cup?", "where", "the leftmost cup"),
         ("where are you?", "place", None),
         ("what can you do?", "help", None),
     ],
