@@ -40,6 +40,7 @@ def _scene(seed: int) -> tuple[Pose, list[Percept]]:
         ("take the chair at your back", "behind"),
         ("drive to the chair straight ahead", "ahead"),
         ("the chair in front", "ahead"),
+        ("take the chair that you are facing", "ahead"),
         ("go to the chair left of you", "left"),
         ("the chair to the right of you", "right"),
     ],
