@@ -24,6 +24,8 @@ _EVEN = 0.04
 """Logarithms of measures that differ by less are even."""
 _BY_PLACE = 3.0
 """Nats for each place by which a thing stays behind "the second widest"."""
+_COUNTED_ALONE = 2.0
+"""So many times more where no words of the phrase are left that say the same."""
 _BY_DEGREE = 5.0
 """Nats that the narrowest loses where a thing is called wide; less by the square of how far it is from the widest."""
 _LIKE = {"wider": "largest", "widest": "largest"}
@@ -43,6 +45,10 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
     words = [word for word in phrase.words if word in dimensions() and word not in told]
     log, taken = _counted_along(phrase, among, encoder), set[str]()
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
+    if number is not None and "last" in phrase.words and log.any():
+        # "The second last from the right" is no second from the right, of which weights were learned.
+        taken |= {"last", *ORDINALS, *_ALONG}
+        log *= _COUNTED_ALONE
     for word in words:
         values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
         known = among & np.isfinite(values)

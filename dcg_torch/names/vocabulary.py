@@ -35,9 +35,9 @@ DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "
 """Nouns for the sides of somebody: "on your left"."""
 PLACE_TYPES = frozenset(kind for kind, _ in PLACE_WORDS.values())
 OWNERS = {"your": "of robot", "my": "of speaker"}
-ADVERBS = {"ahead": "in front of", "behind": "behind"}
+ADVERBS = {"ahead": "ahead of", "behind": "behind"}
 """Words that say by themselves where a thing is for the one who is spoken to."""
-BEARINGS = {"front": "in front of", "back": "behind", "behind": "behind"}
+BEARINGS = {"front": "ahead of", "back": "behind", "behind": "behind"}
 """The same of nouns and adverbs that are the things' own sides for one who doesn't stand among them."""
 BESIDE_WHOM = {"left of": "left", "right of": "right"}
 """Relations to a person that are a person's sides: "left of you" is on your left."""
