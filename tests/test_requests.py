@@ -73,6 +73,8 @@ def test_what_is_no_bare_motion(text: str) -> None:
         ("which words do you know?", "words", None),
         ("Which cup is next to the lamp?", "where", "cup next to the lamp"),
         ("what is the leftmost cup?", "where", "the leftmost cup"),
+        ("which of these cups is red?", "where", "cups red"),
+        ("which is the red cube?", "where", "the red cube"),
         ("where are you?", "place", None),
         ("what can you do?", "help", None),
     ],
@@ -153,3 +155,16 @@ def test_a_very_long_text_is_refused_at_once() -> None:
 def test_telling_is_no_order_and_pointing_out_is() -> None:
     assert isinstance(read_act("the weather is nice", (), asked=False), Refused)
     assert isinstance(read_act("There is a red cube behind you. Go to it.", (), asked=False), Parse)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "which cup is on the table, bring it to me",
+        "which cup is nearest? take it",
+        "which room is the cup in",
+        "what is the best way to the door",
+    ],
+)
+def test_what_asks_for_no_thing_alone(text: str) -> None:
+    assert read_question(text) is None

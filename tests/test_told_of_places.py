@@ -9,7 +9,7 @@ import functools
 
 import pytest
 
-from dcg_torch.language import default_parser
+from dcg_torch.language import default_parser, target_phrase
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
@@ -125,3 +125,18 @@ def test_what_is_ahead_and_what_is_closer(text: str, meant: str) -> None:
     percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
     world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
     assert [o.id for o in _model().ground(text, world).objects] == [meant]
+
+
+@pytest.mark.parametrize("verb", ["move", "push", "slide"])
+def test_a_goal_away_from_others_describes_nothing(verb: str) -> None:
+    tree = default_parser().parse(f"{verb} the cube away from the others").tree
+    assert tree is not None
+    thing = target_phrase(tree).phrase
+    assert (thing.noun, thing.words) == ("cube", ())
+
+
+@pytest.mark.parametrize("text", ["the chairs at the far end of the table", "the glass at the far end of the table"])
+def test_the_far_end_is_one_of_two(text: str) -> None:
+    tree = default_parser().parse(text).tree
+    assert tree is not None
+    assert "outermost" not in target_phrase(tree).phrase.words
