@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS
+from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -60,7 +60,8 @@ def by_levels(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     if said.nouns.isdisjoint(_FEET) and said.words.isdisjoint(_ENDS) and said.words.isdisjoint(_AT_ENDS):
         return tree
     found = _stacks(world)
-    return _told(tree, any(len(of) >= _TALL and 2 * len(of) > _seen(world) for of in found)) if found else tree
+    tall = any(len(of) >= _TALL and 2 * len(of) > _seen(world) for of in found)
+    return _told(tree, tall, frozenset(map(len, found))) if found else tree
 
 
 def with_levels(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
@@ -69,7 +70,9 @@ def with_levels(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
         return world
     levels: dict[str, frozenset[str]] = defaultdict(lambda: frozenset({f"{LEVEL}none"}))
     for of in _stacks(world):
-        levels |= {o.id: frozenset({f"{LEVEL}{k} up", f"{LEVEL}{len(of) + 1 - k} down"}) for k, o in enumerate(of, 1)}
+        for k, o in enumerate(of, 1):
+            told = (f"{LEVEL}{k} up", f"{LEVEL}{len(of) + 1 - k} down")
+            levels[o.id] = frozenset({*told, *(f"{level} of {len(of)}" for level in told)})
     objects = (replace(o, attributes=o.attributes | levels[o.id]) for o in world.objects)
     return replace(world, objects=tuple(objects))
 
@@ -82,8 +85,8 @@ def _stacks(world: WorldModel) -> list[list[Object]]:
     return stacks(world.objects, world.unit, world.viewer or world.robot)
 
 
-def _told(tree: ParseTree, tall: bool) -> ParseTree:
-    tree = from_the_ground(replace(tree, children=tuple(_told(child, tall) for child in tree.children)))
+def _told(tree: ParseTree, tall: bool, heights: frozenset[int]) -> ParseTree:
+    tree = from_the_ground(replace(tree, children=tuple(_told(child, tall, heights) for child in tree.children)))
     phrase = tree.phrase
     stack = next((c for c in tree.children if _is_in_stack(c)), None)
     along = [word for word in phrase.words if word in _ENDS]
@@ -97,6 +100,9 @@ def _told(tree: ParseTree, tall: bool) -> ParseTree:
     if phrase.kind is not PhraseKind.NOUN or end is None or phrase.plural:
         return tree
     inside = replace(stack, phrase=replace(stack.phrase, words=("in",)))
+    blocks = counted(stack.children[0].phrase.words)
+    if blocks in heights:  # "the top of the stack of two" is no other stack's top
+        end = f"{end} of {blocks}"
     return ParseTree(_at(phrase, number or 1, end), tuple(inside if c is stack else c for c in tree.children))
 
 
