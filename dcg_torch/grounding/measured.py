@@ -1,6 +1,7 @@
-"""How wide, long, thin or flat things are: "the widest box", "the long table", "the second thinnest of the books".
+"""What a noun phrase measures or counts among what the rest of it describes. Nothing of it is learned.
 
-Measured of the extents, and compared among what the rest of a noun phrase describes: nothing of it is learned.
+Extents say how wide, long, thin or flat things are: "the widest box", "the second thinnest of the books". Places say
+which is the second, or the second last, from a side.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ _LIKE = {"wider": "largest", "widest": "largest"}
 
 
 def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
-    """What the words of a noun phrase that measure things say of each.
+    """What the words of a noun phrase that measure or count things say of each.
 
     Args:
         told: words that attributes answer.
@@ -43,9 +44,10 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
     words = [word for word in phrase.words if word in dimensions() and word not in told]
-    log, taken = _counted_along(phrase, among, encoder), set[str]()
+    counted, taken = _counted_along(phrase, among, encoder), set[str]()
+    log = np.zeros(len(among)) if counted is None else counted
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
-    if number is not None and "last" in phrase.words and log.any():
+    if counted is not None and number is not None and "last" in phrase.words:
         # "The second last from the right" is no second from the right, of which weights were learned.
         taken |= {"last", *ORDINALS, *_ALONG}
         log *= _COUNTED_ALONE
@@ -63,18 +65,20 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
 
 
-def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Floats:
+def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Floats | None:
     """(things,) log-factor of "the second (to last) from the left", by the place among what the rest describes.
 
-    0 for all where nothing is counted so, or in a group, which counts its own.
+    None where nothing is counted so, and in a group, which counts its own.
     """
-    log, where, last = np.zeros(len(among)), encoder.layout, "last" in phrase.words
+    where, last = encoder.layout, "last" in phrase.words
     numbers = [ORDINALS[word] for word in phrase.words if word in ORDINALS] or [1] * last
     sides = [_ALONG[word] for word in phrase.words if word in _ALONG and (where.picture or word not in _DEEP)]
     at = np.flatnonzero(among & where.solid & np.isfinite(where.position).all(axis=1))
-    if len(numbers) == len(sides) == 1 and len(at) >= numbers[0] and phrase.among != "row":
-        first = where.position[at, :2] @ np.array(sides[0])
-        log[at] = -_behind(-first if last else first, numbers[0], phrase.count or 1)
+    if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or phrase.among == "row":
+        return None
+    log = np.zeros(len(among))
+    first = where.position[at, :2] @ np.array(sides[0])
+    log[at] = -_behind(-first if last else first, numbers[0], phrase.count or 1)
     return log
 
 

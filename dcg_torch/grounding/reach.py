@@ -1,4 +1,8 @@
-"""What extents say of where things can be: within reach of others, in others; and what is at none of several."""
+"""What is measured of how things stand to landmarks, beside what is learned of it.
+
+Of several landmarks that are named alike the nearest pair counts, or none. In the plural all that stand so are meant.
+Extents say what is within reach of a thing, and what can be in it.
+"""
 
 from __future__ import annotations
 

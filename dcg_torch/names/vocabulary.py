@@ -38,7 +38,7 @@ OWNERS = {"your": "of robot", "my": "of speaker"}
 ADVERBS = {"ahead": "ahead of", "behind": "behind"}
 """Words that say by themselves where a thing is for the one who is spoken to."""
 BEARINGS = {"front": "ahead of", "back": "behind", "behind": "behind"}
-"""The same of nouns and adverbs that are the things' own sides for one who doesn't stand among them."""
+"""Words for a side. Who stands among the things has it; for one who doesn't, it is a side of theirs."""
 BESIDE_WHOM = {"left of": "left", "right of": "right"}
 """Relations to a person that are a person's sides: "left of you" is on your left."""
 LINE_ACROSS, LINE_ALONG, MIDDLE_LINE = "line across", "line along", "middle line"
