@@ -116,12 +116,10 @@ def _nouns(nouns: Beliefs, forgotten: Collection[str], fixed: Collection[str]) -
     shown[:, :_MANY] = shown[:, -1] = True
     place = {k: at for at, k in enumerate(kept)}
     for k, ((_, word), of) in enumerate(zip(words, heard, strict=True)):
-        if not of:
-            continue
-        among = [place[t] for t in of]
-        shown[k, among] = True
+        shown[k, [place[t] for t in of]] = True
         if nouns.prior.names:
-            odds[k, among] = np.maximum(odds[k, among], [nouns.akin(word, types[t]) for t in of])
+            among = np.flatnonzero(shown[k])
+            odds[k, among] = np.maximum(odds[k, among], [nouns.akin(word, types[kept[at]]) for at in among])
     phrases = [_phrase(word) for word in (*(word for _, word in words), *unheard)]
     yield _Odds(phrases, [_object(types[k]) for k in kept], odds, shown)
 
