@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.by_thing import ByThing
+from dcg_torch.grounding.contrary import of_missing_marks
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
@@ -198,6 +199,8 @@ class Search:
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + scores)[:, None]
         placed = np.zeros(len(active)) if picks is None else picks.log_size
+        unmarked = of_missing_marks(phrase.words, self.encoder)
+        placed = placed if unmarked is None else placed + unmarked
         base = base + placed
         for modifier in modifiers:
             base = base + modifier.log_psi

@@ -1,0 +1,83 @@
+"""What people say of scenes that nobody had in mind: names of rooms, states that are colours, absent landmarks.
+
+Scenes and commands are ours.
+"""
+
+from __future__ import annotations
+
+import functools
+
+import pytest
+
+from dcg_torch.model import GroundingModel
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.types import Percept, Pose, WorldModel
+
+
+@functools.cache
+def _model() -> GroundingModel:
+    return pretrained()
+
+
+def _told(text: str, things: list[Percept]) -> list[str]:
+    world: WorldModel = _model().world_model(things, robot=Pose(0.0, 0.0))
+    return [o.id for o in _model().ground(text, world).objects]
+
+
+def _percept(id_: str, type_: str, color: str | None, x: float, y: float, *attributes: str, z: float = 0.0) -> Percept:
+    return Percept(id_, type_, color, (x, y, z), attributes=frozenset(attributes))
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the opened zimlo crate", ["s2"]),
+        ("bring me the zimlo crate that is sealed", ["s1"]),
+        ("take the jar with lentils", ["j1"]),
+    ],
+)
+def test_a_word_of_a_class_name_is_no_strange_mark(text: str, meant: list[str]) -> None:
+    things = [
+        _percept("s1", "zimlo crate", None, 1.0, 0.5, "state: sealed"),
+        _percept("s2", "zimlo crate", None, 1.0, 0.0, "state: opened"),
+        _percept("j1", "jar", None, 1.2, -0.3, "filling: lentils"),
+        _percept("j2", "jar", None, 1.2, 0.8, "filling: quinoa"),
+    ]
+    assert _told(text, things) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("go to room 12", ["lab"]),
+        ("drive to room 14", ["office"]),
+        ("the stool in room 12", ["s1"]),
+        ("go to room Turing", ["meeting"]),
+    ],
+)
+def test_a_room_is_known_by_its_number(text: str, meant: list[str]) -> None:
+    things = [
+        _percept("lab", "laboratory", None, 5.0, 4.0, "number: 12"),
+        _percept("office", "office", None, 5.0, -4.0, "number: 14"),
+        _percept("meeting", "meeting room", None, 12.0, 4.0, "name: Turing"),
+        _percept("other", "meeting room", None, 12.0, -4.0, "name: Hopper"),
+        _percept("s1", "stool", "black", 5.3, 4.4),
+        _percept("s2", "stool", "black", 11.8, 3.9),
+    ]
+    assert _told(text, things) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("press the amber button lamp", ["b1"]), ("the green signal", ["s2"]), ("the red wagon", ["w"])],
+)
+def test_a_colour_may_be_the_state_of_what_has_no_colour(text: str, meant: list[str]) -> None:
+    things = [
+        _percept("s1", "signal", None, 9.0, 2.0, "state: red"),
+        _percept("s2", "signal", None, 9.0, -2.0, "state: green"),
+        _percept("b1", "button lamp", None, 2.0, 1.0, "state: amber"),
+        _percept("b2", "button lamp", None, 2.0, -1.0, "state: green"),
+        _percept("w", "wagon", "red", 5.0, 0.0),
+        _percept("w2", "wagon", "green", 5.0, 3.0),
+    ]
+    assert _told(text, things) == meant
