@@ -6,12 +6,17 @@ Scenes and commands are ours.
 from __future__ import annotations
 
 import functools
+import math
+import random
+from collections.abc import Sequence
 
 import pytest
 
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose, WorldModel
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import Percept, Pose
 
 
 @functools.cache
@@ -19,8 +24,13 @@ def _model() -> GroundingModel:
     return pretrained()
 
 
+def _ground(text: str, things: Sequence[Percept]) -> Solution:
+    world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True, workspace=Workspace.of(things))
+    return _model().ground(text, world)
+
+
 def _told(text: str, things: list[Percept]) -> list[str]:
-    world: WorldModel = _model().world_model(things, robot=Pose(0.0, 0.0))
+    world = _model().world_model(things, robot=Pose(0.0, 0.0))
     return [o.id for o in _model().ground(text, world).objects]
 
 
@@ -75,3 +85,30 @@ def test_a_colour_may_be_the_state_of_what_has_no_colour(text: str, meant: list[
         _percept("w2", "wagon", "green", 5.0, 3.0),
     ]
     assert _told(text, things) == meant
+
+
+def _strewn(seed: int) -> list[Percept]:
+    """Four bolts close together and six strewn about them, on a table."""
+    rng = random.Random(seed)
+    middle, spots = (rng.uniform(0.6, 1.0), rng.uniform(-0.4, 0.4)), list[tuple[float, float]]()
+    while len(spots) < 4:
+        x, y = middle[0] + rng.uniform(-0.1, 0.1), middle[1] + rng.uniform(-0.1, 0.1)
+        if all(math.dist((x, y), spot) > 0.06 for spot in spots):
+            spots.append((x, y))
+    while len(spots) < 10:
+        x, y = rng.uniform(0.2, 1.6), rng.uniform(-1.0, 1.0)
+        if all(math.dist((x, y), spot) > 0.25 for spot in spots):
+            spots.append((x, y))
+    return [_percept(f"{'near' if k < 4 else 'far'}{k}", "bolt", "black", x, y) for k, (x, y) in enumerate(spots)]
+
+
+@pytest.mark.parametrize(
+    "text", ["the group of four bolts", "take the cluster of four", "the bunch of four black bolts"]
+)
+def test_a_group_of_so_many_is_the_closest_so_many(text: str) -> None:
+    right = 0
+    for seed in range(12):
+        things = _strewn(seed)
+        meant = {o.id for o in _ground(text, things).objects}
+        right += meant == {"near0", "near1", "near2", "near3"}
+    assert right == 12

@@ -144,8 +144,8 @@ WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 HOME = frozenset({"house", "home", "apartment", "flat"})
 """The same of a home: what is in it is anywhere."""
 GROUND_WORD = "board"
-VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
-"""Who sees the scene, where nothing that is there is called so."""
+VIEWERS = frozenset({"camera", "viewer", "observer", "lens", "forklift", "rover", "drone", "vehicle"})
+"""Who sees the scene or is spoken to, where nothing that is there is called so."""
 SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
 SIDE_OF |= {"in the middle of": "middle"}
 """Of the whole scene a preposition names a side: "on the right side of the table"."""
