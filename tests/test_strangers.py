@@ -112,3 +112,66 @@ def test_a_group_of_so_many_is_the_closest_so_many(text: str) -> None:
         meant = {o.id for o in _ground(text, things).objects}
         right += meant == {"near0", "near1", "near2", "near3"}
     assert right == 12
+
+
+def _rack() -> list[Percept]:
+    """Things on three shelves that are none themselves, before who looks."""
+    rows = {
+        1.6: ["vase", "drum", "candle"],
+        1.0: ["clock", "candle", "radio", "vase"],
+        0.4: ["basket", "drum", "radio"],
+    }
+    return [
+        _percept(f"{kind}{int(10 * z)}", kind, None, 2.0, 0.8 - 0.5 * k - 0.1 * (z < 0.5), z=z)
+        for z, kinds in rows.items()
+        for k, kind in enumerate(kinds)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("everything on the top shelf", {"vase16", "drum16", "candle16"}),
+        ("the radio on the bottom shelf", {"radio4"}),
+        ("the second thing from the left on the middle shelf", {"candle10"}),
+        ("everything that is on the lowest tier", {"basket4", "drum4", "radio4"}),
+    ],
+)
+def test_what_stands_at_heights_stands_on_shelves(text: str, meant: set[str]) -> None:
+    assert {o.id for o in _ground(text, _rack()).objects} == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the basket on the top shelf of the left cupboard", ["b2"]),
+        ("the basket on the bottom shelf of the left cupboard", ["b1"]),
+    ],
+)
+def test_a_shelf_of_a_thing_is_a_height_on_it(text: str, meant: list[str]) -> None:
+    things = [
+        Percept("left", "cupboard", None, (3.0, 2.0, 0.0), (0.6, 1.2, 2.0)),
+        Percept("right", "cupboard", None, (3.0, -2.0, 0.0), (0.6, 1.2, 2.0)),
+        _percept("b1", "basket", None, 3.0, 2.0, z=0.5),
+        _percept("b2", "basket", None, 3.0, 2.0, z=1.5),
+        _percept("b3", "basket", None, 3.0, -2.0, z=1.5),
+        _percept("t", "trunk", None, 1.0, 0.0),
+    ]
+    assert _told(text, things) == meant
+
+
+def test_in_the_middle_of_a_few_in_a_line_is_their_middle_one() -> None:
+    things = [_percept(f"p{k}", "pot", "red", 1.2, 0.9 - 0.2 * k) for k in range(3)]
+    things += [_percept(f"s{k}", "spade", "blue", 1.5, -0.2 - 0.3 * k) for k in range(4)]
+    things += [_percept("q", "pot", "green", 0.9, -0.1)]
+    assert [o.id for o in _ground("the red pot in the middle", things).objects] == ["p1"]
+    assert [o.id for o in _ground("the pot in the middle", things[1:]).objects] != ["p0"]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"), [("the plate whose fork is on the left", "a"), ("the plate whose fork is on the right", "b")]
+)
+def test_whose_side_is_its_own(text: str, meant: str) -> None:
+    things = [_percept("a", "plate", None, 1.0, -0.5), _percept("fa", "fork", None, 1.0, -0.3)]
+    things += [_percept("b", "plate", None, 1.0, 0.5), _percept("fb", "fork", None, 1.0, 0.3)]
+    assert _told(text, things) == [meant]

@@ -58,8 +58,11 @@ GROUP_WORDS = {
     LINE_ALONG: (LINE_ALONG,),
 }
 """What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
+TIERS = frozenset({"shelf", "level", "tier"})
+"""What people call a row of what stands at several heights before them, where nothing that is there is called so."""
 LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}
-_FIRST, _LAST = ("top", "upper", "back", "far"), ("bottom", "lower", "front", "near", "last")
+_FIRST = ("top", "topmost", "upper", "uppermost", "highest", "back", "far")
+_LAST = ("bottom", "bottommost", "lower", "lowest", "front", "near", "last")
 LINE_FROM: dict[str, dict[str, str]] = {
     LINE_ACROSS: dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
     LINE_ALONG: dict.fromkeys(("left", "leftmost"), "from the left")
