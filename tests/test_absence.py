@@ -165,3 +165,23 @@ def test_a_word_taught_where_all_is_of_one_type_is_not_absent(model: GroundingMo
     solution = _ground(taught, "take the green crate", things)
     assert [o.id for o in solution.objects] == ["1"]
     assert _absent(solution) < 0.1
+
+
+@pytest.mark.parametrize(
+    "text", ["the cup next to the piano", "the cup closest to the bicycle", "the cup left of the hammer"]
+)
+def test_a_landmark_that_is_not_there_makes_it_likelier_that_nothing_is_meant(model: GroundingModel, text: str) -> None:
+    several = _things("red cup", "red cup", "red cup", "blue lamp")
+    there = text.replace("piano", "lamp").replace("bicycle", "lamp").replace("hammer", "lamp")
+    assert _absent(_ground(model, text, several)) > 0.15  # it was 0.007
+    assert _absent(_ground(model, there, several)) < 0.02
+    one = _ground(model, text, _things("red cup", "green jug", "blue lamp"))
+    assert [o.id for o in one.objects] == ["0"]
+    assert _absent(one) < 0.02  # there is one cup alone, whatever it stands beside
+
+
+def test_what_a_robot_is_is_no_landmark_that_is_not_there(model: GroundingModel) -> None:
+    drums = [
+        Percept(f"{k}", "drum", "blue", (x, y, 0.0)) for k, (x, y) in enumerate([(4, 0), (-3, 1), (1, 5), (0, -4)])
+    ]
+    assert [o.id for o in _ground(model, "the drum in front of the forklift", drums).objects] == ["0"]

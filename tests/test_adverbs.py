@@ -59,3 +59,26 @@ def test_in_front_of_a_robot_at_a_table_is_the_tables_own_side() -> None:
     ]
     world = _model().world_model(things, robot=Pose(0.0, 0.0))
     assert [o.id for o in _model().ground("take the cup at the front", world).objects] == ["c0"]
+
+
+@pytest.mark.parametrize(
+    "text", ["the barrel on your left", "go to the barrel left of the robot", "the barrel left of you"]
+)
+def test_the_nearest_on_a_side_is_meant_where_the_robot_stands_among_things(text: str) -> None:
+    right = 0
+    for seed in range(10):
+        rng = random.Random(seed)
+        robot = Pose(rng.uniform(-2.0, 2.0), rng.uniform(-2.0, 2.0), rng.uniform(-3.0, 3.0))
+        at = {"near": (2.0, 80.0), "far": (6.0, 95.0), "ahead": (1.5, 5.0), "right": (1.5, -85.0), "back": (3.0, 175.0)}
+        things = []
+        for name, (away, angle) in at.items():
+            spot = cmath.rect(away, robot.yaw + math.radians(angle + rng.uniform(-15.0, 15.0)))
+            things.append(Percept(name, "barrel", "green", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
+        right += [o.id for o in _model().ground(text, _model().world_model(things, robot=robot)).objects] == ["near"]
+    assert right >= 9  # the one farthest to the left was taken
+
+
+def test_the_left_of_a_robot_outside_is_a_side_of_the_scene() -> None:
+    things = [Percept(f"j{k}", "jar", "red", (1.5, y, 0.0)) for k, y in enumerate([0.9, 0.3, -0.4, -0.9])]
+    world = _model().world_model(things, robot=Pose(0.0, 0.0))
+    assert [o.id for o in _model().ground("the jar on your left", world).objects] == ["j0"]

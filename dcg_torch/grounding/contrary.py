@@ -17,6 +17,8 @@ Floats = NDArray[np.float64]
 
 _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""
+_NO_MARK = 4.5
+"""Nats that a thing loses of which nobody says a mark that is said and borne by another."""
 _JUDGED, _BY_EYE = 0.7, frozenset({"orientation", "age", "size"})
 """The same of a word for what people judge by eye, and judge in many ways."""
 _AGAIN = 2.0
@@ -38,6 +40,20 @@ def _weight(word: str) -> float:
     if OF_KEY in word:
         return _UNMARKED
     return _JUDGED if states_value(word.removeprefix(NOT_), _BY_EYE) else 1.0
+
+
+def of_missing_marks(words: Sequence[str], encoder: WorldEncoder) -> Floats | None:
+    """(things,) log-factor of marks of which nothing is known of a thing while another bears them: "room 12".
+
+    A room without a number is not the one whose number is said. None where no such mark is said or borne.
+    """
+    marks = [word for word in words if OF_KEY in word and not word.removeprefix(NOT_).startswith((NOT_, *WORKED_OUT))]
+    found = np.zeros(len(encoder.all))
+    for word in marks if len(marks) == len({word.partition(OF_KEY)[0] for word in marks}) else ():
+        facts = [attribute_evidence((word,), o.attributes) for o in encoder.world.objects]
+        if ("attribute: equal",) in facts and not word.startswith(NOT_):
+            found[: len(facts)] -= [_NO_MARK if fact == ("attribute: silent",) else 0.0 for fact in facts]
+    return found if found.any() else None
 
 
 def of_contradictions(told: Sequence[str], encoder: WorldEncoder) -> Floats:

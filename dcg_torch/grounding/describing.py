@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
@@ -121,6 +122,7 @@ def _log_psi(
     outside = inside_of(name, landmarks, encoder)
     log_psi = log_psi if outside is None else log_psi + outside
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
+    log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
         row = counted(tree.children[0].phrase.words) is not None
         log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)

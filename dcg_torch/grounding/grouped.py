@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import GROUP_WORDS, counted
-from dcg_torch.scene.groups import ROW
+from dcg_torch.scene.groups import CLUSTER, ROW
+from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
 from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
@@ -24,18 +25,23 @@ _A_PART = 3.0
 """Nats that a row loses which is a part of a longer one, where no number is said."""
 _WIDE, _BENT = 4.0, 8.0
 """Nats that a row loses for each e-fold by which its steps are wider, and for each step by which one stands aside."""
+_LOOSE = 3.0
+"""Nats that a cluster loses for each e-fold by which its things stand farther from one another."""
 _FAR = -8.0
-"""The most that a row loses for these."""
+"""The most that a group loses for these."""
 _INSIDE = -0.05
 """The most that a thing loses that is in the group in which it is said to be."""
 _OUTSIDE = -6.0
 """Nats that a thing loses that is none of a row of so many in which it is said to be."""
 _ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
+_CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == (CLUSTER,))
 
 
 def log_of_group(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """(things,) what groups lose to the one that a phrase names; 0 of all else."""
-    return _of_so_many(phrase, encoder) + _of_a_whole(phrase, encoder) + _tidy(phrase, encoder)
+    return (
+        _of_so_many(phrase, encoder) + _of_a_whole(phrase, encoder) + _tidy(phrase, encoder) + _close(phrase, encoder)
+    )
 
 
 def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
@@ -92,6 +98,25 @@ def _tidy(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     steps, bent = np.array(rows).T
     loss = -_WIDE * np.log(steps) - _BENT * bent
     lost[many] = np.maximum(_FAR, loss - loss.max())
+    return lost
+
+
+def _close(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what clusters lose that are wider than the closest of as many: "the group of three".
+
+    Of things strewn about some always stand a little closer to one another than to others.
+    """
+    lost = np.zeros(len(encoder.all))
+    if _CLUSTERS.isdisjoint({phrase.noun, *phrase.words}):
+        return lost
+    number, where = counted(phrase.words), encoder.layout
+    some = [j for j in where.members if CLUSTER in encoder.all[j].attributes]
+    some = [j for j in some if number in (None, len(where.members[j]))]
+    if len(some) < 2:
+        return lost
+    steps = [nearest_other(where.position[where.members[j]]).mean() for j in some]
+    loss = -_LOOSE * np.log(np.maximum(steps, SAME_SPOT / 2.0))
+    lost[some] = np.maximum(_FAR, loss - loss.max())
     return lost
 
 

@@ -12,16 +12,17 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.by_thing import ByThing
+from dcg_torch.grounding.contrary import of_missing_marks
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
+from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.scored import FEW, Scored
 from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
 
@@ -32,8 +33,6 @@ _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""
-_NAMES_ONE = math.log(0.5)
-"""Log Psi from which a noun phrase names a thing that is there."""
 
 
 @dataclass
@@ -150,7 +149,7 @@ class Search:
         is_noun = tree.phrase.kind is PhraseKind.NOUN
         scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
         if landmark:
-            scored = self._only_named(tree, scored) if is_noun else scored
+            scored = only_named(tree, scored, self.encoder) if is_noun else scored
         else:
             scored = self._only_objects(tree, scored)
             scored = self._or_absent(tree, scored) if is_noun else scored
@@ -198,6 +197,8 @@ class Search:
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + scores)[:, None]
         placed = np.zeros(len(active)) if picks is None else picks.log_size
+        unmarked = of_missing_marks(phrase.words, self.encoder)
+        placed = placed if unmarked is None else placed + unmarked
         base = base + placed
         for modifier in modifiers:
             base = base + modifier.log_psi
@@ -246,20 +247,6 @@ class Search:
         code[some] = np.array(some) + 1
         return Scored(tree, combos, meant, scores, code)
 
-    def _only_named(self, tree: ParseTree, found: Scored) -> Scored:
-        """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
-        phrase, named = tree.phrase, found.named
-        shade = phrase.color == phrase.text  # "closest to blue" is not beside a blue thing
-        if phrase.color is not None and not shade and (phrase.noun is None or is_generic(phrase.noun)):
-            found.scores[:, self._meanable :] = -np.inf
-        if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
-            return found
-        seen = named[: len(self.encoder.world.objects)][self.encoder.perceived[: len(self.encoder.world.objects)]]
-        if not self.encoder.world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
-            return found
-        group = np.array([bool(o.members) for o in self.encoder.all], dtype=np.bool_)
-        return found._replace(scores=np.where(group[None, :, None], -np.inf, found.scores))
-
     def _only_objects(self, tree: ParseTree, found: Scored) -> Scored:
         """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
         world = self.encoder.world
@@ -285,10 +272,11 @@ class Search:
         """With as much for what is not there as `absence` says, where it says something."""
         if not judges_absence(self.encoder):
             return found
-        bare = replace(tree.phrase, text="", words=self._told(tree.phrase), context=(), among=None)
-        if bare not in self._absence:
-            self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
-        log_odds = self._absence[bare]
+        log_odds = self._log_odds_of_absence(tree.phrase)
+        doubted = landmarks_of(tree) if log_odds is not None else ()
+        if log_odds is not None and doubted:
+            odds = [self._log_odds_of_absence(landmark) for landmark in doubted]
+            log_odds = without_landmarks(log_odds, [o for o in odds if o is not None], found, self.encoder)
         there = self.encoder.perceived[: found.scores.shape[1]]
         if log_odds is None:
             shift = np.where(there, 0.0, less_for_many_types(self.encoder))
@@ -300,6 +288,12 @@ class Search:
         if not shift.any() or not np.isfinite(shift).all():
             return found
         return found._replace(scores=found.scores + shift[:, None])
+
+    def _log_odds_of_absence(self, phrase: Phrase) -> float | None:
+        bare = replace(phrase, text="", words=self._told(phrase), context=(), among=None)
+        if bare not in self._absence:
+            self._absence[bare] = log_odds_of_absence(self._tables, self.encoder, bare)
+        return self._absence[bare]
 
     def _told(self, phrase: Phrase) -> tuple[str, ...]:
         """The words of a noun phrase that say something of groups or attributes."""

@@ -7,7 +7,7 @@ compares with the values. A noun that states a value ("woman" where `gender` is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.people import OF_PEOPLE
@@ -65,8 +65,16 @@ def by_attributes(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTr
     types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
     worn = {attribute_key(a.partition(":")[0]) for a in given if not _yes_or_no(a)}
-    speaking = _Speaking(keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn))))
+    speaking = _Speaking(
+        keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn))), _of_colorless(world)
+    )
     return [speaking.root(tree) for tree in trees]
+
+
+def _of_colorless(world: WorldModel) -> frozenset[str]:
+    """The values of the attributes of things without a colour: "red" of a traffic light whose `state` it is."""
+    plain = {a for o in world.objects if o.color is None and o.rgb is None for a in o.attributes}
+    return frozenset(normalise(a.partition(":")[2]) for a in plain if ":" in a)
 
 
 def _yes_or_no(attribute: str) -> bool:
@@ -77,8 +85,10 @@ def _yes_or_no(attribute: str) -> bool:
 class _Speaking:
     """Reads trees by the keys and the classes that are there."""
 
-    def __init__(self, keys: frozenset[str], types: Sequence[str], colored: bool, worn: Sequence[str]) -> None:
-        self.keys, self.types, self.colored, self.worn = keys, types, colored, worn
+    def __init__(
+        self, keys: frozenset[str], types: Sequence[str], colored: bool, worn: Sequence[str], values: Collection[str]
+    ) -> None:
+        self.keys, self.types, self.colored, self.worn, self.values = keys, types, colored, worn, values
         self.of_people = len(keys & OF_PEOPLE) > 1
 
     def root(self, tree: ParseTree) -> ParseTree:
@@ -223,6 +233,8 @@ class _Speaking:
             own = {part for word in phrase.text.split() for part in normalise(word).split()}
             dressed = len(self.worn) == 1 and own.isdisjoint(color.split())  # "the guy in black"
             words.append(f"{HAS}{color} {self.worn[0]}" if dressed else color)
+        elif color is not None and color in self.values:
+            words.append(color)
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import ADVERBS, BEARINGS
+from dcg_torch.names.vocabulary import ADVERBS, BEARINGS, BESIDE_WHOM, PLACE_WORDS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _YOU = ParseTree(Phrase(PhraseKind.NOUN, "you", (), "you"))
@@ -31,11 +31,19 @@ def _of_place(place: ParseTree, among: bool) -> ParseTree:
     if not among or place.phrase.kind is not PhraseKind.PREPOSITION or len(place.children) != 1:
         return place
     side = place.children[0]
+    beside = BESIDE_WHOM.get(place.phrase.words[0])
+    if beside is not None and _is_you(side.phrase):  # "left of the robot" is on its left
+        whose = ParseTree(Phrase(PhraseKind.NOUN, f"your {beside}", ("your",), beside))
+        return ParseTree(replace(place.phrase, words=("on", *place.phrase.words[1:])), (whose,))
     own = side.phrase.words == ("your",)
     bare = place.phrase.words[:1] == ("in",) and side.phrase.text == side.phrase.noun and not side.phrase.words
     if side.children or side.phrase.noun not in BEARINGS or not (own or bare):
         return place
     return _place(place.phrase.text, BEARINGS[side.phrase.noun])
+
+
+def _is_you(phrase: Phrase) -> bool:
+    return PLACE_WORDS.get(phrase.noun or "", ("", None))[0] == "robot" and phrase.color is None and not phrase.words
 
 
 def _place(text: str, relation: str) -> ParseTree:

@@ -181,6 +181,7 @@ class _Restored:
         """Of "pepsi block" where no block has that mark: it is a block, and none that is there."""
         *before, head = noun.split(" ")
         strange = bool(before) and (all(map(is_strange, before)) or self._is_name(before[0]))
+        strange = strange and not any({*before} <= {*words_of(type_)} for type_ in self.types)
         if not (strange and singular(head) in self.marks.heads):
             return noun, []
         key = self.marks.keys[0] if self.marks.keys else OF_CLASS

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
-from dcg_torch.types import ParseTree, Phrase, PhraseKind
+from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _EACH_OTHER, _PAIR = "each other", "pair"
 _MIDDLE_OF = "in the middle of"
@@ -81,3 +82,24 @@ def together(tree: ParseTree) -> ParseTree:
         return tree
     words = (*(word for word in phrase.words if word != _PAIR), f"{TOGETHER}{several}")
     return ParseTree(replace(phrase, words=words), tuple(c for c in tree.children if c not in close))
+
+
+def few_together(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """ "The group of three blocks", by nothing else, is the three blocks that stand closest together.
+
+    Args:
+        said: the words of the tree.
+        world: is not looked at: where there are many, some always form a looser group by chance.
+    """
+    return tree if said.words.isdisjoint(_CLUSTERS) else _few_together(tree)
+
+
+def _few_together(tree: ParseTree) -> ParseTree:
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return replace(tree, children=(*map(_few_together, tree.children[:1]), *tree.children[1:]))
+    number = counted(phrase.words)
+    others = {*phrase.words} - _CLUSTERS - {f"of {number}"}
+    if number is None or others or tree.children or _CLUSTERS.isdisjoint(phrase.words):
+        return tree
+    return ParseTree(replace(phrase, words=(f"{TOGETHER}{number}",), plural=True, count=number))

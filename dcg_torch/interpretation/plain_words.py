@@ -184,7 +184,8 @@ def _sided(tree: ParseTree) -> ParseTree:
         return tree
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
-    seen_from_it = _seen_from_it(landmark.children[0]) if len(landmark.children) == 1 else None
+    whose = tree.phrase.text == phrase.text  # "the mug whose spoon is on the right"
+    seen_from_it = _seen_from_it(landmark.children[0], whose=whose) if len(landmark.children) == 1 else None
     if name in ("with", "without") and seen_from_it is not None:
         words = (seen_from_it if name == "with" else f"{NOT} {seen_from_it}", *tree.phrase.words[1:])
         return ParseTree(replace(tree.phrase, words=words), (replace(landmark, children=()),))
@@ -203,12 +204,12 @@ def _sided(tree: ParseTree) -> ParseTree:
 _FIRST = (from_the_ground, _sided, one_of_those, of_a_pair, middle_of_set, _farthest_to_a_side, _counted_from_a_side)
 
 
-def _seen_from_it(place: ParseTree) -> str | None:
+def _seen_from_it(place: ParseTree, *, whose: bool) -> str | None:
     """How a thing stands to what stands so to it: "the mug with a lamp behind it" is in front of the lamp."""
     below = place.children[0].phrase if len(place.children) == 1 and place.phrase.words else None
     if below is None:
         return None
-    if below.text.startswith("its ") and below.noun in LATERAL:
+    if (whose or below.text.startswith("its ")) and below.noun in LATERAL:
         return _SEEN_FROM_IT[f"{below.noun} of"]
     return _SEEN_FROM_IT.get(place.phrase.words[0]) if below.text in ("it", "them") else None
 

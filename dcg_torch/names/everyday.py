@@ -65,6 +65,20 @@ def everyday() -> Everyday:
     return Everyday(frozen, generic, purposeful, data["purposes"], kinds, data["beside"])
 
 
+@functools.cache
+def _listed() -> frozenset[str]:
+    return frozenset(everyday().groups).union(*everyday().kinds.values())
+
+
+def is_everyday(noun: str) -> bool:
+    """Is it the name of an everyday thing of the lists?
+
+    >>> is_everyday("bicycle"), is_everyday("story")
+    (True, False)
+    """
+    return name_parts(noun).text in _listed()
+
+
 def _members(kind: str, listed: Mapping[str, Sequence[str]]) -> frozenset[str]:
     """The names of things that people count as a kind, with those of the kinds in it."""
     members = next((of for line, of in listed.items() if kind in line.split(", ")), ())

@@ -58,8 +58,11 @@ GROUP_WORDS = {
     LINE_ALONG: (LINE_ALONG,),
 }
 """What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
+TIERS = frozenset({"shelf", "level", "tier"})
+"""What people call a row of what stands at several heights before them, where nothing that is there is called so."""
 LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}
-_FIRST, _LAST = ("top", "upper", "back", "far"), ("bottom", "lower", "front", "near", "last")
+_FIRST = ("top", "topmost", "upper", "uppermost", "highest", "back", "far")
+_LAST = ("bottom", "bottommost", "lower", "lowest", "front", "near", "last")
 LINE_FROM: dict[str, dict[str, str]] = {
     LINE_ACROSS: dict.fromkeys(_FIRST, "from the top") | dict.fromkeys(_LAST, "from the bottom"),
     LINE_ALONG: dict.fromkeys(("left", "leftmost"), "from the left")
@@ -144,8 +147,8 @@ WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 HOME = frozenset({"house", "home", "apartment", "flat"})
 """The same of a home: what is in it is anywhere."""
 GROUND_WORD = "board"
-VIEWERS = frozenset({"camera", "viewer", "observer", "lens"})
-"""Who sees the scene, where nothing that is there is called so."""
+VIEWERS = frozenset({"camera", "viewer", "observer", "lens", "forklift", "rover", "drone", "vehicle"})
+"""Who sees the scene or is spoken to, where nothing that is there is called so."""
 SIDE_OF = {"left of": "left", "right of": "right", "in front of": "front", "behind": "back", "under": "bottom"}
 SIDE_OF |= {"in the middle of": "middle"}
 """Of the whole scene a preposition names a side: "on the right side of the table"."""

@@ -66,7 +66,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         found[ROW].update(_numbers_of(_even_rows(points, code), numbers))
         found[CLUSTER].update(_numbers_of(clusters(points, code), numbers))
     place = position.tolist()
-    found[ROW].update(members for members in found[CLUSTER] if _in_line([place[j] for j in members]))
+    found[ROW].update(members for members in found[CLUSTER] if in_line([place[j] for j in members]))
     return tuple(
         _group(kind, [there[j] for j in members], [place[j] for j in members])
         for kind, of_kind in found.items()
@@ -223,7 +223,7 @@ def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tup
     return np.concatenate(found), np.concatenate(missed)
 
 
-def _in_line(points: Sequence[Sequence[float]]) -> bool:
+def in_line(points: Sequence[Sequence[float]]) -> bool:
     """Do points lie along a line on one level? It is the axis along which they are spread most."""
     x, y, z = zip(*points, strict=True)
     if _extent(z) >= SAME_SPOT:

@@ -1,0 +1,87 @@
+"""Where things are for a robot that stands among them: "the chair on your left", "the one in front of you".
+
+A side of who stands outside is a part of the scene, and the thing farthest to it is meant. Who stands among the things
+has them all around: those within a cone to that side are meant, the nearer the likelier. That is measured, not learned.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.interpretation.scene_kinds import stands_among
+from dcg_torch.scene.layout import OF_ROBOT
+from dcg_torch.scene.order import TIE, numbered
+from dcg_torch.types import Phrase
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_AT = frozenset({"on", "to", "at", "in"})
+_FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}
+"""Preposition before who is spoken to -> the direction in which what is so stands."""
+_ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
+"""Angle off a direction up to which a thing is that way, and how vague that is."""
+_STRAIGHT = math.radians(40.0)
+"""Angle at which a thing is half a nat less that way than one straight on."""
+_E_FOLD = 2.0
+"""Nats that a thing loses for each e-fold by which it is farther than the nearest of its kind that way."""
+_LEAST = 0.5
+"""Units below which distances are alike."""
+
+
+def by_bearing(
+    phrase: Phrase, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(landmarks, things) log Psi of a modifier, measured where its landmark is the robot or a side of it.
+
+    Args:
+        log_psi: what is learned, which stays for all other landmarks, and for a robot that stands outside.
+        landmarks: the number of each.
+        compared: (things,) those of which the nearest is meant; None: those of one type.
+    """
+    name, where = phrase.words[0], encoder.layout
+    if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
+        return log_psi
+    ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
+    seen = where.position[where.solid & np.isfinite(where.position).all(axis=1), :2] - where.robot
+    if not ways or phrase.plural or not stands_among(seen):
+        return log_psi
+    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    found = log_psi.copy()
+    for k, way in ways:
+        found[k] = _that_way(where.position[:, :2] - where.robot, way, kind)
+    return found
+
+
+def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
+    """(2,) the direction that a preposition names of a landmark; None where it is no side of the robot."""
+    where, thing = encoder.layout, encoder.all[landmark]
+    if name in _FROM_YOU:
+        return np.array(_FROM_YOU[name]) if where.place[landmark] and thing.type == "robot" else None
+    return where.heading[landmark] if where.direction[landmark] and OF_ROBOT in thing.attributes else None
+
+
+def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64]) -> Floats:
+    """(things,) how well each stands in a direction: off it by an angle, and behind how many of its kind.
+
+    Args:
+        offset: (things, 2) from the robot.
+        kind: (things,) of which kind each is.
+    """
+    x, y = way
+    slant = np.arctan2(np.abs(offset @ np.array([-y, x])), offset @ way)
+    there = np.isfinite(slant)
+    slant = np.where(there, slant, math.pi)
+    inside = -np.logaddexp(0.0, (slant - _ASLANT) / _UNSURE) - 0.5 * (slant / _STRAIGHT) ** 2
+    away = np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
+    cost = _E_FOLD * away - inside
+    least = np.full(kind.max(initial=0) + 1, np.inf)
+    np.minimum.at(least, kind, np.where(there, cost, np.inf))
+    behind = np.where(there, _E_FOLD * away - np.where(np.isfinite(least), least, 0.0)[kind], np.inf)
+    found: Floats = inside - np.maximum(behind, 0.0)
+    return found

@@ -1,0 +1,78 @@
+"""Landmarks: what can't be one, and what follows for a command whose landmark is not there."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.scored import Scored
+from dcg_torch.interpretation.plain_words import in_group
+from dcg_torch.names.everyday import is_everyday
+from dcg_torch.names.evidence import is_generic
+from dcg_torch.names.rooms import room_named
+from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
+
+_NAMES_ONE = math.log(0.5)
+"""Log Psi from which a noun phrase names a thing that is there."""
+_HAVING = frozenset({"of", "with"})
+"""Prepositions before what a thing has or consists of, which need not be a thing of its own."""
+_NOT_THERE = 0.25
+"""Probability at most that nothing is meant where a landmark is named that nobody has seen: people also stand things to
+parts of things, and to what no recogniser tells."""
+_ALIKE = math.log(0.5)
+"""Log-odds that things named as well as one another differ by at most."""
+
+
+def only_named(tree: ParseTree, found: Scored, encoder: WorldEncoder) -> Scored:
+    """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
+    phrase, named = tree.phrase, found.named
+    meanable = len(encoder.world.objects) + len(encoder.world.groups)
+    shade = phrase.color == phrase.text  # "closest to blue" is not beside a blue thing
+    if phrase.color is not None and not shade and (phrase.noun is None or is_generic(phrase.noun)):
+        found.scores[:, meanable:] = -np.inf
+    if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
+        return found
+    seen = named[: len(encoder.world.objects)][encoder.perceived[: len(encoder.world.objects)]]
+    if not encoder.world.groups or seen.max(initial=-np.inf) < _NAMES_ONE:
+        return found
+    group = np.array([bool(o.members) for o in encoder.all], dtype=np.bool_)
+    return found._replace(scores=np.where(group[None, :, None], -np.inf, found.scores))
+
+
+def landmarks_of(tree: ParseTree) -> tuple[Phrase, ...]:
+    """The names of things that a noun phrase says its object stands to: no places, rooms, parts, and nothing denied."""
+    places = (c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER and _is_to_a_thing(c.phrase))
+    found = (landmark.phrase for place in places for landmark in place.children)
+    return tuple(Phrase(PhraseKind.NOUN, "", noun=phrase.noun) for phrase in found if _is_thing(phrase.noun))
+
+
+def _is_to_a_thing(phrase: Phrase) -> bool:
+    return NOT not in phrase.words and phrase.words[0] not in _HAVING and "to a thing" in phrase.context
+
+
+def _is_thing(noun: str | None) -> bool:
+    """Does a noun name a thing that a recogniser would tell, if it were there?"""
+    return noun is not None and is_everyday(noun) and not is_generic(noun) and room_named(noun) is None
+
+
+def without_landmarks(log_odds: float, of_each: Sequence[float], found: Scored, encoder: WorldEncoder) -> float:
+    """The log-odds that nothing there is meant, where landmarks may not be there: "the mug next to the kettle".
+
+    Where only one thing has the name and the colour that are said, it is meant whatever it stands beside. Of n that are
+    alike a landmark that is not there picks none: it leaves the share 1 - 1 / n to what is not there.
+
+    Args:
+        log_odds: by name and colour.
+        of_each: the log-odds that each of the landmarks is not there; those that rather are say nothing.
+    """
+    there = encoder.perceived[: found.scores.shape[1]]
+    if max(of_each, default=-1.0) < 0.0 or found.named is None:
+        return log_odds
+    named = np.where(there, found.named[: len(there)], -np.inf)
+    alike = int((named >= named.max() + _ALIKE).sum())
+    doubt = (1.0 - 1.0 / alike) * _NOT_THERE
+    left = (1.0 - doubt) / (1.0 + math.exp(log_odds))
+    return math.log1p(-left) - math.log(left)

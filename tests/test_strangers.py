@@ -1,0 +1,177 @@
+"""What people say of scenes that nobody had in mind: names of rooms, states that are colours, absent landmarks.
+
+Scenes and commands are ours.
+"""
+
+from __future__ import annotations
+
+import functools
+import math
+import random
+from collections.abc import Sequence
+
+import pytest
+
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.model import GroundingModel
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import Percept, Pose
+
+
+@functools.cache
+def _model() -> GroundingModel:
+    return pretrained()
+
+
+def _ground(text: str, things: Sequence[Percept]) -> Solution:
+    world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True, workspace=Workspace.of(things))
+    return _model().ground(text, world)
+
+
+def _told(text: str, things: list[Percept]) -> list[str]:
+    world = _model().world_model(things, robot=Pose(0.0, 0.0))
+    return [o.id for o in _model().ground(text, world).objects]
+
+
+def _percept(id_: str, type_: str, color: str | None, x: float, y: float, *attributes: str, z: float = 0.0) -> Percept:
+    return Percept(id_, type_, color, (x, y, z), attributes=frozenset(attributes))
+
+
+@pytest.mark.parametrize("text", ["the opened zimlo crate", "bring me the zimlo crate"])
+def test_a_word_of_a_class_name_is_no_strange_mark(text: str) -> None:
+    things = [
+        _percept("s1", "zimlo crate", None, 1.0, 0.5, "state: sealed"),
+        _percept("s2", "zimlo crate", None, 1.0, 0.0, "state: opened"),
+        _percept("j1", "jar", None, 1.2, -0.3, "filling: lentils"),
+    ]
+    found = _model().ground(text, _model().world_model(things, robot=Pose(0.0, 0.0))).tree
+    assert found is not None
+    assert not any("zimlo" in word for node in found.walk() for word in node.phrase.words)
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("go to room 12", ["lab"]),
+        ("drive to room 14", ["office"]),
+        ("the stool in room 12", ["s1"]),
+        ("go to room Turing", ["meeting"]),
+    ],
+)
+def test_a_room_is_known_by_its_number(text: str, meant: list[str]) -> None:
+    things = [
+        _percept("lab", "laboratory", None, 5.0, 4.0, "number: 12"),
+        _percept("office", "office", None, 5.0, -4.0, "number: 14"),
+        _percept("meeting", "meeting room", None, 12.0, 4.0, "name: Turing"),
+        _percept("other", "meeting room", None, 12.0, -4.0, "name: Hopper"),
+        _percept("s1", "stool", "black", 5.3, 4.4),
+        _percept("s2", "stool", "black", 11.8, 3.9),
+    ]
+    assert _told(text, things) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [("press the amber button lamp", ["b1"]), ("the green signal", ["s2"]), ("the red wagon", ["w"])],
+)
+def test_a_colour_may_be_the_state_of_what_has_no_colour(text: str, meant: list[str]) -> None:
+    things = [
+        _percept("s1", "signal", None, 9.0, 2.0, "state: red"),
+        _percept("s2", "signal", None, 9.0, -2.0, "state: green"),
+        _percept("b1", "button lamp", None, 2.0, 1.0, "state: amber"),
+        _percept("b2", "button lamp", None, 2.0, -1.0, "state: green"),
+        _percept("w", "wagon", "red", 5.0, 0.0),
+        _percept("w2", "wagon", "green", 5.0, 3.0),
+    ]
+    assert _told(text, things) == meant
+
+
+def _strewn(seed: int) -> list[Percept]:
+    """Four bolts close together and six strewn about them, on a table."""
+    rng = random.Random(seed)
+    middle, spots = (rng.uniform(0.6, 1.0), rng.uniform(-0.4, 0.4)), list[tuple[float, float]]()
+    while len(spots) < 4:
+        x, y = middle[0] + rng.uniform(-0.1, 0.1), middle[1] + rng.uniform(-0.1, 0.1)
+        if all(math.dist((x, y), spot) > 0.06 for spot in spots):
+            spots.append((x, y))
+    while len(spots) < 10:
+        x, y = rng.uniform(0.2, 1.6), rng.uniform(-1.0, 1.0)
+        if all(math.dist((x, y), spot) > 0.25 for spot in spots):
+            spots.append((x, y))
+    return [_percept(f"{'near' if k < 4 else 'far'}{k}", "bolt", "black", x, y) for k, (x, y) in enumerate(spots)]
+
+
+@pytest.mark.parametrize(
+    "text", ["the group of four bolts", "take the cluster of four", "the bunch of four black bolts"]
+)
+def test_a_group_of_so_many_is_the_closest_so_many(text: str) -> None:
+    right = 0
+    for seed in range(12):
+        things = _strewn(seed)
+        meant = {o.id for o in _ground(text, things).objects}
+        right += meant == {"near0", "near1", "near2", "near3"}
+    assert right == 12
+
+
+def _rack() -> list[Percept]:
+    """Things on three shelves that are none themselves, before who looks."""
+    rows = {
+        1.6: ["vase", "drum", "candle"],
+        1.0: ["clock", "candle", "radio", "vase"],
+        0.4: ["basket", "drum", "radio"],
+    }
+    return [
+        _percept(f"{kind}{int(10 * z)}", kind, None, 2.0, 0.8 - 0.5 * k - 0.1 * (z < 0.5), z=z)
+        for z, kinds in rows.items()
+        for k, kind in enumerate(kinds)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("everything on the top shelf", {"vase16", "drum16", "candle16"}),
+        ("the radio on the bottom shelf", {"radio4"}),
+        ("the second thing from the left on the middle shelf", {"candle10"}),
+        ("everything that is on the lowest tier", {"basket4", "drum4", "radio4"}),
+    ],
+)
+def test_what_stands_at_heights_stands_on_shelves(text: str, meant: set[str]) -> None:
+    assert {o.id for o in _ground(text, _rack()).objects} == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the basket on the top shelf of the left cupboard", ["b2"]),
+        ("the basket on the bottom shelf of the left cupboard", ["b1"]),
+    ],
+)
+def test_a_shelf_of_a_thing_is_a_height_on_it(text: str, meant: list[str]) -> None:
+    things = [
+        Percept("left", "cupboard", None, (3.0, 2.0, 0.0), (0.6, 1.2, 2.0)),
+        Percept("right", "cupboard", None, (3.0, -2.0, 0.0), (0.6, 1.2, 2.0)),
+        _percept("b1", "basket", None, 3.0, 2.0, z=0.5),
+        _percept("b2", "basket", None, 3.0, 2.0, z=1.5),
+        _percept("b3", "basket", None, 3.0, -2.0, z=1.5),
+        _percept("t", "trunk", None, 1.0, 0.0),
+    ]
+    assert _told(text, things) == meant
+
+
+def test_in_the_middle_of_a_few_in_a_line_is_their_middle_one() -> None:
+    things = [_percept(f"p{k}", "pot", "red", 1.2, 0.9 - 0.2 * k) for k in range(3)]
+    things += [_percept(f"s{k}", "spade", "blue", 1.5, -0.2 - 0.3 * k) for k in range(4)]
+    things += [_percept("q", "pot", "green", 0.9, -0.1)]
+    assert [o.id for o in _ground("the red pot in the middle", things).objects] == ["p1"]
+    assert [o.id for o in _ground("the pot in the middle", things[1:]).objects] != ["p0"]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"), [("the plate whose fork is on the left", "a"), ("the plate whose fork is on the right", "b")]
+)
+def test_whose_side_is_its_own(text: str, meant: str) -> None:
+    things = [_percept("a", "plate", None, 1.0, -0.5), _percept("fa", "fork", None, 1.0, -0.3)]
+    things += [_percept("b", "plate", None, 1.0, 0.5), _percept("fb", "fork", None, 1.0, 0.3)]
+    assert _told(text, things) == [meant]
