@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
@@ -169,6 +170,7 @@ class Solution:
         return (1.0 - absent) * least / (least + other)
 
 
+@functools.lru_cache(maxsize=1024)
 def target_of(tree: ParseTree) -> ParseTree | None:
     """The noun phrase of the object meant: the first of the tree, from the root; None if there is none."""
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
