@@ -95,7 +95,7 @@ def settle(probabilities: dict[str, float], meanings: dict[str, float], worth: W
 
 
 def _about_zorp(of: Solution) -> Solution:
-    from dcg_torch.grounding.solution import Hypothesis
+    from dcg_torch.grounding.hypotheses import Hypothesis
     from dcg_torch.types import Child, Grounding, GroundingKind
 
     assert of.tree is not None

@@ -13,7 +13,7 @@ from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.explanation import explain
 from dcg_torch.grounding.features import PAPER, Group, ranking
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.solution import SLIP
+from dcg_torch.grounding.hypotheses import SLIP
 from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.lessons.relations import KNOWN, relational_lessons

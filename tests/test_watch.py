@@ -21,7 +21,8 @@ from dcg_torch.experiment.recording.floor import FloorPanel
 from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand, Recorder
 from dcg_torch.experiment.recording.wording import bars, doing, label, meant, name_of, words
 from dcg_torch.experiment.runner import run
-from dcg_torch.grounding.solution import Hypothesis, Solution
+from dcg_torch.grounding.hypotheses import Hypothesis
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.settings import ModelSettings, Order, RobotKind, Settings, SettingsError, SimulatorSettings, check
 from dcg_torch.simulator import Camera, FakeRobot, SimulatedRobot
 from dcg_torch.simulator.stage import Stage

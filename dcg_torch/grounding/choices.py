@@ -7,7 +7,7 @@ it may describe several, and one best. So commands whose objects are known are f
     log p(set)    = sum_j y_j log q_j + (1 - y_j) log(1 - q_j)                  all that is described is meant
     s_j           = log Psi(ACTIVE) - log Psi(INACTIVE) + sum_m log Psi_m(j)    as the factor graph scores it
     log q_j       = log Psi(ACTIVE) + sum_m log Psi_m(j)
-    Psi_m(j)      = (1 - slip) sum_c p(c) Psi(asserted | j, c) + slip           `solution.ModifierFactor`
+    Psi_m(j)      = (1 - slip) sum_c p(c) Psi(asserted | j, c) + slip           `hypotheses.ModifierFactor`
 
 with p(c), the probability of a modifier's landmarks, as the model has it before. What is denied of several landmarks
 of one name counts for each of them here, where the graph takes the worst (`reach.of_none`). What moves is the
@@ -32,7 +32,7 @@ from dcg_torch.fitting.design import row_hashes, stack_bags
 from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
 from dcg_torch.fitting.threads import one_thread
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.solution import SLIP
+from dcg_torch.grounding.hypotheses import SLIP
 from dcg_torch.types import Correspondence, Phrase
 
 Ints = NDArray[np.int64]

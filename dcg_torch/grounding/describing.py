@@ -16,11 +16,11 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.reach import by_distance, inside_of, means_all, of_all, of_none
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -67,7 +67,7 @@ _LANDMARKS = 8
 
 def modifier_factor(
     tree: ParseTree,
-    beams: Sequence[Sequence[Hypothesis]],
+    beams: Sequence[Beam],
     encoder: WorldEncoder,
     tables: Tables,
     compared: Bools | None = None,
@@ -78,18 +78,15 @@ def modifier_factor(
         beams: the hypotheses of each landmark.
         compared: (things,) those among which it ranks; None: all of a kind.
     """
-    number, several = encoder.number, _counted_landmark(tree)
-    combos = list(itertools.product(*_fewer(beams)))
-    landmarks = [tuple(number[h.child.grounding.object.id] for h in combo) for combo in combos]
+    several, combos = _counted_landmark(tree), Combos(beams, _fewer(beams))
     denied = NOT in tree.phrase.words
-    log_psi = _log_psi(tree, landmarks, encoder, tables, compared)
+    log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
-        combos = [tuple(beams[0][k] for k in of) for of in chosen]
-        landmarks = [tuple(landmarks[k][0] for k in of) for of in chosen]
+        combos = Combos([beams[0]] * several, chosen)
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
-    scores = np.array([sum(h.log_score for h in combo) for combo in combos])
+    landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each:
         if denied:
             log_psi = of_none(log_psi, scores)
@@ -104,7 +101,7 @@ def modifier_factor(
 
 
 def _log_psi(
-    tree: ParseTree, landmarks: list[tuple[int, ...]], encoder: WorldEncoder, tables: Tables, compared: Bools | None
+    tree: ParseTree, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, tables: Tables, compared: Bools | None
 ) -> Floats:
     """(landmarks, things) log Psi of a modifier, and what is measured of it."""
     name, denied = tree.phrase.words[0], NOT in tree.phrase.words
@@ -129,10 +126,12 @@ def _log_psi(
     return log_psi
 
 
-def _fewer(beams: Sequence[Sequence[Hypothesis]]) -> list[Sequence[Hypothesis]]:
-    """The beams of several landmarks, cut so that combinations stay few: "between the bed and the desk and ..."."""
-    most = max(1, int(_COMBINATIONS ** (1.0 / max(1, len(beams))) + 1e-9))
-    return [beam[:most] if len(beams) > 2 else beam for beam in beams]
+def _fewer(beams: Sequence[Beam]) -> Sequence[tuple[int, ...]] | None:
+    """Places in beams that are cut so that combinations stay few: "between the bed and the desk and ..."; None: all."""
+    if len(beams) <= 2:
+        return None
+    most = int(_COMBINATIONS ** (1.0 / len(beams)) + 1e-9)
+    return list(itertools.product(*[range(min(len(beam), max(1, most))) for beam in beams]))
 
 
 _MEMBER = frozenset({"in", "of"})

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import target_of
@@ -11,6 +12,7 @@ from dcg_torch.types import ParseTree, WorldModel
 _ALL = "all"
 
 
+@functools.lru_cache(maxsize=1024)
 def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]:
     """A command without the exceptions of its noun phrase, and for each of them the same command about what it names.
 

@@ -12,7 +12,8 @@ from typing import Protocol
 from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet
-from dcg_torch.grounding.solution import Hypothesis, Solution
+from dcg_torch.grounding.hypotheses import Hypothesis
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Correspondence, Example, Object
 
 

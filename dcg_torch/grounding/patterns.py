@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.hypotheses import Beam
 from dcg_torch.grounding.tables import Pattern, Tables, exact_sum
 from dcg_torch.types import Child, Correspondence, GroundingKind, Phrase
 
@@ -38,15 +39,22 @@ class Spread:
         self._tables, self._phrase, self._kind, self._count = tables, phrase, kind, count
         self._kept = tables.spread(phrase, count)
 
-    def of_one(self, children: Sequence[Child]) -> Floats:
+    def of_one(self, children: Beam) -> Floats:
         """(children, 2, meant) what `of` says of each by itself; nearly always it is the same of all."""
-        keys = [(child.grounding.kind._value_, child.correspondence._value_) for child in children]  # hashed quickly
         kept = {}
-        for key, child in zip(keys, children, strict=True):
-            if key not in kept:
-                kept[key] = self._looked_up(key, (child,), (0,))
-        found: Floats = kept[keys[0]][None] if len(kept) == 1 else np.array([kept[key] for key in keys])
+        for k, correspondence in enumerate(children.correspondences):
+            if correspondence not in kept:
+                kept[correspondence] = self._of_such(correspondence, children, k)
+        if len(kept) == 1:
+            found: Floats = kept[children.correspondences[0]][None]
+        else:
+            found = np.array([kept[correspondence] for correspondence in children.correspondences])
         return found
+
+    def _of_such(self, correspondence: Correspondence, children: Beam, k: int) -> Floats:
+        key = (children.kind._value_, correspondence._value_)  # hashed quickly
+        found = self._kept.get(key)
+        return self._looked_up(key, (children[k].child,), (0,)) if found is None else found
 
     def of(self, children: Sequence[Child], about: Sequence[int]) -> Floats:
         """(1 + k, meant) the log-score of all factors if the one that is not INACTIVE is about none of the k things of

@@ -128,12 +128,14 @@ def by_distance(
         What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
         or nearer to any landmark than the farthest.
     """
+    fold = _E_FOLD.get(name, 0.0)
+    if not fold or len(landmarks) < 2:
+        return np.zeros((len(landmarks), len(encoder.all)))
     solid, best = encoder.layout.solid, landmarks[int(scores.argmax())]
     same = np.array([solid[j] if solid[best] else encoder.all[j].type == encoder.all[best].type for j in landmarks])
     alike = np.flatnonzero((scores >= scores.max() - _ALIKE) & same)
     lost = np.zeros((len(landmarks), len(encoder.all)))
-    fold = _E_FOLD.get(name, 0.0)
-    if len(alike) < 2 or not fold:
+    if len(alike) < 2:
         return lost
     mark = np.array(landmarks)[alike]
     gap = encoder.distances(mark.tolist()) + _TOUCHING

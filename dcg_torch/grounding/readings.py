@@ -107,11 +107,11 @@ _OF_ALL = frozenset({"corner", "middle"})
 def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
     """The world whose things are told the cells, rooms and corners that readings speak of, with places if need be."""
     trees = [reading.tree for reading in readings]
-    phrases = [node.phrase for tree in trees for node in tree.walk()]
-    kinds = {PLACE_WORDS[p.noun][0] for p in phrases if p.noun in PLACE_WORDS} & _OF_ALL
+    said = [Words.of(tree) for tree in trees]
+    kinds = {PLACE_WORDS[noun][0] for of in said for noun in of.nouns if noun in PLACE_WORDS} & _OF_ALL
     if kinds:
         world = with_places_of_all(world, kinds)
-    if not any(OF_KEY in word for phrase in phrases for word in phrase.words):
+    if not any(OF_KEY in word for of in said for word in of.words):
         return world
     return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
 

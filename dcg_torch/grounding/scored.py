@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor
+from dcg_torch.grounding.hypotheses import Combos, Highest, ModifierFactor
 from dcg_torch.scene.order import highest
 from dcg_torch.types import Correspondence, ParseTree, PhraseKind
 
@@ -23,7 +23,7 @@ class Scored(NamedTuple):
     """The scores of a phrase that picks.
 
     Attributes:
-        combos: hypotheses of the children, a tuple for each choice of them.
+        combos: the choices of hypotheses of the children.
         meant: the correspondences that are not INACTIVE.
         scores: (combos, groundings, meant) log-score of every configuration.
         code: (groundings,) equal numbers for groundings whose scores are equal, whatever the combo; None: unknown.
@@ -35,7 +35,7 @@ class Scored(NamedTuple):
     """
 
     tree: ParseTree
-    combos: Sequence[tuple[Hypothesis, ...]]
+    combos: Combos
     meant: Sequence[Correspondence]
     scores: Floats
     code: NDArray[np.int64] | None = None
@@ -54,17 +54,15 @@ class Scored(NamedTuple):
         few: Floats = np.logaddexp.reduce(self.scores[:, first], axis=(0, 2))
         return few[which]
 
-    def highest(self, count: int, scores: Floats | None = None) -> list[tuple[int, int, int, float]]:
-        """The combo, the grounding, the number in `meant` and the score of the best configurations.
-
-        Equal scores stay in the order of the world's objects.
+    def highest(self, count: int, scores: Floats | None = None) -> Highest:
+        """The best configurations; equal scores stay in the order of the world's objects.
 
         Args:
             scores: others than its own, which differ from them for whole combos, if there are any.
         """
         scores = self.scores if scores is None else scores
         columns = None
-        if self.code is not None and len(self.code) > FEW and self.combos[0]:
+        if self.code is not None and len(self.code) > FEW and self.combos.beams:
             # Of those whose scores are equal none but the first few can be among the best.
             rest = (self.code == 0).nonzero()[0][:count]
             columns = np.sort(np.concatenate([rest, self.code.nonzero()[0]]))
@@ -72,11 +70,11 @@ class Scored(NamedTuple):
         _, n, m = scores.shape
         flat = scores.reshape(-1)
         best = highest(flat, count)
-        number = range(n) if columns is None else columns.tolist()
-        return [
-            (at // (m * n), number[at // m % n], at % m, score)
-            for at, score in zip(best.tolist(), flat[best].tolist(), strict=True)
-        ]
+        at = best.tolist()
+        things = [k // m % n for k in at]
+        if columns is not None:
+            things = columns[things].tolist()
+        return Highest([k // (m * n) for k in at], things, [self.meant[k % m] for k in at], flat[best].tolist())
 
     def about(self, meant: str, number: Mapping[str, int]) -> Bools:
         """(combos, groundings, 1) or what broadcasts to it: which configurations are about an object.
@@ -84,8 +82,9 @@ class Scored(NamedTuple):
         Args:
             number: of every thing by its id.
         """
-        if self.tree.phrase.kind is PhraseKind.NOUN or not self.combos[0]:
+        if self.tree.phrase.kind is PhraseKind.NOUN or not self.combos.beams:
             found: Bools = np.arange(self.scores.shape[1])[None, :, None] == number[meant]
         else:
-            found = np.array([combo[0].meant.id == meant for combo in self.combos], dtype=np.bool_)[:, None, None]
+            first = self.combos.beams[0].meant
+            found = np.array([first[pick[0]] == number[meant] for pick in self.combos.picks])[:, None, None]
         return found

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,15 +14,16 @@ from dcg_torch.grounding.contrary import of_missing_marks
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
+from dcg_torch.grounding.hypotheses import Beam, Combos, Hypothesis, ModifierFactor
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.scored import FEW, Scored
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import counted
-from dcg_torch.types import Child, Correspondence, Grounding, ParseTree, Phrase, PhraseKind
+from dcg_torch.types import Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -40,7 +39,7 @@ class _Found:
     """What was found of a phrase: its scores, and its best hypotheses once they have been asked for."""
 
     scored: Scored
-    beam: list[Hypothesis] | None = None
+    beam: Beam | None = None
 
 
 class Search:
@@ -133,7 +132,7 @@ class Search:
         """
         return self._found_of(tree, landmark).scored
 
-    def _beam_of(self, tree: ParseTree, *, landmark: bool) -> list[Hypothesis]:
+    def _beam_of(self, tree: ParseTree, *, landmark: bool) -> Beam:
         found = self._found_of(tree, landmark)
         if found.beam is None:
             found.beam = self._best(found.scored, self._beam)
@@ -145,7 +144,7 @@ class Search:
         if kept is not None:
             return kept
         below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
-        combos = list(itertools.product(*[self._beam_of(child, landmark=False) for child in below]))
+        combos = Combos([self._beam_of(child, landmark=False) for child in below])
         is_noun = tree.phrase.kind is PhraseKind.NOUN
         scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
         if landmark:
@@ -185,7 +184,7 @@ class Search:
         found: Bools = named & np.array([o.id in world.meant for o in self.encoder.all], dtype=np.bool_)
         return found if found.any() else None
 
-    def _noun(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
+    def _noun(self, tree: ParseTree, combos: Combos) -> Scored:
         """Of a noun phrase: the opposite of an object is no object, so that it is ACTIVE or not."""
         modifiers = self._all_modifiers(tree)
         picks = comparison_set(tree, modifiers, self.encoder, self._tables) if ranks(tree) else None
@@ -193,9 +192,8 @@ class Search:
         table = self._unranked(phrase) if compared is None else self._tables.noun(self.encoder, phrase, compared)
         correspondences = self._tables.factor.correspondences
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
-        scores = np.array([sum([h.log_score for h in combo]) for combo in combos])
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
-        base = (math.fsum(inactive.tolist()) + scores)[:, None]
+        base = (math.fsum(inactive.tolist()) + combos.log_scores)[:, None]
         placed = np.zeros(len(active)) if picks is None else picks.log_size
         unmarked = of_missing_marks(phrase.words, self.encoder)
         placed = placed if unmarked is None else placed + unmarked
@@ -223,27 +221,25 @@ class Search:
             found = self._nouns[phrase] = self._tables.noun(self.encoder, phrase)
         return found
 
-    def _above(self, tree: ParseTree, combos: Sequence[tuple[Hypothesis, ...]]) -> Scored:
+    def _above(self, tree: ParseTree, combos: Combos) -> Scored:
         """Of a verb or preposition: all groundings but those of its children are alike."""
         meant = [c for c in self._tables.factor.correspondences if c is not Correspondence.INACTIVE]
-        n, number = self._meanable, self.encoder.number
+        n, base = self._meanable, combos.log_scores
         spread = Spread(self._tables, tree.phrase, GROUNDING_OF[tree.phrase.kind], n)
-        about = [[number[h.child.grounding.object.id] for h in combo] for combo in combos]
-        base = np.array([sum([h.log_score for h in combo]) for combo in combos])
         scores = np.empty((len(combos), n, len(meant)))
-        if combos[0] and len(combos[0]) == 1:  # as nearly all have
-            cells = spread.of_one([h.child for (h,) in combos]) + base[:, None, None]
+        if len(combos.beams) == 1:  # as nearly all have
+            cells = spread.of_one(combos.beams[0]) + base[:, None, None]
             scores[:] = cells[:, :1]
-            scores[range(len(combos)), [j for (j,) in about]] = cells[:, 1]
+            scores[range(len(combos)), combos.beams[0].things] = cells[:, 1]
         else:
-            for own, combo, things, total in zip(scores, combos, about, base.tolist(), strict=True):
+            for own, combo, things, total in zip(scores, combos, combos.things, base.tolist(), strict=True):
                 cells = spread.of([h.child for h in combo], things) + total
                 own[:] = cells[0]
                 own[list(dict.fromkeys(things))] = cells[1:]
         if n <= FEW:
             return Scored(tree, combos, meant, scores)
         code = np.zeros(n, dtype=np.int64)
-        some = [j for things in about for j in things]
+        some = [j for things in combos.things for j in things]
         code[some] = np.array(some) + 1
         return Scored(tree, combos, meant, scores, code)
 
@@ -299,13 +295,8 @@ class Search:
         """The words of a noun phrase that say something of groups or attributes."""
         return phrase.words if in_group(phrase) else of_attributes(phrase.words, self.encoder)
 
-    def _best(self, scored: Scored, beam: int, scores: Floats | None = None) -> list[Hypothesis]:
+    def _best(self, scored: Scored, beam: int, scores: Floats | None = None) -> Beam:
         """The best configurations of a phrase; see `Scored.highest`."""
-        tree, meant, combos, modifiers = scored.tree, scored.meant, scored.combos, scored.modifiers
-        kind, things, found = GROUNDING_OF[tree.phrase.kind], self.encoder.all, []
-        for c, j, p, score in scored.highest(beam, scores):
-            child, below = Child(Grounding(kind, things[j]), meant[p]), combos[c]
-            if modifiers:
-                below = (*below, *[modifier.hypothesis(j, things[j]) for modifier in modifiers])
-            found.append(Hypothesis(tree, child, below, score))
-        return found
+        tree, kind = scored.tree, GROUNDING_OF[scored.tree.phrase.kind]
+        highest = scored.highest(beam, scores)
+        return Beam(tree, kind, self.encoder.all, scored.combos, scored.modifiers, highest)

@@ -2,117 +2,17 @@
 
 from __future__ import annotations
 
+import functools
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.hypotheses import Hypothesis, ModifierFactor
 from dcg_torch.names.vocabulary import ANY, FEW, GROUP_LIKE, HALF, SO_MANY
-from dcg_torch.types import Child, Grounding, GroundingKind, Object, ParseTree, Phrase, PhraseKind, WorldModel
-
-
-class Hypothesis(NamedTuple):
-    """One grounding of a phrase, with the hypotheses of its children that it rests on.
-
-    `log_score` is the log-probability of the whole configuration at and below this phrase. A search makes many: a
-    tuple with names is made in a third of the time that a frozen dataclass takes.
-    """
-
-    tree: ParseTree
-    child: Child
-    children: tuple[Hypothesis, ...]
-    log_score: float
-
-    @property
-    def factor_children(self) -> tuple[Child, ...]:
-        """Gamma_c of this phrase's factor: a noun phrase's modifiers have factors of their own instead."""
-        return () if self.child.grounding.kind is GroundingKind.OBJECT else tuple(h.child for h in self.children)
-
-    @property
-    def meant(self) -> Object:
-        """The object that the noun phrase of the action means, or where there is none, that of the action."""
-        return (self._noun or self).child.grounding.object
-
-    @property
-    def _noun(self) -> Hypothesis | None:
-        """That of the first noun phrase, parents first."""
-        if self.tree.phrase.kind is PhraseKind.NOUN:
-            return self
-        return next((noun for child in self.children if (noun := child._noun) is not None), None)
-
-    def walk(self) -> list[Hypothesis]:
-        """This hypothesis and those below, parents first."""
-        return [self, *(h for child in self.children for h in child.walk())]
-
-
-SLIP = 0.02
-"""Share of modifiers that say nothing."""
-
-
-@dataclass(frozen=True)
-class ModifierFactor:
-    """A modifier's factors, for every thing that its noun phrase may mean.
-
-    A modifier describes, it does not pick: many things may stand next to a cube. So of its correspondences only
-    that of the object meant is asserted, and the landmark is summed over:
-
-        Psi(object) = sum over landmarks of p(landmark) Psi(ACTIVE | object, landmark)
-
-    with INACTIVE in the place of ACTIVE where the modifier is negated ("not on the cube").
-
-    People differ about what "beside" is, and some words are not known, so that no modifier says all: with a
-    probability `SLIP` it says nothing.
-
-    Attributes:
-        combos: hypotheses of the landmarks; one for each child.
-        mixture: (combos, things) the logarithm of the summands.
-        log_prior: (combos,) log p(landmarks).
-        compared: (things,) those among which it ranks; None: all of a kind.
-        of_each: is it to each of a combo's landmarks ("behind the two cones"), not to both at once ("between")?
-    """
-
-    tree: ParseTree
-    combos: Sequence[tuple[Hypothesis, ...]]
-    mixture: NDArray[np.float64]
-    log_prior: NDArray[np.float64]
-    compared: NDArray[np.bool_] | None = None
-    of_each: bool = False
-
-    @cached_property
-    def _log_sum(self) -> NDArray[np.float64]:
-        total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
-        return total
-
-    @cached_property
-    def log_psi(self) -> NDArray[np.float64]:
-        """(things,) log Psi(thing)."""
-        return np.logaddexp(math.log1p(-SLIP) + self._log_sum, math.log(SLIP))
-
-    @cached_property
-    def _likeliest(self) -> NDArray[np.int64]:
-        """(things,) the likeliest combo of each."""
-        best: NDArray[np.int64] = self.mixture.argmax(axis=0)
-        return best
-
-    @property
-    def posterior(self) -> NDArray[np.float64]:
-        """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
-        return np.exp(self.mixture - self._log_sum)
-
-    def landmarks(self, combo: int, number: Mapping[str, int]) -> tuple[int, ...]:
-        """The numbers of the landmarks of a combo."""
-        return tuple(number[h.child.grounding.object.id] for h in self.combos[combo])
-
-    def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
-        """That the thing j stands so, to its best landmarks or to those of a given combo."""
-        best = int(self._likeliest[j]) if combo is None else combo
-        child = Child(Grounding(GroundingKind.PLACED, thing))
-        return Hypothesis(self.tree, child, self.combos[best], float(self.log_psi[j]))
-
+from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _AS_WELL = 0.5
 """An object is one of several that are meant if it is described at least half as well as the best."""
@@ -270,6 +170,7 @@ class Solution:
         return (1.0 - absent) * least / (least + other)
 
 
+@functools.lru_cache(maxsize=1024)
 def target_of(tree: ParseTree) -> ParseTree | None:
     """The noun phrase of the object meant: the first of the tree, from the root; None if there is none."""
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)

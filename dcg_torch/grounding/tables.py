@@ -95,7 +95,7 @@ class Tables:
         landmarks: Sequence[tuple[int, ...]],
         members: np.ndarray | None = None,
     ) -> Floats:
-        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks.
+        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks; all are as long.
 
         Args:
             members: (things,) those among which it ranks; None: all of a kind.
@@ -118,7 +118,7 @@ class Tables:
             total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
             _add(total, own, flat)
             out[:, start : start + step] = total.reshape(len(side), -1, n)
-        if any(len(of) > 1 for of in landmarks):
+        if landmarks and len(landmarks[0]) > 1:
             out = out[:, [first.index(of[0]) for of in landmarks]]
             out += own[:, scene.between(encoder.layout, landmarks)]
         return _normal(out)

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features.said import look_scores
+from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import ranks_from
-from dcg_torch.grounding.solution import ModifierFactor
 from dcg_torch.names.attributes import size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN

@@ -42,16 +42,19 @@ _LEVEL = 0.02
 """Metres of height within which all stands on one level."""
 
 
+@functools.lru_cache(maxsize=1024)
 def speaks_of_groups(tree: ParseTree) -> bool:
     """Does some noun phrase of the command speak of a group of objects?"""
     return any(in_group(node.phrase) for node in tree.walk())
 
 
+@functools.lru_cache(maxsize=1024)
 def speaks_of_lines(tree: ParseTree) -> bool:
     """Does a tree of factors count rows or columns through the whole scene?"""
     return any(node.phrase.noun in READ_FROM for node in tree.walk())
 
 
+@functools.lru_cache(maxsize=1024)
 def path_to_object(tree: ParseTree) -> ParseTree:
     """The path from the root to the object meant: a tree's first child leads to it.
 
@@ -62,18 +65,20 @@ def path_to_object(tree: ParseTree) -> ParseTree:
     return ParseTree(tree.phrase, tuple(map(path_to_object, tree.children[:1])))
 
 
-def coordinated(tree: ParseTree) -> list[ParseTree]:
+@functools.lru_cache(maxsize=1024)
+def coordinated(tree: ParseTree) -> tuple[ParseTree, ...]:
     """A tree for each noun phrase that a command is about: "the cube and the cone" is two of them."""
     joined = each_meant(_joined(tree))
     if len(joined) < 2:
-        return [tree]
+        return (tree,)
     first = tree.children[0]
     if first.phrase.kind is PhraseKind.PREPOSITION:
-        return [replace(tree, children=(replace(first, children=(noun,)),)) for noun in joined]
+        return tuple([replace(tree, children=(replace(first, children=(noun,)),)) for noun in joined])
     others = tuple(child for child in tree.children if child.phrase.kind is not PhraseKind.NOUN)
-    return [replace(tree, children=(noun, *others)) for noun in joined]
+    return tuple([replace(tree, children=(noun, *others)) for noun in joined])
 
 
+@functools.lru_cache(maxsize=1024)
 def offers_choice(tree: ParseTree) -> bool:
     """Is one of the noun phrases that a command joins meant, whichever: "the cube or the cone"?"""
     return any(OR in noun.phrase.words for noun in _joined(tree))

@@ -6,6 +6,7 @@ cells ("cell: 2 1|2 2"), which is compared with the cell that each thing stands 
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
@@ -54,6 +55,7 @@ def by_cells(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
     return [_Speaking(grid, world.objects).root(tree) for tree in trees]
 
 
+@functools.lru_cache(maxsize=1024)
 def _may_speak_of_cells(tree: ParseTree) -> bool:
     """Is there a word without which `_Speaking` finds nothing to say?"""
     return any(node.phrase.noun in _TELLING or not _TELLING.isdisjoint(node.phrase.words) for node in tree.walk())

@@ -70,6 +70,7 @@ def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[
     return found
 
 
+@functools.lru_cache(maxsize=1024)
 def speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
     """Does the first noun of a reading name nothing that is there, or but a room?
 
@@ -82,6 +83,7 @@ def speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
     return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
+@functools.lru_cache(maxsize=1024)
 def _first_noun(tree: ParseTree) -> Phrase | None:
     return next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 

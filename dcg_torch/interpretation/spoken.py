@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Collection, Sequence
 from typing import NamedTuple, Protocol
 
@@ -62,12 +63,13 @@ class Words(NamedTuple):
     nouns: frozenset[str]
     words: frozenset[str]
 
-    @classmethod
-    def of(cls, tree: ParseTree) -> Words:
+    @staticmethod
+    @functools.lru_cache(maxsize=1024)
+    def of(tree: ParseTree) -> Words:
         """Of a tree."""
         phrases = [node.phrase for node in tree.walk()]
         nouns = frozenset([phrase.noun for phrase in phrases if phrase.noun is not None])
-        return cls(nouns, frozenset([word for phrase in phrases for word in phrase.words]))
+        return Words(nouns, frozenset([word for phrase in phrases for word in phrase.words]))
 
 
 CommandParser = Callable[[str, Collection[str]], ParsedCommand]

@@ -2,7 +2,7 @@
 
 Expectation-maximisation over the landmarks. A lesson says which object a command means, not which cube "next to the
 cube" speaks of. So, in turn: with the present model, p(landmark) for every modifier and p(landmark | object meant)
-(`solution.ModifierFactor`); then one fit of the weights to all choices, of the objects and of their landmarks
+(`hypotheses.ModifierFactor`); then one fit of the weights to all choices, of the objects and of their landmarks
 (`grounding.choices`). The first turn knows no relations and spreads over all landmarks that the words allow.
 """
 
@@ -19,8 +19,9 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.choices import Choice, Modified
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
+from dcg_torch.grounding.hypotheses import Combos, ModifierFactor
 from dcg_torch.grounding.readings import Reading
-from dcg_torch.grounding.solution import Hypothesis, ModifierFactor, Solution, target_of
+from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.interpretation.factor_tree import coordinated, speaks_of_groups, speaks_of_lines, to_factor_tree
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.learning.evidence import told_by_look
@@ -227,14 +228,10 @@ def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> M
     return Modified(phrase, bag, prior[combos], NOT in phrase.words)
 
 
-def _landmarks(
-    combos: Sequence[tuple[Hypothesis, ...]], rests: Floats, encoder: WorldEncoder, weight: float
-) -> Iterator[Choice]:
+def _landmarks(combos: Combos, rests: Floats, encoder: WorldEncoder, weight: float) -> Iterator[Choice]:
     """What the phrases for the landmarks of a modifier choose, which rests on each tuple of them by so much."""
-    if not len(combos) or not combos[0]:
-        return
-    for k, first in enumerate(combos[0]):
+    for k, beam in enumerate(combos.beams if len(combos) else ()):
         share = np.zeros(len(encoder.world.things))
         np.add.at(share, [encoder.number[of[k].child.grounding.object.id] for of in combos], rests)
-        phrase = first.tree.phrase
+        phrase = beam.tree.phrase
         yield Choice(phrase, encoder.ranked(phrase), share / share.sum(), weight)

@@ -153,27 +153,24 @@ class Layout:
     @functools.cached_property
     def _kinds(self) -> list[str | None]:
         """The type of each thing; of those that marks alone tell apart, what they are called alike."""
-        there = zip(self.things, self.solid.tolist(), strict=True)
-        kind = kinds_of(frozenset(o.type for o, solid in there if solid and o.type is not None and not o.hypothetical))
-        return [kind.get(o.type or "", o.type) for o in self.things]
+        objects = self.things[: int(np.count_nonzero(self.solid))]  # they come first
+        kind = kinds_of(frozenset([o.type for o in objects if o.type is not None and not o.hypothetical]))
+        types = [o.type for o in self.things]
+        return [kind.get(type_ or "", type_) for type_ in types] if kind else types
+
+    @functools.cached_property
+    def _kind(self) -> Ints:
+        """(n,) the number of each one's kind."""
+        return numbered(self._kinds)
 
     def _by_class(self, among: str) -> Alike:
         """Groups are compared with those of their type alone."""
-        if len(self.things) > _FEW:
-            return Alike.by(self._class_of(among))
-        typed, colored = among in ("kind", "type"), among in ("kind", "color")
-        placed = len(self.things) - int(np.count_nonzero(self.place))  # places come last
-        return Alike.of(
-            [
-                (kind if typed or o.members else None, o.color if colored else None, bool(o.members))
-                for o, kind in zip(self.things[:placed], self._kinds, strict=False)
-            ]
-            + [None] * (len(self.things) - placed)
-        )
+        code = self._class_of(among)
+        return Alike.by(code) if len(code) > _FEW else Alike(code)
 
     def _class_of(self, among: str) -> Ints:
-        """(n,) the class of each of many things as a number."""
-        code = np.where((among in ("kind", "type")) | self.group, numbered(self._kinds), 0)
+        """(n,) the class of each as a number; -1 of places."""
+        code = self._kind if among in ("kind", "type") else np.where(self.group, self._kind, 0)
         if among in ("kind", "color"):
             code = code * (len(self.colors) + 1) + self.color + 1
         return np.where(self.place, -1, 2 * code + self.group)
@@ -217,7 +214,7 @@ def layout(world: WorldModel) -> Layout:
     middle = _middle(position[:objects, :2])
     none, types = [False] * placed, [place.type for place in world.places]
     direction, ground, edge = (
-        np.array([*none, *(type_ in of for type_ in types)], dtype=np.bool_) for of in ((DIRECTION,), (GROUND,), EDGES)
+        np.array([*none, *[type_ in of for type_ in types]], dtype=np.bool_) for of in ((DIRECTION,), (GROUND,), EDGES)
     )
     speaker = None
     if world.speaker is not None:

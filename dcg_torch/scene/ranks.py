@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -52,21 +53,31 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     attributes = [o.attributes for o in things]
     around = [near.colors.get(j) for j in range(count)] if near.colors else [None] * count
     first, kind = signatures(attributes[:count], code, around) if count else ([], np.zeros(0, dtype=np.int64))
-    names = [_state_names(attributes[j], int(code[j]), around[j], where.colors) for j in first]
+    codes = code[first].tolist()
+    stacked = [tuple([where.colors[c] for c in around[j] or ()]) for j in first]
+    names = [_state_names(attributes[j], k, colors) for j, k, colors in zip(first, codes, stacked, strict=True)]
     which = kind.tolist()
     for j in range(count, len(things)):
-        own = [f"part: {a}" for a in sorted(attributes[j])]
-        if j in where.members:
-            inside = {things[m].color for m in where.members[j].tolist()}
-            own += [f"group color: {c}" for c in sorted(c for c in inside if c is not None)]
+        inside = {things[m].color for m in where.members[j].tolist()} if j in where.members else ()
         which.append(len(names))
-        names.append(tuple(own))
+        names.append(_part_names(attributes[j], tuple(sorted([c for c in inside if c is not None]))))
     return names, np.array(which, dtype=np.int64)
 
 
-def _state_names(
-    attributes: frozenset[str], code: int, around: tuple[int, ...] | None, colors: tuple[str, ...]
-) -> tuple[str, ...]:
+@functools.lru_cache(maxsize=4096)
+def _part_names(attributes: frozenset[str], colors: tuple[str, ...]) -> tuple[str, ...]:
+    """Of a place, or of a group with the colours of its members."""
+    return (*[f"part: {a}" for a in sorted(attributes)], *[f"group color: {c}" for c in colors])
+
+
+@functools.lru_cache(maxsize=4096)
+def _state_names(attributes: frozenset[str], code: int, stacked: tuple[str, ...]) -> tuple[str, ...]:
+    """Of an object.
+
+    Args:
+        code: of its states, see `state_signatures`.
+        stacked: the colours of others on its spot.
+    """
     names = [f"state: {a}" for a in sorted(attributes) if not a.startswith(WORKED_OUT)]
     if code:
         code -= 24
@@ -77,7 +88,7 @@ def _state_names(
         ]
         if code >= 12:
             names.append("state: in a row")
-    return (*names, *(f"stack color: {colors[c]}" for c in around or ()))
+    return (*names, *[f"stack color: {color}" for color in stacked])
 
 
 def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = None, count: int | None = None) -> Ints:

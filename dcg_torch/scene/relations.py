@@ -80,7 +80,7 @@ class Relations:
         """The features of every thing to every tuple of landmarks.
 
         Args:
-            landmarks: c tuples of thing numbers; all but "between" is to the first of each.
+            landmarks: c tuples of thing numbers, all as long; all but "between" is to the first of each.
             among: which of `SETS` "the closest" is one of.
             members: (n,) the things that it is one of, instead of such a set.
             ordinal: the place that is asked for, beyond those that are told apart: it stands for the last of them.
@@ -99,7 +99,7 @@ class Relations:
         else:
             kept = None if members is None else Alike.by(np.where(members & ~self._where.place, 0, -1))
             found[_COMPARED] = self._orders(np.array(first), kept or self._where.alike(among), ordinal, count)
-        if any(len(of) > 1 for of in landmarks):
+        if landmarks and len(landmarks[0]) > 1:
             found[_BETWEEN] = between(self._where, landmarks)
         return found
 

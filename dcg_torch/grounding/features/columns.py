@@ -228,13 +228,27 @@ class FeatureSet:
         """
         rows = []
         for thing, own in zip(things, states, strict=True):
-            key = thing.known, thing.hypothetical, thing.color, thing.attributes, own
-            column = self.grounding.get(f"type: {thing.type}") if thing.known else None
-            common = kinds.get(key)
-            if common is None:
-                common = kinds[key] = [c for c in self.thing_columns(thing, own) if c != column]
-            rows.append(common if column is None else sorted((*common, column)))
+            key = (
+                thing.type if thing.known else None,
+                thing.known,
+                thing.hypothetical,
+                thing.color,
+                thing.attributes,
+                own,
+            )
+            found = kinds.get(key)
+            if found is None:
+                found = kinds[key] = self._object_columns(thing, own, kinds)
+            rows.append(found)
         return rows
+
+    def _object_columns(self, thing: Object, states: tuple[str, ...], kinds: KindColumns) -> list[int]:
+        key = thing.known, thing.hypothetical, thing.color, thing.attributes, states
+        column = self.grounding.get(f"type: {thing.type}") if thing.known else None
+        common = kinds.get(key)
+        if common is None:
+            common = kinds[key] = [c for c in self.thing_columns(thing, states) if c != column]
+        return common if column is None else sorted((*common, column))
 
     def said_columns(
         self, said: Said, things: Sequence[Object], looks: Sequence[int], kinds: KindColumns | None = None
