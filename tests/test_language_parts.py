@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from dcg_torch.english.spelling import Speller
 from dcg_torch.language import parse_command
-from dcg_torch.language.colors import color_names, match_color, normal_color
+from dcg_torch.language.colors import COLOR_NAMES, match_color, normal_color
 
 
 @given(word=st.text("abcde", min_size=1, max_size=9))
@@ -45,8 +45,8 @@ def test_match_color(text: str, color: str | None, length: int) -> None:
 
 
 def test_color_names_are_normal_and_many() -> None:
-    assert len(color_names()) > 900
-    assert all(normal_color(name) == name for name in color_names())
+    assert len(COLOR_NAMES) > 900
+    assert all(normal_color(name) == name for name in COLOR_NAMES)
 
 
 def test_many_small_words_are_read_in_one_pass() -> None:

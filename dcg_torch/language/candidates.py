@@ -11,7 +11,7 @@ from typing import Final
 
 from dcg_torch.english.dictionary import irregular
 from dcg_torch.english.forms import is_compared, parts, singular, verb
-from dcg_torch.language.colors import normal_color, single_colors
+from dcg_torch.language.colors import SINGLE_COLORS, normal_color
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 
 _RULES: Final = [
@@ -48,7 +48,7 @@ def _features(word: str) -> dict[str, float]:
         "digits": word.isdecimal(),
         "letter": len(word) == 1 and word.isalpha(),
         "normal": word in NORMAL,
-        "color": color in single_colors(),
+        "color": color in SINGLE_COLORS,
         "basic_color": color in SETS["basic_colors"],
         "open": plain and not (word.isdecimal() or is_fixed(word)),
         "long": len(word) > _SHORT,
@@ -78,7 +78,7 @@ def is_fixed(word: str) -> bool:
 def is_plain_noun(word: str) -> bool:
     """Whether nothing in the language of commands is called by a word, so that it can only name things."""
     closed = word in _CLOSED or verb(word) in SETS["commands"]
-    return not (closed or is_fixed(word) or normal_color(word) in single_colors())
+    return not (closed or is_fixed(word) or normal_color(word) in SINGLE_COLORS)
 
 
 def is_content(word: str) -> bool:

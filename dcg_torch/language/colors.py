@@ -7,8 +7,8 @@ are two colours of one thing.
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Sequence
+from typing import Final
 
 from dcg_torch.english.dictionary import lines
 from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS
@@ -26,16 +26,10 @@ def normal_color(name: str) -> str:
     return " ".join(COLOR_SPELLINGS.get(word, word) for word in name.lower().replace("-", " ").split())
 
 
-@functools.cache
-def color_names() -> frozenset[str]:
-    """Every colour name in normal form, of one word or several."""
-    return frozenset(name for name in lines("colors.txt", __package__) if name not in SETS["color_things"]) | _BASIC
-
-
-@functools.cache
-def single_colors() -> frozenset[str]:
-    """The colour names of one word."""
-    return frozenset(name for name in color_names() if " " not in name and name not in _SHADES)
+COLOR_NAMES: Final = frozenset(lines("colors.txt", __package__)) - SETS["color_things"] | _BASIC
+"""Every colour name in normal form, of one word or several."""
+SINGLE_COLORS: Final = frozenset(name for name in COLOR_NAMES if " " not in name) - _SHADES
+"""The colour names of one word."""
 
 
 def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
@@ -47,7 +41,7 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
     for end in range(min(stop + _LONGEST, len(words)), stop, -1):
         parts = normal_color(" ".join(words[stop:end])).split(" ")
         one = len(parts) == 1 or parts[0] not in _BASIC
-        if one and parts[-1] in single_colors() and " ".join(parts) in color_names():
+        if one and parts[-1] in SINGLE_COLORS and " ".join(parts) in COLOR_NAMES:
             name = normal_color(" ".join(words[start:end]))
             return name, end + (end < len(words) and words[end] in SETS["color_fillers"])
     return None

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, Final
 
 import yaml
@@ -15,11 +15,8 @@ import yaml
 from dcg_torch.english.dictionary import lines, read
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-
-
-_WORDS: Final[dict[str, Any]] = yaml.load(read("words.yaml", __package__), Loader=_LOADER)
-GRAMMAR: Final[dict[str, Any]] = yaml.load(read("grammar.yaml", __package__), Loader=_LOADER)
-_PATTERNS: Final[dict[str, Any]] = yaml.load(read("patterns.yaml", __package__), Loader=_LOADER)
+_FILES: Final = ("words.yaml", "grammar.yaml", "patterns.yaml")
+_WORDS, GRAMMAR, _PATTERNS = (yaml.load(read(name, __package__), _LOADER) for name in _FILES)
 
 VERBS: Final[Mapping[str, frozenset[str]]] = {name: frozenset(text.split()) for name, text in _WORDS["verbs"].items()}
 """Verbs by what they do with their object."""
@@ -41,28 +38,46 @@ PLACING: Final[Mapping[str, frozenset[str]]] = {
 }
 """Prepositions by what they can do."""
 NUMBERS: Final[Mapping[str, int]] = _WORDS["numbers"]
-NTH: Final = {str(n): word for n, word in enumerate(_WORDS["ordinals"].split()[:10], 1)}
+_MAPS: Final[Mapping[str, Mapping[str, str]]] = {
+    name: {key.strip(): new for new, keys in rows.items() for key in str(keys).split(";")}
+    for name, rows in _PATTERNS["maps"].items()
+}
+NTH: Final[Mapping[str, str]] = _MAPS["nth"]
 """Ordinals by their numbers, as digits."""
 PRONOUNS: Final[Mapping[str, str | None]] = _WORDS["pronouns"]
 CHOICES: Final[Mapping[str, Any]] = GRAMMAR["choices"]
 TARGETS: Final[Mapping[str, float]] = GRAMMAR["targets"]
 PARTICLE_VERBS: Final = {name: frozenset(text.split()) for name, text in _WORDS["particle_verbs"].items()}
 RELATION_VERBS: Final[Mapping[str, str]] = _WORDS["relation_verbs"]
-MISSPELT: Final[Mapping[str, str]] = _WORDS["misspelt"]
 COLOR_SPELLINGS: Final[Mapping[str, str]] = _WORDS["color_spellings"]
 _SIZED: Final = {f"{size}{ending}": size for size in SETS["sizes"] for ending in SETS["size_endings"]}
 NORMAL: Final[Mapping[str, str]] = {**_WORDS["normal"], **_SIZED, **_WORDS["size_words"]}
 """One word for those of one meaning: "furthest" is "farthest", "largish" is "large"."""
 
 
+_PARTS: Final[dict[str, str]] = _PATTERNS["parts"] | {f":{name}": "|".join(rows) for name, rows in _MAPS.items()}
+_ASKED: Final = re.compile(r"<(\w+):(\w+)>")
+
+
 def _filled(pattern: str) -> str:
-    for name, part in _PATTERNS["parts"].items():
-        pattern = pattern.replace(f"<{name}>", part)
-    return pattern
+    """A pattern with its parts in it; `<:name>` is any word of a map."""
+    return functools.reduce(lambda text, name: text.replace(f"<{name}>", _PARTS[name]), _PARTS, pattern)
+
+
+def _mapped(word: str | None, name: str) -> str:
+    """What stands in a map for a word, where numbers are digits; the word itself, if nothing does."""
+    return _MAPS[name].get(str(NUMBERS.get(word or "", word or "")), word or "")
+
+
+def _replacement(new: str) -> str | Callable[[re.Match[str]], str]:
+    """What takes the place of a match: `<group:map>` is what the map has for the words of a group."""
+    if not _ASKED.search(new):
+        return new
+    return lambda match: match.expand(_ASKED.sub(lambda asked: _mapped(match[asked[1]], asked[2]), new))
 
 
 REWRITES: Final = tuple(
-    (re.compile(_filled(old)), new, tuple(needs[0].split("|")) if needs else ("",))
+    (re.compile(_filled(old)), _replacement(new), tuple(needs[0].split("|")) if needs else ("",))
     for old, new, *needs in _PATTERNS["rewrite"]
 )
 WORD: Final = re.compile(_PATTERNS["word"])
@@ -97,7 +112,5 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
             yield raw, tuple(words.split(";")), (*tags, {"P": 0.0})[0]
 
 
-@functools.cache
-def compounds() -> frozenset[tuple[str, ...]]:
-    """Nouns of several words whose words would be read one by one otherwise."""
-    return frozenset(tuple(line.split()) for line in lines("compounds.txt", __package__))
+COMPOUNDS: Final = frozenset(tuple(line.split()) for line in lines("compounds.txt", __package__))
+"""Nouns of several words whose words would be read one by one otherwise."""

@@ -14,7 +14,6 @@ from dcg_torch.english.forms import singular
 from dcg_torch.language.attachment import build
 from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
-from dcg_torch.language.colors import color_names
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import CHOICES, VERBS
@@ -100,7 +99,6 @@ class Parser:
 
     def __init__(self) -> None:
         english()
-        color_names()
 
     def parse(self, text: str, vocabulary: Collection[str] = (), k: int = 4) -> Parse:
         """At most `k` readings of `text`.

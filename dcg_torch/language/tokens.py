@@ -12,7 +12,7 @@ from dcg_torch.english.forms import is_compared, parts, singular, verb
 from dcg_torch.english.spelling import Speller
 from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import is_plain_noun
-from dcg_torch.language.colors import color_names, single_colors
+from dcg_torch.language.colors import COLOR_NAMES, SINGLE_COLORS
 
 # Typographic quotes, dashes and the ellipsis, by code point.
 _QUOTES = str.maketrans(
@@ -42,7 +42,7 @@ def tokens(text: str) -> list[str]:
         if token in lx.SETS["size_nouns"] and found and found[-1] in lx.SETS["sizes"]:
             found[-1] += "-sized"
         elif token not in lx.SETS["fillers"] and (found or not (token in lx.SETS["openings"] or token == ",")):
-            found += lx.MISSPELT.get(token, token).split()
+            found.append(token)
     return found
 
 
@@ -59,8 +59,8 @@ def names(text: str) -> frozenset[str]:
 def _swap(match: re.Match[str]) -> str:
     """ "blue-sky" is "sky blue"."""
     swapped = f"{match.group(2)} {match.group(1)}"
-    listed = color_names()
-    return swapped if swapped in listed and f"{match.group(1)} {match.group(2)}" not in listed else match.group()
+    colored = swapped in COLOR_NAMES and f"{match.group(1)} {match.group(2)}" not in COLOR_NAMES
+    return swapped if colored else match.group()
 
 
 def normal_noun(name: str) -> str:
@@ -101,6 +101,6 @@ def is_english(word: str) -> bool:
 def _speller(known: frozenset[str]) -> Speller:
     words = lx.listed(lx.GRAMMAR["spelt_lists"].split())
     single = {name for names in lx.PLACING.values() for name in names if " " not in name}
-    colors = {color for color in single_colors() if len(color) > _LONG_COLOR}
+    colors = {color for color in SINGLE_COLORS if len(color) > _LONG_COLOR}
     commands = frozenset(word for word in words | single if len(word) > _LONG_ENOUGH) | colors
     return Speller([known, lx.SETS["basic_colors"], commands], is_english)
