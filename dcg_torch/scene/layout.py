@@ -277,8 +277,8 @@ def _headings(things: tuple[Object, ...], position: Floats, middle: Floats, turn
         turned: the angle from where another viewer looks to where the robot does; None: the robot is the viewer.
     """
     out = np.full((len(things), 2), math.nan)
-    for j, thing in enumerate(things):
-        if not thing.attributes or (side := _side(thing.attributes)) is None:
+    for j, thing in [(j, thing) for j, thing in enumerate(things) if thing.attributes]:
+        if (side := _side(thing.attributes)) is None:
             continue
         x, y = side
         if OF_SPEAKER in thing.attributes:

@@ -51,7 +51,9 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
     code = np.where(there, code, 0)  # what is nowhere has attributes alone
     attributes = [o.attributes for o in things]
-    around = [near.colors.get(j) for j in range(count)] if near.colors else [None] * count
+    around: list[tuple[int, ...] | None] = [None] * count
+    for j, others in near.colors.items():
+        around[j] = others
     first, kind = signatures(attributes[:count], code, around) if count else ([], np.zeros(0, dtype=np.int64))
     codes = code[first].tolist()
     stacked = [tuple([where.colors[c] for c in around[j] or ()]) for j in first]
