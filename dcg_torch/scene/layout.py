@@ -178,14 +178,14 @@ class Layout:
     @functools.cached_property
     def _row(self) -> Alike:
         """The longest group that a thing is in is its row."""
-        code = np.full(len(self.things), -1, dtype=np.int64)
-        longest = np.zeros(len(self.things), dtype=np.int64)
+        code, longest = [-1] * len(self.things), [0] * len(self.things)
         for k, (group, inside) in enumerate(self.members.items()):
             if self.line[group]:
                 continue
-            better = inside[longest[inside] < len(inside)]
-            longest[better], code[better] = len(inside), k
-        return Alike(code, list(self.members.values()))
+            for j in inside.tolist():
+                if longest[j] < len(inside):
+                    longest[j], code[j] = len(inside), k
+        return Alike(np.array(code, dtype=np.int64), list(self.members.values()))
 
 
 def layout(world: WorldModel) -> Layout:
