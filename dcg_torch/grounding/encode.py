@@ -125,15 +125,15 @@ class WorldEncoder:
         code = np.concatenate([code, np.arange(len(first), len(first) + n - len(objects))])
         which = state.tolist()
         rows = self.features.object_columns([objects[j] for j in first], [names[which[j]] for j in first], self._kinds)
-        rows += [self._group_or_place(self.all[j], names[which[j]]) for j in range(len(objects), n)]
+        rows += [self._group_or_place(j, names[which[j]]) for j in range(len(objects), n)]
         first += range(len(objects), n)
         return Coded(padded(rows), code), first
 
-    def _group_or_place(self, thing: Object, states: tuple[str, ...]) -> list[int]:
-        colors: tuple[str, ...] = ()
+    def _group_or_place(self, number: int, states: tuple[str, ...]) -> list[int]:
+        thing, colors = self.all[number], tuple[str, ...]()
         if thing.members:
-            members = (self.all[self.number[m]].color for m in thing.members)
-            colors = tuple(dict.fromkeys(c for c in members if c is not None))
+            inside = [self.all[j].color for j in self.layout.members[number].tolist()]
+            colors = tuple([c for c in dict.fromkeys(inside) if c is not None])
         if self.related:
             states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
         key = thing.type, thing.known, thing.color, states, colors

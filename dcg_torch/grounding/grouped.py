@@ -64,8 +64,11 @@ def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *,
 
 def _of_so_many(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """(things,) what groups of another number lose to "the stack of three", where there is a group of three."""
-    number, counts = counted(phrase.words), np.array([len(o.members) for o in encoder.all])
-    if number is None or not in_group(phrase) or number not in counts:
+    number = counted(phrase.words)
+    if number is None or not in_group(phrase):
+        return np.zeros(len(encoder.all))
+    counts = np.array([len(o.members) for o in encoder.all])
+    if number not in counts:
         return np.zeros(len(counts))
     return np.where((counts > 0) & (counts != number), -_OTHER, 0.0)
 

@@ -186,18 +186,34 @@ class Statistics:
     def _encoded(self, example: Example) -> tuple[Ints, Floats]:
         """(n,) the pair and label of each labelled factor, as one number, and its weight."""
         phrase, kind = self._phrases.number(example.phrase), GROUNDING_OF[example.phrase.kind]
-        if kind is GroundingKind.OBJECT:
-            named, things = Group.NAMES in self._groups, example.world.things
-            said = Said.of(example.phrase)
-            more = [facts(said, thing, _UNSEEN) for thing in things] if named else [()] * len(things)
-            seen = [_of_object(thing, own) for thing, own in zip(things, more, strict=True)]
-        else:
-            seen = _of_children(example, kind)
         labelled = [(j, label) for j, label in enumerate(example.correspondences) if label is not None]
-        pairs = [self._pairs.setdefault((phrase, self._seen.number(seen[j])), len(self._pairs)) for j, _ in labelled]
+        if kind is GroundingKind.OBJECT:
+            seen = self._of_things(example, [j for j, _ in labelled])
+        else:
+            seen = self._of_children(example, kind, [j for j, _ in labelled])
+        pairs = [self._pairs.setdefault((phrase, number), len(self._pairs)) for number in seen]
         codes = [_LABELS * pair + label + 1 for pair, (_, label) in zip(pairs, labelled, strict=True)]
         own = np.ones(len(codes)) if example.weights is None else np.array([example.weights[j] for j, _ in labelled])
         return np.array(codes, dtype=np.int64), example.weight * own
+
+    def _of_things(self, example: Example, numbers: Sequence[int]) -> list[int]:
+        """What is seen of some groundings of a noun phrase."""
+        named, things, said = Group.NAMES in self._groups, example.world.things, Said.of(example.phrase)
+        more = [facts(said, things[j], _UNSEEN) if named else () for j in numbers]
+        return [self._seen.number(_of_object(things[j], own)) for j, own in zip(numbers, more, strict=True)]
+
+    def _of_children(self, example: Example, kind: GroundingKind, numbers: Sequence[int]) -> list[int]:
+        """What is seen of some groundings of a verb or a preposition: is each about the same object as a child's?"""
+        about = [c.grounding.object.id for c in example.children]
+        found: dict[tuple[bool, ...], int] = {}  # nearly all are about the object of none
+        things, seen = example.world.meanable, []
+        for j in numbers:
+            id_ = things[j].id
+            same = tuple([one == id_ for one in about])
+            if same not in found:
+                found[same] = self._seen.number(_of_relations(example, kind, same))
+            seen.append(found[same])
+        return seen
 
 
 class _Columns:
@@ -254,19 +270,10 @@ def _of_object(thing: Object, more: Iterable[str]) -> Seen:
     return GroundingKind.OBJECT, own, tuple(more)
 
 
-def _of_children(example: Example, kind: GroundingKind) -> list[Seen]:
-    """What is seen of each grounding of a verb or a preposition: whether it is about the same object as a child's."""
-    relations = [
-        (
-            c.grounding.object.id,
-            *(child_feature(c.grounding.kind, c.correspondence, same)[1] for same in (False, True)),
-        )
-        for c in example.children
-    ]
-    return [
-        (kind, None, tuple(same if id_ == thing.id else other for id_, other, same in relations))
-        for thing in example.world.meanable
-    ]
+def _of_relations(example: Example, kind: GroundingKind, same: Sequence[bool]) -> Seen:
+    """What is seen of a grounding that is about the same object as some children's, or not."""
+    children = zip(example.children, same, strict=True)
+    return kind, None, tuple([child_feature(c.grounding.kind, c.correspondence, own)[1] for c, own in children])
 
 
 def _seen_columns(seen: Seen, features: FeatureSet) -> tuple[list[int], bool]:

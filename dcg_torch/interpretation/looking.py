@@ -34,7 +34,7 @@ class Looks:
         """Of a world."""
         shown = any(o.rgb is not None for o in world.objects)
         named = not shown and any(o.color is not None for o in world.objects)
-        valued = any(":" in a for o in world.objects if o.attributes for a in o.attributes)
+        valued = any(":" in a for of in {o.attributes for o in world.objects} for a in of)
         return cls(shown, named, valued, world.classes if shown else frozenset())
 
 

@@ -46,13 +46,15 @@ def restrict(examples: Iterable[Example], variant: Variant) -> list[Example]:
     """
     kept = []
     for e in examples:
-        seen = [(o.known or variant.unknown) and (variant.hypothetical or not o.hypothetical) for o in e.world.objects]
-        objects = tuple(o for o, keep in zip(e.world.objects, seen, strict=True) if keep)
-        labels = tuple(c for c, keep in zip(e.correspondences, seen, strict=True) if keep)
+        objects, labels = e.world.objects, e.correspondences
+        if not (variant.unknown and variant.hypothetical):
+            seen = [(o.known or variant.unknown) and (variant.hypothetical or not o.hypothetical) for o in objects]
+            objects = tuple(o for o, keep in zip(objects, seen, strict=True) if keep)
+            labels = tuple(c for c, keep in zip(labels, seen, strict=True) if keep)
         signs = {*labels, *(c.correspondence for c in e.children)}
         if signs <= {None, Correspondence.INACTIVE} or (not variant.ternary and Correspondence.INVERTED in signs):
             continue
-        if all(seen):
+        if len(objects) == len(e.world.objects):
             kept.append(e)
         elif all(c.grounding.object in objects for c in e.children):
             kept.append(replace(e, world=replace(e.world, objects=objects), correspondences=labels))

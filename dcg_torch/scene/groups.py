@@ -107,7 +107,8 @@ def _compared(objects: Sequence[Object]) -> Iterable[tuple[Ints, Ints]]:
 
 
 def _numbers_of(found: Iterable[Sequence[int]], numbers: Ints) -> Iterable[tuple[int, ...]]:
-    return (tuple(sorted(numbers[list(members)].tolist())) for members in found)
+    own = numbers.tolist()
+    return (tuple(sorted([own[k] for k in members])) for members in found)
 
 
 def lines_of_all(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
@@ -139,7 +140,7 @@ def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
 
 
 def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[float]]) -> Object:
-    ids = tuple(o.id for o in members)
+    ids = tuple([o.id for o in members])
     types, colors = {o.type for o in members}, {o.color for o in members}
     one_type = next(iter(types)) if len(types) == 1 else None
     attributes = {kind, f"of {len(members)}"}
@@ -149,7 +150,7 @@ def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[flo
     return Object(
         id=f"{kind}: {' '.join(ids)}",
         type=one_type,
-        known=one_type is not None and all(o.known for o in members),
+        known=one_type is not None and False not in {o.known for o in members},
         color=next(iter(colors)) if len(colors) == 1 else None,
         position=members[0].position,
         attributes=frozenset(attributes),
@@ -230,11 +231,11 @@ def in_line(points: Sequence[Sequence[float]]) -> bool:
         return False
     middle = sum(x) / len(x), sum(y) / len(y)
     there = [(a - middle[0], b - middle[1]) for a, b in zip(x, y, strict=True)]
-    spread = sum((a - b) * (a + b) for a, b in there)
-    angle = math.atan2(2.0 * sum(a * b for a, b in there), spread) / 2.0
+    spread = sum([(a - b) * (a + b) for a, b in there])
+    angle = math.atan2(2.0 * sum([a * b for a, b in there]), spread) / 2.0
     c, s = math.cos(angle), math.sin(angle)
-    along = max(abs(a * c + b * s) for a, b in there)
-    aside = max(abs(b * c - a * s) for a, b in there)
+    along = max([abs(a * c + b * s) for a, b in there])
+    aside = max([abs(b * c - a * s) for a, b in there])
     return bool(aside <= _ASIDE * along)
 
 

@@ -178,14 +178,14 @@ class Layout:
     @functools.cached_property
     def _row(self) -> Alike:
         """The longest group that a thing is in is its row."""
-        code = np.full(len(self.things), -1, dtype=np.int64)
-        longest = np.zeros(len(self.things), dtype=np.int64)
+        code, longest = [-1] * len(self.things), [0] * len(self.things)
         for k, (group, inside) in enumerate(self.members.items()):
             if self.line[group]:
                 continue
-            better = inside[longest[inside] < len(inside)]
-            longest[better], code[better] = len(inside), k
-        return Alike(code, list(self.members.values()))
+            for j in inside.tolist():
+                if longest[j] < len(inside):
+                    longest[j], code[j] = len(inside), k
+        return Alike(np.array(code, dtype=np.int64), list(self.members.values()))
 
 
 def layout(world: WorldModel) -> Layout:
@@ -277,8 +277,8 @@ def _headings(things: tuple[Object, ...], position: Floats, middle: Floats, turn
         turned: the angle from where another viewer looks to where the robot does; None: the robot is the viewer.
     """
     out = np.full((len(things), 2), math.nan)
-    for j, thing in enumerate(things):
-        if not thing.attributes or (side := _side(thing.attributes)) is None:
+    for j, thing in [(j, thing) for j, thing in enumerate(things) if thing.attributes]:
+        if (side := _side(thing.attributes)) is None:
             continue
         x, y = side
         if OF_SPEAKER in thing.attributes:

@@ -88,7 +88,7 @@ def neighbours(
         colored = color[j] >= 0
         found.append(i[colored] * most + color[j[colored]])
     colors: dict[int, tuple[int, ...]] = {}
-    for code in sorted(set(np.concatenate(found).tolist())) if found else ():
+    for code in np.unique(np.concatenate(found)).tolist() if found else ():
         k, c = divmod(code, most)
         colors[k] = (*colors.get(k, ()), c)
     return Neighbours(covered, resting, beside, stacked, colors)

@@ -45,13 +45,16 @@ def state_signatures(where: Layout) -> tuple[list[tuple[str, ...]], Ints]:
     count = int(solid.sum())
     there = np.isfinite(where.position[:count]).all(axis=1)
     in_row = np.zeros(len(things), dtype=np.bool_)
-    for group, members in where.members.items():
-        in_row[members] |= things[group].attributes.isdisjoint(LINES)
+    rows = [members for group, members in where.members.items() if not where.line[group]]
+    if rows:
+        in_row[np.concatenate(rows)] = True
     beside = np.where(near.stacked, 1, np.where(near.beside, 2, 0))
     code = near.covered + 2 * near.resting + 4 * beside + 12 * in_row[:count] + 24
     code = np.where(there, code, 0)  # what is nowhere has attributes alone
     attributes = [o.attributes for o in things]
-    around = [near.colors.get(j) for j in range(count)] if near.colors else [None] * count
+    around: list[tuple[int, ...] | None] = [None] * count
+    for j, others in near.colors.items():
+        around[j] = others
     first, kind = signatures(attributes[:count], code, around) if count else ([], np.zeros(0, dtype=np.int64))
     codes = code[first].tolist()
     stacked = [tuple([where.colors[c] for c in around[j] or ()]) for j in first]
@@ -129,9 +132,11 @@ def _values(where: Layout) -> Floats:
     for j in np.flatnonzero(where.solid).tolist():
         if (size := where.things[j].size) is not None:
             volume[j], height[j] = bulk(size), size[2]
+    heights = z.tolist()
     for group, inside in where.members.items():  # "the highest stack", "the largest group"
-        volume[group], height[group] = len(inside), np.ptp(z[inside]) if len(inside) else math.nan
-        z[group] = z[inside].max(initial=-math.inf)
+        own = [heights[j] for j in inside.tolist()]
+        volume[group], z[group] = len(own), max(own, default=-math.inf)
+        height[group] = max(own) - min(own) if own else math.nan
     with np.errstate(invalid="ignore"):
         to_robot = np.hypot(x - where.robot[0], y - where.robot[1])
         to_speaker = nothing if where.speaker is None else np.hypot(*(where.position[:, :2] - where.speaker).T)

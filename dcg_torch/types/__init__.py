@@ -183,6 +183,7 @@ class WorldModel:
     unit: float = 1.0
     meant: frozenset[str] | None = None
     viewer: Pose | None = None
+    _classes: frozenset[str] | None = field(default=None, init=False, repr=False, compare=False)
 
     @property
     def things(self) -> tuple[Object, ...]:
@@ -197,8 +198,12 @@ class WorldModel:
     @property
     def classes(self) -> frozenset[str]:
         """The types of what may be there: of what is perceived, and of what is unseen until all has been looked at."""
-        there = {o.type for o in self.objects if not o.hypothetical or LOOKED_ROUND not in o.attributes}
-        return frozenset([type_ for type_ in there if type_ is not None])
+        found = self._classes
+        if found is None:  # asked for several times with each command
+            there = {o.type for o in self.objects if not o.hypothetical or LOOKED_ROUND not in o.attributes}
+            found = frozenset([type_ for type_ in there if type_ is not None])
+            object.__setattr__(self, "_classes", found)
+        return found
 
 
 class Grounding(NamedTuple):

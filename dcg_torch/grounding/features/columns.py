@@ -84,8 +84,9 @@ class FeatureSet:
         for color in colors:
             new = new._with([(Group.COLOR, f"color: {color}")], [(Group.COLOR, f"color: {color}")])
         examples = list(examples)
-        words = [f for example in examples for f in word_features(example.phrase)]
-        words += [f for example in examples for f in scene_features(example.phrase) if scenes]
+        phrases = dict.fromkeys([example.phrase for example in examples])
+        words = [f for phrase in phrases for f in word_features(phrase)]
+        words += [f for phrase in phrases for f in scene_features(phrase) if scenes]
         worlds = {id(example.world): example.world for example in examples}.values()
         met = {a for world in worlds for o in world.objects for a in o.attributes} - {LOOKED_ROUND}
         further = [f"state: {attribute}" for attribute in sorted(met)]
