@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from dcg_torch.english.spelling import Speller
 from dcg_torch.language import parse_command
 from dcg_torch.language.colors import COLOR_NAMES, match_color, normal_color
+from dcg_torch.language.tokens import tokens
 
 
 @given(word=st.text("abcde", min_size=1, max_size=9))
@@ -42,6 +43,32 @@ def test_ties_are_left_alone_and_earlier_groups_win() -> None:
 )  # fmt: skip
 def test_match_color(text: str, color: str | None, length: int) -> None:
     assert match_color(text.split(), 0) == (None if color is None else (color, length))
+
+
+@pytest.mark.parametrize(
+    ("said", "plain"),
+    [
+        ("the 2nd cup", "the second cup"),
+        ("the 12th cup", "the 12th cup"),
+        ("the cup at about seven o'clock", "the cup in the bottom left corner"),
+        ("the cup, 12 o'clock", "the cup, at the top"),
+        ("the room where we usually cook", "the kitchen"),
+        ("the lamp where I brush my teeth", "the lamp in the bathroom"),
+        ("something I can measure the shelf with", "the measuring thing"),
+        ("a place to sit down on", "the seat"),
+        ("something cold to drink", "the cold drink"),
+        ("the man w/o a hat", "the man without a hat"),
+        ("the man w/ a hat", "the man with a hat"),
+        ("is it red? no. is it a cup? yes", "it is not red. it is a cup."),
+        ("start at the bowl and go 3 to the left", "take the third one left of the bowl"),
+        ("the one two to the left of the bowl", "the second one left of the bowl"),
+        ("third tile from the left, second from the bottom",
+         "the one in the third column from the left in the second row from the bottom"),
+        ("get hold of the cup, plz", "take the cup, please"),
+    ],
+)  # fmt: skip
+def test_what_stands_for_what(said: str, plain: str) -> None:
+    assert tokens(said) == tokens(plain)
 
 
 def test_color_names_are_normal_and_many() -> None:

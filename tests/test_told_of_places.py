@@ -117,6 +117,10 @@ def test_places_in_a_picture_are_counted_along_it_however_high_things_are(text: 
         ("the gate right in front", "front"),
         ("the closer gate to the well", "side"),
         ("the gate away from the others", "alone"),
+        ("go to the gate away from all the other gates", "alone"),
+        ("take the gate farthest from everything else", "alone"),
+        ("move towards the gate ahead", "front"),
+        ("bring me the gate ahead", "front"),
     ],
 )
 def test_what_is_ahead_and_what_is_closer(text: str, meant: str) -> None:
@@ -127,12 +131,18 @@ def test_what_is_ahead_and_what_is_closer(text: str, meant: str) -> None:
     assert [o.id for o in _model().ground(text, world).objects] == [meant]
 
 
-@pytest.mark.parametrize("verb", ["move", "push", "slide"])
+@pytest.mark.parametrize("verb", ["move", "push", "relocate", "haul"])
 def test_a_goal_away_from_others_describes_nothing(verb: str) -> None:
     tree = default_parser().parse(f"{verb} the cube away from the others").tree
     assert tree is not None
     thing = target_phrase(tree).phrase
     assert (thing.noun, thing.words) == ("cube", ())
+
+
+def test_where_a_thing_is_moved_describes_nothing() -> None:
+    tree = default_parser().parse("move the cube left").tree
+    assert tree is not None
+    assert target_phrase(tree).phrase.words == ()
 
 
 @pytest.mark.parametrize("text", ["the chairs at the far end of the table", "the glass at the far end of the table"])

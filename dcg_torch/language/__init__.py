@@ -6,9 +6,10 @@
          -> clauses, attachment, places (what belongs to what) -> target (the tree of the object meant)
          or refusals (why it is no order about a thing)
 
-Every word list, pattern and weight is data: `data/words.yaml` (closed classes), `patterns.yaml` (prepositions, how
-things stand, what is refused), `grammar.yaml` (tags, transitions, choices, kinds of phrases), `compounds.txt`,
-`colors.txt`, and an English dictionary made from WordNet (`english.tsv`, `irregular.tsv`). A learned word makes a noun
+Every word list, pattern and weight is data: `data/words.yaml` (closed classes), `patterns.yaml` (what stands for what,
+prepositions, how things stand, what is refused), `grammar.yaml` (tags, transitions, choices, kinds of phrases),
+`compounds.txt`, `colors.txt`, and an English dictionary made from WordNet (`english.tsv`, `irregular.tsv`). A rewriting
+in `patterns.yaml` is the last resort: what a phrase or a clause says is read after tagging. A learned word makes a noun
 surer, and changes how nothing else is read. Wherever a sentence can be read in several ways a run of the parser takes a
 weighted choice (`decisions`); a reading is a run, and its `rules` name the choices, whose weights can be learned.
 

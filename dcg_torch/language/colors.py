@@ -13,7 +13,6 @@ from typing import Final
 from dcg_torch.english.dictionary import lines
 from dcg_torch.language.lexicon import COLOR_SPELLINGS, SETS
 
-_BASIC, _SHADES = SETS["basic_colors"], SETS["shades"]
 _LONGEST = 3  # words of a colour's name beside its shades
 
 
@@ -26,9 +25,9 @@ def normal_color(name: str) -> str:
     return " ".join(COLOR_SPELLINGS.get(word, word) for word in name.lower().replace("-", " ").split())
 
 
-COLOR_NAMES: Final = frozenset(lines("colors.txt", __package__)) - SETS["color_things"] | _BASIC
+COLOR_NAMES: Final = frozenset(lines("colors.txt", __package__)) - SETS["color_things"] | SETS["basic_colors"]
 """Every colour name in normal form, of one word or several."""
-SINGLE_COLORS: Final = frozenset(name for name in COLOR_NAMES if " " not in name) - _SHADES
+SINGLE_COLORS: Final = frozenset(name for name in COLOR_NAMES if " " not in name) - SETS["shades"]
 """The colour names of one word."""
 
 
@@ -37,10 +36,10 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
 
     "dark sky blue" is one colour; a closing "coloured" belongs to the colour.
     """
-    stop = next((i for i in range(start, len(words)) if words[i] not in _SHADES), len(words))
+    stop = next((i for i in range(start, len(words)) if words[i] not in SETS["shades"]), len(words))
     for end in range(min(stop + _LONGEST, len(words)), stop, -1):
         parts = normal_color(" ".join(words[stop:end])).split(" ")
-        one = len(parts) == 1 or parts[0] not in _BASIC
+        one = len(parts) == 1 or parts[0] not in SETS["basic_colors"]
         if one and parts[-1] in SINGLE_COLORS and " ".join(parts) in COLOR_NAMES:
             name = normal_color(" ".join(words[start:end]))
             return name, end + (end < len(words) and words[end] in SETS["color_fillers"])

@@ -186,6 +186,9 @@ def settle_words(noun: Item) -> None:
             # "The screwdriver with the red handle": people and recognisers say that it is red.
             noun.color, below.said = below.color, True
             noun.children.remove(place)
+        elif place.name in GRAMMAR["isolation"] and below.is_a("the_rest"):  # "the cube away from the others"
+            noun.words, below.said = (*noun.words, *GRAMMAR["isolation"][place.name].split()), True
+            noun.children.remove(place)
     if "each other" in noun.words[1:]:  # "side by side" becomes the preposition "next to" with another such thing
         at = noun.words.index("each other")
         other = Item(noun.kind, noun.stop, noun.stop, "", ("each other",), noun.noun, noun.color, pronoun=True)

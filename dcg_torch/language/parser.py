@@ -97,9 +97,6 @@ def target_phrase(tree: ParseTree) -> ParseTree:
 class Parser:
     """Reads commands. Loading takes a tenth of a second, a command a few milliseconds."""
 
-    def __init__(self) -> None:
-        english()
-
     def parse(self, text: str, vocabulary: Collection[str] = (), k: int = 4) -> Parse:
         """At most `k` readings of `text`.
 
@@ -230,9 +227,9 @@ def default_parser() -> Parser:
     What is loaded by then leaves Python's cyclic garbage collector: walking it would stop a command now
     and then, and it lives as long as the process anyway.
     """
-    parser = Parser()
+    english()
     gc.freeze()
-    return parser
+    return Parser()
 
 
 def parse_command(text: str, vocabulary: Collection[str] = (), k: int = 4) -> Parse:

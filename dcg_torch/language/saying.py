@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.language.clauses import Clause
+from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.items import END, Item, Kind, is_edge_of, is_state, last_thing, share_noun
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import conjoin
@@ -185,7 +185,9 @@ class NounPhrases:
 
     def says_where(self) -> bool:
         """Whether a bare "left" tells where a thing is: "move the cube left" tells where it goes."""
-        return self.clause.verb is None or self.forced or self.clause.action not in VERBS["put"]
+        # But "move towards the chair ahead", "bring me the chair ahead".
+        given = main_object(self.clause) is None or any(noun.noun == "me" for noun in self.clause.objects)
+        return self.clause.verb is None or self.forced or given or self.clause.action not in VERBS["put"]
 
     def say(self, noun: Item, words: Sequence[str]) -> None:
         """Add words to what is said of a noun phrase, or that they don't hold."""

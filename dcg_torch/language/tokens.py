@@ -58,9 +58,8 @@ def names(text: str) -> frozenset[str]:
 
 def _swap(match: re.Match[str]) -> str:
     """ "blue-sky" is "sky blue"."""
-    swapped = f"{match.group(2)} {match.group(1)}"
-    colored = swapped in COLOR_NAMES and f"{match.group(1)} {match.group(2)}" not in COLOR_NAMES
-    return swapped if colored else match.group()
+    swapped = " ".join(match.group(2, 1))
+    return swapped if swapped in COLOR_NAMES and " ".join(match.groups()) not in COLOR_NAMES else match.group()
 
 
 def normal_noun(name: str) -> str:
