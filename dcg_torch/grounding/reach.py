@@ -33,7 +33,8 @@ def means_all(phrase: Phrase) -> bool:
 def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     """A modifier of a noun phrase that ranks: "the farthest cup behind the lamp" is one of all that are behind it."""
     words, phrase = noun.phrase.words, modifier.phrase
-    ranks = any(is_superlative(word) or word in ORDINALS for word in words) and not noun.phrase.plural
+    ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
+    ranks = ranks and not noun.phrase.plural
     if not ranks or phrase.words[0] not in _ON_A_SIDE or "to a thing" not in phrase.context or NOT in phrase.words:
         return modifier
     return ParseTree(replace(phrase, plural=True, count=None), modifier.children)
@@ -224,7 +225,7 @@ def nearer_on_a_side(
     return lost
 
 
-_LIKELY, _SIDE_FOLD = math.log(0.5), 1.0
+_LIKELY, _SIDE_FOLD = math.log(0.5), 0.7
 """Log-factor from which a thing is taken to be on a side, and nats for each e-fold by which it is farther off there."""
 _TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
