@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, is_superlative
+from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
 from dcg_torch.scene.order import numbered
 from dcg_torch.scene.relations import RELATION_NAMES, between
 from dcg_torch.types import NOT, ParseTree, Phrase
@@ -35,7 +35,9 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     words, phrase = noun.phrase.words, modifier.phrase
     ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
     ranks = ranks and not noun.phrase.plural
-    if not ranks or phrase.words[0] not in _ON_A_SIDE or "to a thing" not in phrase.context or NOT in phrase.words:
+    to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
+    sided = phrase.words[0] in _ON_A_SIDE and ("to a thing" in phrase.context or to_you)
+    if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
         return modifier
     return ParseTree(replace(phrase, plural=True, count=None), modifier.children)
 
