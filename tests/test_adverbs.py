@@ -82,3 +82,11 @@ def test_the_left_of_a_robot_outside_is_a_side_of_the_scene() -> None:
     things = [Percept(f"j{k}", "jar", "red", (1.5, y, 0.0)) for k, y in enumerate([0.9, 0.3, -0.4, -0.9])]
     world = _model().world_model(things, robot=Pose(0.0, 0.0))
     assert [o.id for o in _model().ground("the jar on your left", world).objects] == ["j0"]
+
+
+def test_what_ranks_among_all_in_front_is_not_the_nearest_in_front() -> None:
+    spots = {"a": (5.0, 2.5), "b": (4.0, 0.1), "c": (4.5, -2.0), "back": (-4.0, 3.0)}
+    things = [Percept(name, "trolley", "grey", (*spot, 0.0)) for name, spot in spots.items()]
+    world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True)
+    for text, meant in (("the leftmost trolley in front of the robot", "a"), ("the trolley in front of you", "b")):
+        assert [o.id for o in _model().ground(text, world).objects] == [meant]

@@ -175,3 +175,77 @@ def test_whose_side_is_its_own(text: str, meant: str) -> None:
     things = [_percept("a", "plate", None, 1.0, -0.5), _percept("fa", "fork", None, 1.0, -0.3)]
     things += [_percept("b", "plate", None, 1.0, 0.5), _percept("fb", "fork", None, 1.0, 0.3)]
     assert _told(text, things) == [meant]
+
+
+def _places(seed: int) -> list[Percept]:
+    """Two desks apart, a stool at each, and one stool far from both."""
+    rng = random.Random(seed)
+    turn = rng.uniform(-0.6, 0.6)
+
+    def at(id_: str, type_: str, x: float, y: float) -> Percept:
+        spot = complex(x, y) * complex(math.cos(turn), math.sin(turn))
+        return _percept(id_, type_, None, 4.0 + spot.real, spot.imag)
+
+    stools = [at("one", "stool", -0.2, 2.8), at("two", "stool", 0.75, -2.0), at("alone", "stool", 0.3, 0.3)]
+    return [at("d1", "desk", 0.0, 2.0), at("d2", "desk", 0.0, -2.0), *stools, at("p", "plant", 2.0, 1.0)]
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the stool that isn't near a desk", {"alone"}),
+        ("take the stool that is not at a desk", {"alone"}),
+        ("the stool away from the desks", {"alone"}),
+        ("the stool far from a desk", {"alone"}),
+        ("all stools at a desk", {"one", "two"}),
+        ("the stools near the desks", {"one", "two"}),
+    ],
+)
+def test_what_is_near_and_what_is_not_is_told_by_distance(text: str, meant: set[str]) -> None:
+    right = 0
+    for seed in range(8):
+        right += set(_told(text, _places(seed))) == meant
+    assert right == 8
+
+
+def _beside(side: complex, seed: int) -> list[Percept]:
+    """A clock, two tins on one side of it, one near and one farther off, and one on the other side."""
+    rng = random.Random(seed)
+    clock = complex(rng.uniform(0.9, 1.3), rng.uniform(-0.3, 0.3))
+
+    def off(distance: float) -> complex:
+        angle = rng.uniform(-0.25, 0.25)
+        return clock + distance * side * complex(math.cos(angle), math.sin(angle))
+
+    spots = {"near": off(0.22), "far": off(0.55), "other": off(-0.2)}
+    tins = [_percept(name, "tin", None, spot.real, spot.imag) for name, spot in spots.items()]
+    return [*tins, _percept("clock", "clock", None, clock.real, clock.imag), _percept("m", "map", None, 0.4, 0.9)]
+
+
+@pytest.mark.parametrize(
+    ("text", "side"),
+    [("the tin left of the clock", 1j), ("the tin to the right of the clock", -1j), ("the tin behind the clock", 1)],
+)
+def test_the_nearest_on_a_side_of_a_thing_is_meant(text: str, side: complex) -> None:
+    right = sum(_told(text, _beside(side, seed)) == ["near"] for seed in range(12))
+    assert right >= 11
+
+
+def test_the_farthest_on_a_side_is_one_of_all_that_are_there() -> None:
+    right = sum(_told("take the farthest tin behind the clock", _beside(1, seed)) == ["far"] for seed in range(12))
+    assert right >= 11
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"), [("all but the red tins", {"t2"}), ("all but the red things", {"t2", "b2"})]
+)
+def test_what_is_left_out_by_its_colour_leaves_the_other_colours(text: str, meant: set[str]) -> None:
+    spots = {
+        "t0": ("tin", "red"),
+        "t1": ("tin", "red"),
+        "t2": ("tin", "blue"),
+        "b1": ("bag", "red"),
+        "b2": ("bag", "white"),
+    }
+    things = [_percept(id_, *of, 1.0 + 0.1 * k, 0.6 - 0.3 * k) for k, (id_, of) in enumerate(spots.items())]
+    assert {o.id for o in _ground(text, things).objects} == meant

@@ -49,12 +49,12 @@ def by_bearing(
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
     seen = where.position[where.solid & np.isfinite(where.position).all(axis=1), :2] - where.robot
-    if not ways or phrase.plural or not stands_among(seen):
+    if not ways or not stands_among(seen):
         return log_psi
     kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
     found = log_psi.copy()
     for k, way in ways:
-        found[k] = _that_way(where.position[:, :2] - where.robot, way, kind)
+        found[k] = _that_way(where.position[:, :2] - where.robot, way, None if phrase.plural else kind)
     return found
 
 
@@ -66,18 +66,21 @@ def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     return where.heading[landmark] if where.direction[landmark] and OF_ROBOT in thing.attributes else None
 
 
-def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64]) -> Floats:
+def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None) -> Floats:
     """(things,) how well each stands in a direction: off it by an angle, and behind how many of its kind.
 
     Args:
         offset: (things, 2) from the robot.
-        kind: (things,) of which kind each is.
+        kind: (things,) of which kind each is; None: all that stand so are meant, near or far.
     """
     x, y = way
     slant = np.arctan2(np.abs(offset @ np.array([-y, x])), offset @ way)
     there = np.isfinite(slant)
     slant = np.where(there, slant, math.pi)
-    inside = -np.logaddexp(0.0, (slant - _ASLANT) / _UNSURE) - 0.5 * (slant / _STRAIGHT) ** 2
+    inside: Floats = -np.logaddexp(0.0, (slant - _ASLANT) / _UNSURE)
+    if kind is None:
+        return inside
+    inside = inside - 0.5 * (slant / _STRAIGHT) ** 2
     away = np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
     cost = _E_FOLD * away - inside
     least = np.full(kind.max(initial=0) + 1, np.inf)

@@ -18,9 +18,9 @@ from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.measured import measured
-from dcg_torch.grounding.modifiers import is_in_a_group
+from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.outermost import outermost
-from dcg_torch.grounding.reach import by_distance, inside_of, means_all, of_all, of_none
+from dcg_torch.grounding.reach import by_distance, inside_of, means_all, nearer_on_a_side, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -54,8 +54,6 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
-_MOST_COUNTED = 3
-"""Landmarks up to which those of "behind the two cones" are told apart."""
 _APART, _FARTHEST = 0.5, 8.0
 """Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
 speak of two things at once that stand together."""
@@ -78,7 +76,7 @@ def modifier_factor(
         beams: the hypotheses of each landmark.
         compared: (things,) those among which it ranks; None: all of a kind.
     """
-    several, combos = _counted_landmark(tree), Combos(beams, _fewer(beams))
+    several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
     denied = NOT in tree.phrase.words
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     of_each = several > 0 and len(combos) >= several
@@ -88,12 +86,14 @@ def modifier_factor(
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each:
-        if denied:
-            log_psi = of_none(log_psi, scores)
+        name, to = tree.phrase.words[0], [of[0] for of in landmarks]
+        far = of_denied(name, log_psi, to, scores, encoder, denied=denied)
+        if far is not None:
+            log_psi = far
         elif not means_all(tree.phrase):
-            log_psi = log_psi + by_distance(
-                tree.phrase.words[0], [of[0] for of in landmarks], scores, compared, encoder
-            )
+            log_psi = log_psi + by_distance(name, to, scores, compared, encoder)
+            nearer = nearer_on_a_side(name, to, compared, encoder)
+            log_psi = log_psi if nearer is None else log_psi + nearer
     if of_each or len(beams) > 1:
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
@@ -150,12 +150,6 @@ def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
     apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
     near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
     return near
-
-
-def _counted_landmark(tree: ParseTree) -> int:
-    """How many landmarks a modifier is to, each by itself ("behind the two cones"); 0 for all others."""
-    count = tree.children[0].phrase.count if len(tree.children) == 1 else None
-    return count if count is not None and 2 <= count <= _MOST_COUNTED else 0
 
 
 @dataclass(frozen=True)

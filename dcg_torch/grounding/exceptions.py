@@ -27,7 +27,9 @@ def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]
     bare = kept.phrase.noun is None and kept.phrase.color is None
     if bare and (any(map(_counts, named)) or (kept.phrase.text == _ALL and any(map(_is_told_apart, named)))):
         of = named[0]  # "all but two of the cubes", "all but the smallest cube": they are cubes
-        kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=of.phrase.color), kept.children + of.children)
+        by_color = not (of.phrase.words or of.children or any(map(_counts, named)))  # "all but the red cups"
+        color = None if by_color else of.phrase.color
+        kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=color), kept.children + of.children)
     return _about(tree, noun, kept), tuple(_about(tree, noun, _of_those(out, kept)) for out in named)
 
 

@@ -44,6 +44,8 @@ def only_named(tree: ParseTree, found: Scored, encoder: WorldEncoder) -> Scored:
 
 def landmarks_of(tree: ParseTree) -> tuple[Phrase, ...]:
     """The names of things that a noun phrase says its object stands to: no places, rooms, parts, and nothing denied."""
+    if tree.phrase.noun is None:  # "the yellow object next to the lamp" may be anything
+        return ()
     places = (c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER and _is_to_a_thing(c.phrase))
     found = (landmark.phrase for place in places for landmark in place.children)
     return tuple(Phrase(PhraseKind.NOUN, "", noun=phrase.noun) for phrase in found if _is_thing(phrase.noun))

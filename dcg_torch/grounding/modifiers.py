@@ -6,6 +6,9 @@ from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import INSIDE, RANKING, SIDED, WITHIN
 from dcg_torch.types import ParseTree
 
+_MOST_COUNTED = 3
+"""Landmarks up to which those of "behind the two cones" are told apart."""
+
 
 def ranks_from(tree: ParseTree) -> bool:
     """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
@@ -26,3 +29,9 @@ def is_in_a_group(tree: ParseTree) -> bool:
 def is_to_a_place(tree: ParseTree) -> bool:
     """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
     return "to a thing" not in tree.phrase.context
+
+
+def counted_landmark(tree: ParseTree) -> int:
+    """How many landmarks a modifier is to, each by itself ("behind the two cones"); 0 for all others."""
+    count = tree.children[0].phrase.count if len(tree.children) == 1 else None
+    return count if count is not None and 2 <= count <= _MOST_COUNTED else 0

@@ -8,15 +8,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.names.vocabulary import OF_TWO
+from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
 from dcg_torch.scene.order import numbered
 from dcg_torch.scene.relations import RELATION_NAMES, between
-from dcg_torch.types import Phrase
+from dcg_torch.types import NOT, ParseTree, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -25,7 +26,20 @@ Bools = NDArray[np.bool_]
 def means_all(phrase: Phrase) -> bool:
     """Does a modifier in the plural describe all that stand so, and not the nearest of them above all?"""
     whole = phrase.count is None and (phrase.words[0] in _ON_A_SIDE or phrase.words[0] in OF_TWO)
-    return phrase.plural and (whole or phrase.words[0] in _AROUND)
+    around = phrase.words[0] in _AROUND and phrase.text.split(" ")[0] not in DEFINITE  # no place told before
+    return phrase.plural and (whole or around)
+
+
+def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
+    """A modifier of a noun phrase that ranks: "the farthest cup behind the lamp" is one of all that are behind it."""
+    words, phrase = noun.phrase.words, modifier.phrase
+    ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
+    ranks = ranks and not noun.phrase.plural
+    to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
+    sided = phrase.words[0] in _ON_A_SIDE and ("to a thing" in phrase.context or to_you)
+    if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
+        return modifier
+    return ParseTree(replace(phrase, plural=True, count=None), modifier.children)
 
 
 def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
@@ -41,27 +55,66 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
 
 
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
-    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all.
-
-    Where extents are known, by the gap between the two; the rest as it was.
-    """
-    where = encoder.layout
-    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
-        return log_psi
-    n = len(where.bodies.half)
-    at, half = where.position[:n, :2], where.bodies.half
-    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
-    gap = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
-    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - _REACH) / _VAGUE), np.nan)
-    found = log_psi.copy()
-    found[:, :n] = np.where(np.isfinite(near), near, found[:, :n])
+    """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all."""
+    gap, reach = _gaps(landmarks, encoder)
+    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
+    found = np.where(np.isfinite(near), near, log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
 
 
+def of_denied(
+    name: str, log_psi: Floats, landmarks: Sequence[int], scores: Floats, encoder: WorldEncoder, *, denied: bool
+) -> Floats | None:
+    """(combos, things) of a modifier that is denied, or that denies nearness by itself ("far from"); None of others."""
+    if not denied and name not in _FAR_OFF:
+        return None
+    far = _beyond_reach(name, landmarks, scores, encoder)
+    return far if far is not None else _of_none(log_psi, scores) if denied else None
+
+
+def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: WorldEncoder) -> Floats | None:
+    """(combos, things) "the chair that isn't near a table" stands close to none of those that are named alike.
+
+    The farther it stands the likelier: who denies that it is near may still have the others nearer.
+
+    Args:
+        scores: (combos,) of the landmarks.
+
+    Returns:
+        None for what is no nearness, and for places.
+    """
+    alike = scores >= scores.max() - _ALIKE
+    if name not in _APART | _FAR_OFF or not encoder.layout.solid[np.array(landmarks)[alike]].all():
+        return None
+    gap, reach = _gaps(landmarks, encoder)
+    gap[np.arange(len(landmarks)), landmarks] = 0.0
+    gap[alike] = np.where(np.isfinite(gap[alike]), gap[alike], np.inf).min(axis=0)
+    far = np.where(np.isfinite(gap), gap, 0.0)
+    log_far = np.log(np.maximum(far, _TOUCHING))
+    found: Floats = -np.logaddexp(0.0, (reach - far) / (_VAGUE * reach)) + log_far - log_far.max(axis=1, keepdims=True)
+    return found
+
+
+def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
+    """(combos, things) units from each landmark to every thing, between extents where these are known; NaN where
+    nobody knows, and up to how many units things are near."""
+    where = encoder.layout
+    at = where.position[:, :2]
+    apart = np.abs(at[list(landmarks)][:, None] - at[None])
+    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+        return np.where(where.solid[None], np.linalg.norm(apart, axis=2), np.nan), _STEP
+    half = np.pad(where.bodies.half, ((0, len(at) - len(where.bodies.half)), (0, 0)))
+    gap = np.linalg.norm(np.maximum(apart - half[list(landmarks)][:, None] - half[None], 0.0), axis=2)
+    return np.where(where.solid[None], gap, np.nan), _REACH
+
+
 _AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
-_REACH, _VAGUE = 0.6, 0.12
-"""Units of a gap up to which things stand around another, and how vague that is."""
+_APART = _AROUND | {"close to"}
+_FAR_OFF = frozenset({"far from", "away from"})
+_REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
+"""Units of a gap, and of a distance where nobody says how large things are, up to which things stand around another,
+and the share of it by which that is vague."""
 
 
 def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
@@ -100,7 +153,7 @@ def _all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder:
 _BETWEEN = "relation: between, "
 
 
-def of_none(log_psi: Floats, scores: Floats) -> Floats:
+def _of_none(log_psi: Floats, scores: Floats) -> Floats:
     """(combos, things) what is not at a desk is at none of them: of landmarks that are named alike the worst counts."""
     alike = scores >= scores.max() - _ALIKE
     found = log_psi.copy()
@@ -151,6 +204,33 @@ def by_distance(
     return lost
 
 
+def nearer_on_a_side(
+    name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+) -> Floats | None:
+    """(combos, things) what the others that stand on a side of a thing lose to the nearest of their kind there.
+
+    Args:
+        compared: (things,) those that are compared; None: those of one type.
+
+    Returns:
+        None for what is no side; nothing is lost to what stands to places.
+    """
+    if name not in _ON_A_SIDE:
+        return None
+    gap = encoder.distances(list(landmarks)) + _TOUCHING
+    beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder) > _LIKELY
+    beside &= encoder.layout.solid[list(landmarks)][:, None] & encoder.layout.solid[None]
+    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    lost = np.zeros(gap.shape)
+    for own, on, away in zip(lost, beside, gap, strict=True):
+        for of in np.unique(kind[on]):
+            there = on & (kind == of)
+            own[there] = -_SIDE_FOLD * np.log(away[there] / away[there].min())
+    return lost
+
+
+_LIKELY, _SIDE_FOLD = math.log(0.5), 0.7
+"""Log-factor from which a thing is taken to be on a side, and nats for each e-fold by which it is farther off there."""
 _TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
 _E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(

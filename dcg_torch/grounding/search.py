@@ -18,6 +18,7 @@ from dcg_torch.grounding.hypotheses import Beam, Combos, Hypothesis, ModifierFac
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
+from dcg_torch.grounding.reach import ranked_among
 from dcg_torch.grounding.scored import FEW, Scored
 from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.grounding.tables import Tables
@@ -166,7 +167,7 @@ class Search:
 
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
-        own = [c for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        own = [ranked_among(tree, c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
         several = counted(tree.phrase.words) is not None
         kind = self._beside_what_is_faced(tree) if own else None
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}

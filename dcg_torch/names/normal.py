@@ -15,6 +15,8 @@ DATA = Path(__file__).parent / "data"
 # A break stands before a capital that follows a small letter ("coffeeTable"), before the last capital of several that
 # a small letter follows ("TVStand"), and between letters and digits ("cube3").
 _BREAKS = re.compile(r"(?<=[a-z])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])|(?<=[A-Za-z])(?=[0-9])|(?<=[0-9])(?=[A-Za-z])")
+_PARTICLE = re.compile(r"(?<=[a-z])-(in|on|up|out|off|down|through)\b", re.IGNORECASE)
+"""Of a compound that a hyphen makes one word: the head of "check-in counter" does not stand before "in"."""
 _APART = re.compile(r"[^\w']+|_+")
 
 
@@ -52,11 +54,12 @@ def normalise(name: str) -> str:
     The head is the last word, or the last before "of": "Bottles_of_wine" becomes "bottle of wine". A name without a
     letter or digit comes back stripped and otherwise as it is. Doing it twice changes nothing.
 
-    >>> normalise("CoffeeTable"), normalise("coffee_tables"), normalise("Light-Grey")
-    ('coffee table', 'coffee table', 'light gray')
+    >>> normalise("CoffeeTable"), normalise("coffee_tables"), normalise("Light-Grey"), normalise("Walk-in closet")
+    ('coffee table', 'coffee table', 'light gray', 'walkin closet')
     """
     if name.isupper():
         name = name.lower()
+    name = _PARTICLE.sub(r"\1", name)
     words = [_variant(word) for word in _APART.split(_BREAKS.sub(" ", name).lower()) if word.strip("'")]
     if not words:
         return name.strip()
