@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.interpretation.scene_kinds import stands_among
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE, numbered
@@ -24,9 +25,7 @@ Bools = NDArray[np.bool_]
 _AT = frozenset({"on", "to", "at", "in"})
 _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}
 """Preposition before who is spoken to -> the direction in which what is so stands."""
-_ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
-"""Angle off a direction up to which a thing is that way, and how vague that is."""
-_STRAIGHT = math.radians(40.0)
+_SLANT = math.radians(40.0)
 """Angle at which a thing is half a nat less that way than one straight on."""
 _E_FOLD = 2.0
 """Nats that a thing loses for each e-fold by which it is farther than the nearest of its kind that way."""
@@ -77,10 +76,10 @@ def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None) -> Fl
     slant = np.arctan2(np.abs(offset @ np.array([-y, x])), offset @ way)
     there = np.isfinite(slant)
     slant = np.where(there, slant, math.pi)
-    inside: Floats = -np.logaddexp(0.0, (slant - _ASLANT) / _UNSURE)
+    inside: Floats = -np.logaddexp(0.0, (slant - ASLANT) / UNSURE)
     if kind is None:
         return inside
-    inside = inside - 0.5 * (slant / _STRAIGHT) ** 2
+    inside = inside - 0.5 * (slant / _SLANT) ** 2
     away = np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
     cost = _E_FOLD * away - inside
     least = np.full(kind.max(initial=0) + 1, np.inf)

@@ -50,7 +50,7 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
     if name in _AROUND:
         return _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     if name in _ON_A_SIDE:
-        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
+        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder, ASLANT)
     return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
 
 
@@ -117,13 +117,16 @@ _REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
 and the share of it by which that is vague."""
 
 
-def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def _on_the_side(
+    name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder, aslant_by: float
+) -> Floats:
     """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
 
     Args:
         name: one of `_ON_A_SIDE`.
         log_psi: what is known of the one that is meant.
         landmarks: numbers of things.
+        aslant_by: radians off that direction up to which a thing is on that side.
     """
     where, (x, y) = encoder.layout, _ON_A_SIDE[name]
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
@@ -131,15 +134,17 @@ def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: 
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
     ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
     aslant = np.arctan2(aside, ahead)
-    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - _ASLANT) / _UNSURE), log_psi)
+    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - aslant_by) / UNSURE), log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
 
 
 _ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
 """Preposition -> the direction in which what is so stands, as who looks sees it."""
-_ASLANT, _UNSURE = math.radians(65.0), math.radians(6.0)
+ASLANT, UNSURE = math.radians(65.0), math.radians(6.0)
 """Angle off that direction up to which a thing is on that side, and how vague that is."""
+STRAIGHT = math.radians(35.0)
+"""The same where it is the nearest on that side: who means what stands aslant, if not so far off, says more."""
 
 
 def _all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
@@ -218,7 +223,7 @@ def nearer_on_a_side(
     if name not in _ON_A_SIDE:
         return None
     gap = encoder.distances(list(landmarks)) + _TOUCHING
-    beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder) > _LIKELY
+    beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder, STRAIGHT) > _LIKELY
     beside &= encoder.layout.solid[list(landmarks)][:, None] & encoder.layout.solid[None]
     kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
     lost = np.zeros(gap.shape)
