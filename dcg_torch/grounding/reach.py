@@ -226,11 +226,11 @@ def nearer_on_a_side(
     beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder, STRAIGHT) > _LIKELY
     beside &= encoder.layout.solid[list(landmarks)][:, None] & encoder.layout.solid[None]
     kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
+    nearest = np.full(of_each.max(initial=0) + 1, np.inf)
+    np.minimum.at(nearest, of_each[beside], gap[beside])
     lost = np.zeros(gap.shape)
-    for own, on, away in zip(lost, beside, gap, strict=True):
-        for of in np.unique(kind[on]):
-            there = on & (kind == of)
-            own[there] = -_SIDE_FOLD * np.log(away[there] / away[there].min())
+    lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
     return lost
 
 
