@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple, TypeVar
@@ -216,10 +216,6 @@ class ModifierFactor:
     def posterior(self) -> NDArray[np.float64]:
         """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
         return np.exp(self.mixture - self._log_sum)
-
-    def landmarks(self, combo: int, number: Mapping[str, int]) -> tuple[int, ...]:
-        """The numbers of the landmarks of a combo."""
-        return tuple(number[h.child.grounding.object.id] for h in self.combos[combo])
 
     def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
         """That the thing j stands so, to its best landmarks or to those of a given combo."""

@@ -31,10 +31,11 @@ from dcg_torch.interpretation.factor_tree import (
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.looking import Looks, told_by_looking
+from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.plain_sets import few_together
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, with_corners
 from dcg_torch.interpretation.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
-from dcg_torch.interpretation.shelves import by_middles, by_shelves
+from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
 from dcg_torch.names.attributes import OF_KEY

@@ -222,7 +222,7 @@ def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> M
     prior = modifier.log_prior
     combos = np.flatnonzero(prior >= prior.max() + math.log(_NEGLIGIBLE))
     most = 1 if modifier.of_each else None
-    landmarks = [modifier.landmarks(c, encoder.number)[:most] for c in combos.tolist()]
+    landmarks = [modifier.combos.things[c][:most] for c in combos.tolist()]
     phrase = modifier.tree.phrase
     bag = encoder.placed(landmarks, ranking(phrase), modifier.compared)[:, : len(kept)][:, kept]
     return Modified(phrase, bag, prior[combos], NOT in phrase.words)
