@@ -28,6 +28,7 @@ from dcg_torch.interpretation.factor_tree import (
     setting_of,
     speaks_of_groups,
     speaks_of_lines,
+    speaks_of_pairs,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.looking import Looks, told_by_looking
@@ -137,7 +138,9 @@ class SharedSearch:
         self._tables = tables
         self._beam = beam
         self._search = Search(encoder, tables, beam)
-        self._others: dict[tuple[bool | None, frozenset[str]], Search] = {(None, frozenset()): self._search}
+        self._others: dict[tuple[tuple[bool, bool] | None, frozenset[str]], Search] = {
+            (None, frozenset()): self._search
+        }
         self._solved: dict[tuple[ParseTree, bool, bool, frozenset[str]], Solution] = {}
 
     @property
@@ -168,9 +171,8 @@ class SharedSearch:
         kept, exceptions = split_exceptions(tree)
         out = [self._described(one, brief=True).objects for one in exceptions]
         left_out = frozenset(o.id for objects in out for o in objects if not o.hypothetical)
-        return self.solve(
-            in_setting(kept, self._setting), groups=speaks_of_groups(kept), brief=brief, left_out=left_out
-        )
+        said = in_setting(kept, self._setting)
+        return self.solve(said, groups=speaks_of_groups(said), brief=brief, left_out=left_out)
 
     def solve(
         self, tree: ParseTree, *, groups: bool = False, brief: bool = False, left_out: frozenset[str] = frozenset()
@@ -184,7 +186,7 @@ class SharedSearch:
         """
         key = (tree, groups, brief, left_out)
         if key not in self._solved:
-            search = self._search_in(speaks_of_lines(tree) if groups else None, left_out)
+            search = self._search_in((speaks_of_lines(tree), speaks_of_pairs(tree)) if groups else None, left_out)
             self._solved[key] = search.solve(tree, brief=brief)
         return self._solved[key]
 
@@ -195,14 +197,14 @@ class SharedSearch:
             return solution
         return replace(solution, runner_up=found[0].runner_up(solution.tree, solution.best))
 
-    def _search_in(self, lines: bool | None, left_out: frozenset[str]) -> Search:
-        """The search in the world with its groups, of which lines are some, or without them if that is None."""
-        if (lines, left_out) not in self._others:
+    def _search_in(self, groups: tuple[bool, bool] | None, left_out: frozenset[str]) -> Search:
+        """The search in the world with its groups, are lines and pairs some of them?, or without if that is None."""
+        if (groups, left_out) not in self._others:
             encoder = self._search.encoder
-            world = encoder.world if lines is None else with_groups(encoder.world, lines=lines)
+            world = encoder.world if groups is None else with_groups(encoder.world, lines=groups[0], pairs=groups[1])
             world = without(world, left_out) if left_out else world
-            self._others[lines, left_out] = Search(encoder.of(world), self._tables, self._beam)
-        return self._others[lines, left_out]
+            self._others[groups, left_out] = Search(encoder.of(world), self._tables, self._beam)
+        return self._others[groups, left_out]
 
 
 def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:

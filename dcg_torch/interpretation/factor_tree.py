@@ -16,6 +16,7 @@ from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import scene_kind, stands_among
 from dcg_torch.names.vocabulary import (
     ANYTHING,
+    GROUP_WORDS,
     INSIDE,
     LATERAL,
     LEVEL,
@@ -29,6 +30,7 @@ from dcg_torch.names.vocabulary import (
     SIDED,
     VERTICAL,
     WITHIN,
+    counted,
     is_superlative,
 )
 from dcg_torch.scene.layout import NEAREST
@@ -52,6 +54,16 @@ def speaks_of_groups(tree: ParseTree) -> bool:
 def speaks_of_lines(tree: ParseTree) -> bool:
     """Does a tree of factors count rows or columns through the whole scene?"""
     return any(node.phrase.noun in READ_FROM for node in tree.walk())
+
+
+@functools.lru_cache(maxsize=1024)
+def speaks_of_pairs(tree: ParseTree) -> bool:
+    """Does a tree of factors speak of two that stand side by side as a group? Stacks of two are groups anyway."""
+    return any(
+        counted(node.phrase.words) == 2
+        and any("stack" not in GROUP_WORDS.get(word or "", ("stack",)) for word in (node.phrase.noun, *node.phrase.words))
+        for node in tree.walk()
+    )
 
 
 @functools.lru_cache(maxsize=1024)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
+from dcg_torch.names.vocabulary import BUILT_OF, GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _EACH_OTHER, _PAIR = "each other", "pair"
@@ -58,6 +58,29 @@ def one_of_those(tree: ParseTree) -> ParseTree:
         return tree
     one = _one_of(phrase, those, those.count)
     return ParseTree(one, (*(c for c in tree.children if c is not of), *of.children[0].children))
+
+
+def of_its_members(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+    """ "The three-block line" is the line of three blocks, "the block tower" the tower of blocks.
+
+    Args:
+        tree: of it the root alone is looked at.
+        there: the last words of the names of classes: a "tower" that is there is meant itself.
+    """
+    phrase = tree.phrase
+    words = (phrase.noun or "").split(" ")
+    kind = next((w for w in words if w in GROUP_WORDS or w in BUILT_OF), None)
+    number = phrase.count if phrase.count is not None and phrase.count > 1 else counted(phrase.words)
+    if phrase.kind is not PhraseKind.NOUN or kind is None or not there.isdisjoint({words[-1], kind}):
+        return tree
+    several = words[-1] != phrase.text.split(" ")[-1]  # "the two block towers" are two
+    member = words[: words.index(kind)]
+    if several or not ((number and (member or kind in BUILT_OF)) or (member and member[-1] in there)):
+        return tree
+    few = () if number is None else (f"of {number}",)
+    said = tuple(dict.fromkeys((*phrase.words, BUILT_OF.get(kind, kind), *few)))
+    noun = " ".join(member) or None
+    return replace(tree, phrase=replace(phrase, noun=noun, words=said, plural=noun is not None, count=None))
 
 
 def of_a_pair(tree: ParseTree) -> ParseTree:

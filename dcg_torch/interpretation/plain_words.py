@@ -9,7 +9,7 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.measuring import compared_with
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
-from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
+from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, of_its_members, one_of_those, together
 from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.vocabulary import (
@@ -62,6 +62,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
+    tree = of_its_members(tree, there)
     for in_other_words in _FIRST:
         tree = in_other_words(tree)
     phrase = tree.phrase

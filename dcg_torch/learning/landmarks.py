@@ -22,7 +22,13 @@ from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.hypotheses import Combos, ModifierFactor
 from dcg_torch.grounding.readings import Reading
 from dcg_torch.grounding.solution import Solution, target_of
-from dcg_torch.interpretation.factor_tree import coordinated, speaks_of_groups, speaks_of_lines, to_factor_tree
+from dcg_torch.interpretation.factor_tree import (
+    coordinated,
+    speaks_of_groups,
+    speaks_of_lines,
+    speaks_of_pairs,
+    to_factor_tree,
+)
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.learning.evidence import told_by_look
 from dcg_torch.learning.labelling import labelled
@@ -114,9 +120,16 @@ def parts_of(lesson: Lesson) -> list[Part]:
     for tree in trees:
         noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
-            world = with_groups(seen, lines=speaks_of_lines(noun)) if speaks_of_groups(tree) else seen
+            world = _with_groups_of(noun, seen)
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
+
+
+def _with_groups_of(noun: ParseTree, world: WorldModel) -> WorldModel:
+    """A world with the groups that a noun phrase speaks of; as it is where it speaks of none."""
+    if not speaks_of_groups(noun):
+        return world
+    return with_groups(world, lines=speaks_of_lines(noun), pairs=speaks_of_pairs(noun))
 
 
 def said_of_words(

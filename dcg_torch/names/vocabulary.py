@@ -58,6 +58,11 @@ GROUP_WORDS = {
     LINE_ALONG: (LINE_ALONG,),
 }
 """What people call groups; the last two are what "row" and "column" mean where they are counted through a scene."""
+BUILT_OF = {
+    **{"string": "row", "chain": "row", "segment": "row"},
+    **{"story": "stack", "storey": "stack", "building": "stack", "structure": "stack"},
+}
+"""What they call one after its counted members, and not else: "the two-story building", "the three-block chain"."""
 TIERS = frozenset({"shelf", "level", "tier"})
 """What people call a row of what stands at several heights before them, where nothing that is there is called so."""
 LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}

@@ -18,10 +18,13 @@ _FEW = 40
 """Things up to which all distances are sorted."""
 
 
-def clusters(points: Floats, code: Ints) -> Iterable[list[int]]:
+def clusters(points: Floats, code: Ints, *, pairs: bool = False) -> Iterable[list[int]]:
     """The clusters of single linkage, on at least `_LEAST` spots, that are closer together than to anything else.
 
     Those of each class by itself.
+
+    Args:
+        pairs: with any two that are each other's nearest, too.
     """
     n = len(points)
     merges = _single_linkage(points[:, :2], code)
@@ -36,6 +39,8 @@ def clusters(points: Floats, code: Ints) -> Iterable[list[int]]:
         members.append(members[one] + members[other])
     for k, (_, _, distance) in enumerate(merges, start=n):
         last = max(distance, SAME_SPOT)
+        if pairs and len(members[k]) == 2 and spots[k] == 2:
+            yield members[k]
         if last <= _SPREAD * first[k] and ends[k] >= _APART * last and spots[k] >= _LEAST:
             yield members[k]
 

@@ -43,7 +43,9 @@ _MANY, _NEIGHBOURS = 512, 33
 """Things from which near ones are found with a tree, and how many of them are looked at."""
 
 
-def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None) -> tuple[Object, ...]:
+def groups(
+    objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = None, *, pairs: bool = False
+) -> tuple[Object, ...]:
     """The groups that objects form.
 
     They are looked for among all objects, among those of one type, and among those of one type and colour. A group
@@ -54,6 +56,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
         objects: those without a position are in no group.
         unit: metres in a unit of length, see `layout`.
         robot: for whom a row lies across or along.
+        pairs: do two that are each other's nearest form one, too?
     """
     there = [o for o in objects if o.position is not None]
     if len(there) < 2:
@@ -64,7 +67,7 @@ def groups(objects: Sequence[Object], unit: float = 1.0, robot: Pose | None = No
     for numbers, code in _compared(there):
         points = position[numbers]
         found[ROW].update(_numbers_of(_even_rows(points, code), numbers))
-        found[CLUSTER].update(_numbers_of(clusters(points, code), numbers))
+        found[CLUSTER].update(_numbers_of(clusters(points, code, pairs=pairs), numbers))
     place = position.tolist()
     found[ROW].update(members for members in found[CLUSTER] if in_line([place[j] for j in members]))
     return tuple(

@@ -91,8 +91,13 @@ def with_places_of_all(world: WorldModel, kinds: Collection[str]) -> WorldModel:
     return replace(world, places=(*world.places, *(place for place in found if place.type in missing)))
 
 
-def with_groups(world: WorldModel, *, lines: bool = False) -> WorldModel:
-    """A world with the groups that its objects form; `lines`: with the rows and the columns of all of it, too."""
+def with_groups(world: WorldModel, *, lines: bool = False, pairs: bool = False) -> WorldModel:
+    """A world with the groups that its objects form.
+
+    Args:
+        lines: with the rows and the columns of all of it, too.
+        pairs: with what are two by themselves.
+    """
     viewer = world.viewer or world.robot
     counted = lines_of_all(world.objects, world.unit, viewer) if lines else ()
-    return replace(world, groups=(*groups(world.objects, world.unit, viewer), *counted))
+    return replace(world, groups=(*groups(world.objects, world.unit, viewer, pairs=pairs), *counted))
