@@ -83,7 +83,7 @@ def modifier_factor(
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
-        log_psi = log_psi[np.array(chosen)].sum(axis=1)
+        log_psi = log_psi[np.array(chosen)].mean(axis=1)  # said once, it counts once
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each:
         name, to = tree.phrase.words[0], [of[0] for of in landmarks]
