@@ -13,7 +13,7 @@ from dcg_torch.interpretation.from_you import from_you
 from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
-from dcg_torch.interpretation.scene_kinds import scene_kind, stands_among
+from dcg_torch.interpretation.scene_kinds import is_board, scene_kind, stands_among
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     GROUP_WORDS,
@@ -61,7 +61,9 @@ def speaks_of_pairs(tree: ParseTree) -> bool:
     """Does a tree of factors speak of two that stand side by side as a group? Stacks of two are groups anyway."""
     return any(
         counted(node.phrase.words) == 2
-        and any("stack" not in GROUP_WORDS.get(word or "", ("stack",)) for word in (node.phrase.noun, *node.phrase.words))
+        and any(
+            "stack" not in GROUP_WORDS.get(word or "", ("stack",)) for word in (node.phrase.noun, *node.phrase.words)
+        )
         for node in tree.walk()
     )
 
@@ -125,7 +127,7 @@ class Setting(NamedTuple):
 
     Attributes:
         there: the names of the types that may be there.
-        level: does all stand on one level, or as on a page that stands upright?
+        level: does all, or most on a board, stand on one level, or as on a page that stands upright?
         scene: the kind of scene.
         among: does the robot stand among the things?
     """
@@ -144,8 +146,10 @@ def setting_of(world: WorldModel) -> Setting:
     at = np.array([o.position for o in world.objects if o.position is not None]).reshape(-1, 3)
     flat = len(at) > 0 and float(np.ptp(at[:, 2])) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
+    kind = scene_kind(world)
+    flat = flat or (not upright and is_board(kind) and float(np.mean(at[:, 2] < at[:, 2].min() + _LEVEL)) > 0.5)
     among = world.robot is not None and stands_among(at[:, :2] - (world.robot.x, world.robot.y))
-    return Setting(heads(world.classes), (flat, upright), scene_kind(world), among)
+    return Setting(heads(world.classes), (flat, upright), kind, among)
 
 
 @functools.lru_cache(maxsize=1024)

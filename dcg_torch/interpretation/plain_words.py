@@ -32,6 +32,7 @@ from dcg_torch.names.vocabulary import (
     SAME_RELATION,
     SIDE_OF,
     SIDED,
+    STOOD_ON,
     SYNONYMS,
     THAN,
     VERTICAL,
@@ -222,6 +223,7 @@ _SEEN_FROM_IT = {
 }
 
 
+_ANYWHERE = ("in", "on", "of")
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
@@ -244,7 +246,7 @@ def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str
     """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
     lateral = next((word for word in words if word.removesuffix("most") in LATERAL), None)
     vertical = next((word for word in words if word in VERTICAL), None)
-    grouped = any(child.phrase.words[0] in INSIDE for child in children)
+    grouped = any(child.phrase.words[0] in INSIDE and not _is_all(child) for child in children)
     if vertical is None or (grouped and lateral is None):
         return ()
     return (vertical,) if lateral is None else (vertical, lateral)
@@ -292,6 +294,9 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     if owner is not None and name in BESIDE_WHOM:  # "left of you" is not beside you alone
         name, phrase = "on", replace(phrase, noun=BESIDE_WHOM[name], words=(owner,))
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
+        anywhere = name in _ANYWHERE and not (name == "on" and phrase.noun in STOOD_ON)
+        if anywhere and NOT not in tree.phrase.words and not (landmark.children or phrase.words):
+            return ()  # all that is there is in the picture
         if name in SIDE_OF:
             name, phrase = "on", replace(phrase, noun=SIDE_OF[name], words=())
         elif phrase.noun not in PLACE_WORDS:

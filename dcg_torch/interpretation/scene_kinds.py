@@ -35,6 +35,12 @@ def scene_kind(world: WorldModel) -> str:
     return " ".join(name for name, holds in told.items() if holds) or "bare"
 
 
+def is_board(kind: str) -> bool:
+    """Are things of one kind on a table? What is "the highest" there is so as on a page, but for the top of a stack."""
+    names = kind.split(" ")
+    return "table" in names and "heights" in names and "classes" not in names
+
+
 def stands_among(seen: NDArray[np.float64]) -> bool:
     """Is there something on every side of the robot?
 

@@ -149,6 +149,8 @@ EITHER_END = frozenset({"back", "front"})
 WORKSPACE = frozenset({"table", "board", "floor", "ground", "grid", "image", "picture", "photo", "screen", "surface"})
 WORKSPACE |= {"field", "map", "scene", "workspace", "plane"}
 """What people call all of a scene, where nothing that is there is called so."""
+STOOD_ON = frozenset({"table", "floor", "ground"})
+"""Of these what things may stand on, or on one another: "the block on the table" is not on a block."""
 HOME = frozenset({"house", "home", "apartment", "flat"})
 """The same of a home: what is in it is anywhere."""
 GROUND_WORD = "board"
