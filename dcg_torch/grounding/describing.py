@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.contrary import of_contradictions
+from dcg_torch.grounding.counted_side import so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
@@ -207,6 +208,7 @@ def comparison_set(
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
     described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
+    described = so_many_on_a_side(phrase, modifiers, fit, described, encoder)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)

@@ -37,7 +37,7 @@ from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
-_AT = frozenset({"on", "at", "to", "in", "towards"})
+AT_SIDE = frozenset({"on", "at", "to", "in", "towards"})
 """Prepositions that say at which side of the scene a thing is."""
 
 _LEVEL = 0.02
@@ -265,7 +265,7 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
 
 def _is_a_side(place: ParseTree) -> bool:
     landmark = place.children[0]
-    return place.phrase.words[0] in _AT and landmark.phrase.noun in SIDED and not landmark.children
+    return place.phrase.words[0] in AT_SIDE and landmark.phrase.noun in SIDED and not landmark.children
 
 
 def _within(place: ParseTree) -> ParseTree:
