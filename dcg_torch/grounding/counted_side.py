@@ -41,11 +41,11 @@ def so_many_on_a_side(
         return described
     rest = fit - np.sum([m.log_psi for m, _ in sides], axis=0)
     position = encoder.layout.position
-    alike = (rest >= rest.max() + _ALIKE) & np.isfinite(position).all(axis=1) & encoder.perceived
+    alike: Bools = (rest >= rest.max() + _ALIKE) & np.isfinite(position).all(axis=1) & encoder.perceived
     if alike.sum() < number:
         return described
     for part in _PARTS:
-        inside = alike.copy()
+        inside: Bools = alike.copy()
         for _, side in sides:
             inside &= _within(side, position, alike, part)
         if inside.sum() >= number:
@@ -63,7 +63,7 @@ def _side(modifier: ModifierFactor) -> str | None:
 
 
 def _within(side: str, position: Floats, among: Bools, part: float) -> Bools:
-    """(things,) those in a part of what is `among`, from its edge on a side; x is away from who looks, y to the left."""
+    """(things,) those in a part of what is `among`, from its edge on a side: x is away from who looks, y left."""
     along = position[:, 1] if side in LATERAL else position[:, 0]
     along = along if side in ("left", "top", "back") else -along
     low, high = along[among].min(), along[among].max()

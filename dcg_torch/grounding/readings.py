@@ -40,7 +40,7 @@ from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
 from dcg_torch.names.attributes import OF_KEY
-from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.names.vocabulary import PLACE_WORDS, SIDE_MIDDLE
 from dcg_torch.scene.workspace import with_groups, with_places_of_all
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
 
@@ -102,7 +102,7 @@ def _in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
     return tree
 
 
-_OF_ALL = frozenset({"corner", "middle"})
+_OF_ALL = frozenset({"corner", "middle", SIDE_MIDDLE})
 """Places of what is there as a whole: sides are the robot's own where there are no edges."""
 
 

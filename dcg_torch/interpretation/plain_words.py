@@ -9,6 +9,17 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.measuring import compared_with
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
+from dcg_torch.interpretation.plain_places import (
+    NEAREST,
+    closest,
+    in_one_corner,
+    is_of_all,
+    near_side,
+    over_and_beyond,
+    side_itself,
+    side_with_a_middle,
+    told_sides,
+)
 from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, of_its_members, one_of_those, together
 from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
@@ -21,9 +32,10 @@ from dcg_torch.names.vocabulary import (
     GROUND_WORD,
     GROUP_WORDS,
     HOME,
-    INSIDE,
     LATERAL,
     LIKE_RELATION,
+    MIDDLES,
+    OF_TWO,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -35,14 +47,11 @@ from dcg_torch.names.vocabulary import (
     STOOD_ON,
     SYNONYMS,
     THAN,
-    VERTICAL,
     VIEWERS,
     WORKSPACE,
     is_superlative,
 )
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
-
-NEAREST = "closest to"
 
 
 @functools.lru_cache(4096)
@@ -70,7 +79,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
     if upright and phrase.kind is PhraseKind.NOUN:
-        children = tuple(said for child in children for said in _over_and_beyond(child))
+        children = tuple(said for child in children for said in over_and_beyond(child))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if phrase.noun in COMPASS:
@@ -90,36 +99,16 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
-    named = () if phrase.noun in PLACE_WORDS else _sides(words, children)
+    middle = None if phrase.plural or children else side_with_a_middle(words)
+    if middle is not None:
+        words, children = tuple(w for w in words if w not in {*MIDDLES, middle}), (closest(f"{middle} middle"),)
+    named = () if phrase.noun in PLACE_WORDS else told_sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)
-        children = (*children, _near_side(named))
+        children = (*children, near_side(named))
     if not any(map(is_superlative, words)):
-        children = _in_one_corner(children)
+        children = in_one_corner(children)
     return together(ParseTree(replace(phrase, words=words), children))
-
-
-def _in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
-    """ "On the right in the back" is near one corner."""
-    sides = [c for c in children if c.phrase.words[:1] and c.phrase.words[0] in _BESIDE and len(c.children) == 1]
-    bare = {c.children[0].phrase.noun: c for c in sides if not (c.children[0].children or c.children[0].phrase.words)}
-    lateral, vertical = ([side for side in bare if side in of] for of in (LATERAL, VERTICAL))
-    if len(lateral) != 1 or len(vertical) != 1:
-        return children
-    both = (bare[lateral[0]], bare[vertical[0]])
-    return (*(c for c in children if c not in both), _near_side((str(vertical[0]), str(lateral[0]))))
-
-
-_BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
-
-
-def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
-    """On a page what is above a thing is behind it, too."""
-    name, *others = place.phrase.words or ("",)
-    side = {"above": "behind", "under": "in front of"}.get(name)
-    if side is None:
-        return (place,)
-    return place, replace(place, phrase=replace(place.phrase, words=(side, *others)))
 
 
 def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
@@ -242,35 +231,12 @@ def in_group(phrase: Phrase) -> bool:
     return phrase.kind is PhraseKind.NOUN and any(w in GROUP_WORDS for w in (phrase.noun, *phrase.words))
 
 
-def _sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:
-    """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
-    lateral = next((word for word in words if word.removesuffix("most") in LATERAL), None)
-    vertical = next((word for word in words if word in VERTICAL), None)
-    grouped = any(child.phrase.words[0] in INSIDE and not _is_all(child) for child in children)
-    if vertical is None or (grouped and lateral is None):
-        return ()
-    return (vertical,) if lateral is None else (vertical, lateral)
-
-
-def _near_side(sides: tuple[str, ...]) -> ParseTree:
-    sides = tuple(side.removesuffix("most") for side in sides)
-    noun = sides[0] if len(sides) == 1 else "corner"
-    place = ParseTree(Phrase(PhraseKind.NOUN, noun, sides if noun == "corner" else (), noun))
-    return ParseTree(Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (place,))
-
-
 def _of_all(tree: ParseTree) -> ParseTree:
     """ "The corner of the board" is the corner: of all that is there."""
     if tree.phrase.noun not in PLACE_WORDS:
         return tree
-    kept = [c for c in tree.children if not (c.phrase.words[0] in _WITHIN and _is_all(c))]
+    kept = [c for c in tree.children if not (c.phrase.words[0] in _WITHIN and is_of_all(c))]
     return replace(tree, children=tuple(kept))
-
-
-def _is_all(place: ParseTree) -> bool:
-    """Is it of the ground, or of what everything stands on?"""
-    noun = place.children[0].phrase.noun if len(place.children) == 1 else None
-    return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 
 
 _NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
@@ -304,9 +270,13 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     if _picks(tree) is not None or (name == "of" and in_group(phrase)):
         name = "in"  # "the middle one of the stack"
     inside = name in ("on", "at", "to", "in", "towards")
+    side = None if landmark.children else side_with_a_middle((phrase.noun or "", *phrase.words))
+    side = side_itself(phrase) or side if name in OF_TWO else side
+    if side is not None and (inside or name in OF_TWO or name == NEAREST):
+        name, phrase = NEAREST, replace(phrase, noun=f"{side} middle", words=())
     if phrase.noun in SIDED:
         sides = tuple(word for word in phrase.words if word not in DEGREES)
-        corner = _sides((*sides, phrase.noun), ())
+        corner = told_sides((*sides, phrase.noun), ())
         if len(corner) == 2 and not set(sides) & OWNERS.keys():
             phrase = replace(phrase, noun="corner", words=corner)
         elif len(sides) < len(phrase.words) and inside:

@@ -31,6 +31,10 @@ PLACE_WORDS = {
     "myself": ("speaker", None),
     "speaker": ("speaker", None),
 }
+SIDE_MIDDLE = "middle of a side"
+_SIDES = tuple((word, side) for word, (kind, side) in PLACE_WORDS.items() if kind == "edge" and side is not None)
+PLACE_WORDS |= {f"{word} middle": (SIDE_MIDDLE, side) for word, side in _SIDES}
+"""What "the top middle" is called where it is a place."""
 DIRECTIONS = {"left": "left side", "right": "right side", "front": "far side", "back": "near side"}
 """Nouns for the sides of somebody: "on your left"."""
 PLACE_TYPES = frozenset(kind for kind, _ in PLACE_WORDS.values())
@@ -126,6 +130,8 @@ SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
+MIDDLES = frozenset({"middle", "center", "centre"})
+"""Words for the middle of something."""
 OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
 OR = "or"

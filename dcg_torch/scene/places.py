@@ -10,6 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.names.vocabulary import SIDE_MIDDLE
 from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose
@@ -49,10 +50,12 @@ def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> t
         mid_x, mid_y, deep, wide = (near + far) / 2, (right + left) / 2, far - near, left - right
         for x, ahead in ((near, "near side"), (far, "far side")):
             add("edge", x, mid_y, (ahead,), (0.0, wide))
+            add(SIDE_MIDDLE, x, mid_y, (ahead,))
             for y, side in ((right, "right side"), (left, "left side")):
                 add("corner", x, y, (ahead, side))
         for y, side in ((right, "right side"), (left, "left side")):
             add("edge", mid_x, y, (side,), (deep, 0.0))
+            add(SIDE_MIDDLE, mid_x, y, (side,))
         add("middle", mid_x, mid_y)
     add(GROUND, 0.0, 0.0)
     for kind, pose in (("robot", robot), ("speaker", speaker)):

@@ -1,0 +1,80 @@
+"""Sides, corners and middles of sides of all that is there, in plain words: "the top left cube" is near a corner."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import replace
+
+from dcg_torch.names.vocabulary import DEGREES, INSIDE, LATERAL, MIDDLES, PLACE_WORDS, SIDED, VERTICAL
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
+
+NEAREST = "closest to"
+
+
+def is_of_all(place: ParseTree) -> bool:
+    """Is it of the ground, or of what everything stands on?"""
+    noun = place.children[0].phrase.noun if len(place.children) == 1 else None
+    return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
+
+
+def side_with_a_middle(words: Sequence[str]) -> str | None:
+    """The side in whose middle "the top middle cube" is; None where words speak of none, or of more."""
+    side = _one_side(words, MIDDLES)
+    return side if side is not None and not MIDDLES.isdisjoint(words) else None
+
+
+def side_itself(place: Phrase) -> str | None:
+    """The side that "the right", "the right side" and "the top edge" are; None of all else."""
+    edges = {word for word, (kind, side) in PLACE_WORDS.items() if kind == "edge" and side is None}
+    return _one_side([place.noun or "", *place.words], edges)
+
+
+def _one_side(words: Sequence[str], beside: Iterable[str]) -> str | None:
+    sides = [word for word in words if word in SIDED]
+    return sides[0] if len(sides) == 1 and {*words} - {*sides} - DEGREES <= {*beside} else None
+
+
+def in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
+    """ "On the right in the back" is near one corner."""
+    sides = [c for c in children if c.phrase.words[:1] and c.phrase.words[0] in _BESIDE and len(c.children) == 1]
+    bare = {c.children[0].phrase.noun: c for c in sides if not (c.children[0].children or c.children[0].phrase.words)}
+    lateral, vertical = ([side for side in bare if side in of] for of in (LATERAL, VERTICAL))
+    if len(lateral) != 1 or len(vertical) != 1:
+        return children
+    both = (bare[lateral[0]], bare[vertical[0]])
+    return (*(c for c in children if c not in both), near_side((str(vertical[0]), str(lateral[0]))))
+
+
+_BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
+
+
+def over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
+    """On a page what is above a thing is behind it, too."""
+    name, *others = place.phrase.words or ("",)
+    side = {"above": "behind", "under": "in front of"}.get(name)
+    if side is None:
+        return (place,)
+    return place, replace(place, phrase=replace(place.phrase, words=(side, *others)))
+
+
+def told_sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:
+    """The sides by which a thing is told apart: ("top", "left") of "the top left cube", ("bottom",)."""
+    lateral = next((word for word in words if word.removesuffix("most") in LATERAL), None)
+    vertical = next((word for word in words if word in VERTICAL), None)
+    grouped = any(child.phrase.words[0] in INSIDE and not is_of_all(child) for child in children)
+    if vertical is None or (grouped and lateral is None):
+        return ()
+    return (vertical,) if lateral is None else (vertical, lateral)
+
+
+def near_side(sides: tuple[str, ...]) -> ParseTree:
+    """What is at a side, or at the corner of two."""
+    sides = tuple(side.removesuffix("most") for side in sides)
+    return closest(sides[0]) if len(sides) == 1 else closest("corner", sides)
+
+
+def closest(noun: str, words: tuple[str, ...] = ()) -> ParseTree:
+    """What is closest to a place."""
+    return ParseTree(
+        Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (ParseTree(Phrase(PhraseKind.NOUN, noun, words, noun)),)
+    )
