@@ -5,7 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import DEGREES, INSIDE, LATERAL, MIDDLES, PLACE_WORDS, SIDED, VERTICAL
+from dcg_torch.names.vocabulary import (
+    DEGREES,
+    INSIDE,
+    LATERAL,
+    MIDDLES,
+    ORDINALS,
+    PLACE_WORDS,
+    SIDED,
+    VERTICAL,
+    is_superlative,
+)
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 NEAREST = "closest to"
@@ -21,6 +31,11 @@ def side_with_a_middle(words: Sequence[str]) -> str | None:
     """The side in whose middle "the top middle cube" is; None where words speak of none, or of more."""
     side = _one_side(words, MIDDLES)
     return side if side is not None and not MIDDLES.isdisjoint(words) else None
+
+
+def picks_by_place(word: str) -> bool:
+    """Does a word of a noun phrase say which of several is meant by its place or its rank?"""
+    return word in SIDED or word in ORDINALS or word.startswith(("of ", "from ")) or is_superlative(word)
 
 
 def side_itself(place: Phrase) -> str | None:

@@ -16,6 +16,7 @@ from dcg_torch.interpretation.plain_places import (
     is_of_all,
     near_side,
     over_and_beyond,
+    picks_by_place,
     side_itself,
     side_with_a_middle,
     told_sides,
@@ -99,7 +100,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
-    middle = None if phrase.plural or children else side_with_a_middle(words)
+    middle = None if phrase.plural or children else side_with_a_middle([w for w in words if picks_by_place(w)])
     if middle is not None:
         words, children = tuple(w for w in words if w not in {*MIDDLES, middle}), (closest(f"{middle} middle"),)
     named = () if phrase.noun in PLACE_WORDS else told_sides(words, children)

@@ -29,13 +29,16 @@ def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> Bo
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
 
-def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> tuple[Object, ...]:
+def places(
+    bounds: Bounds | None, robot: Pose | None, speaker: Pose | None, box: Bounds | None = None
+) -> tuple[Object, ...]:
     """The places that can be spoken of.
 
     Args:
         bounds: of the workspace; None: it has no edges.
         robot: "you" to the speaker.
         speaker: "me".
+        box: around what is there, in whose middle people see "the top middle"; None: the bounds.
     """
     origin = robot or Pose(0.0, 0.0)
     found: list[Object] = []
@@ -50,13 +53,16 @@ def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> t
         mid_x, mid_y, deep, wide = (near + far) / 2, (right + left) / 2, far - near, left - right
         for x, ahead in ((near, "near side"), (far, "far side")):
             add("edge", x, mid_y, (ahead,), (0.0, wide))
-            add(SIDE_MIDDLE, x, mid_y, (ahead,))
             for y, side in ((right, "right side"), (left, "left side")):
                 add("corner", x, y, (ahead, side))
         for y, side in ((right, "right side"), (left, "left side")):
             add("edge", mid_x, y, (side,), (deep, 0.0))
-            add(SIDE_MIDDLE, mid_x, y, (side,))
         add("middle", mid_x, mid_y)
+        near, far, right, left = box or bounds
+        for x, ahead in ((near, "near side"), (far, "far side")):
+            add(SIDE_MIDDLE, x, (right + left) / 2, (ahead,))
+        for y, side in ((right, "right side"), (left, "left side")):
+            add(SIDE_MIDDLE, (near + far) / 2, y, (side,))
     add(GROUND, 0.0, 0.0)
     for kind, pose in (("robot", robot), ("speaker", speaker)):
         if pose is not None:

@@ -72,9 +72,9 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
         apart = spacing(world.objects)
         return replace(world, places=found, unit=apart if apart is not None and apart < _CLOSE else 1.0)
     bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
-    if bounds is None and there:
-        bounds = scene_bounds(there, world.robot)
-    return replace(world, places=places(bounds, world.robot, world.speaker), unit=workspace.unit)
+    box = scene_bounds(there, world.robot) if there else None
+    found = places(bounds or box, world.robot, world.speaker, box)
+    return replace(world, places=found, unit=workspace.unit)
 
 
 def with_places_of_all(world: WorldModel, kinds: Collection[str]) -> WorldModel:
