@@ -50,6 +50,7 @@ from dcg_torch.names.vocabulary import (
     THAN,
     VIEWERS,
     WORKSPACE,
+    counted,
     is_superlative,
 )
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
@@ -107,7 +108,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if named:
         words = tuple(word for word in words if word not in named)
         children = (*children, near_side(named))
-    if not any(map(is_superlative, words)):
+    if not any(map(is_superlative, words)) and counted(words) is None:
         children = in_one_corner(children)
     return together(ParseTree(replace(phrase, words=words), children))
 
@@ -213,6 +214,7 @@ _SEEN_FROM_IT = {
 }
 
 
+_OF_A_PLACE = {"on top of": ("top", "behind"), "above": ("top", "behind"), "under": ("bottom", "in front of")}
 _ANYWHERE = ("in", "on", "of")
 _WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
@@ -275,6 +277,13 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     side = side_itself(phrase) or side if name in OF_TWO else side
     if side is not None and (inside or name in OF_TWO or name == NEAREST):
         name, phrase = NEAREST, replace(phrase, noun=f"{side} middle", words=())
+    if phrase.noun in PLACE_WORDS and name in _OF_A_PLACE:
+        end, beyond = _OF_A_PLACE[name]
+        side = side_itself(phrase)
+        if side in LATERAL and end in tree.phrase.text:  # "on the top of the left side"
+            name, phrase = NEAREST, replace(phrase, noun="corner", words=(end, side))
+        elif end not in tree.phrase.text:  # "below the upper left corner"
+            name = beyond
     if phrase.noun in SIDED:
         sides = tuple(word for word in phrase.words if word not in DEGREES)
         corner = told_sides((*sides, phrase.noun), ())
