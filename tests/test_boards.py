@@ -1,169 +1,182 @@
-"""Rows and columns of a whole scene, places of all that is there, and the lessons on them."""
+"""Places, ranks and groups on a board of blocks that look alike. All commands here were written for this project."""
 
 from __future__ import annotations
 
-import re
-import sys
+import itertools
+import math
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from dcg_torch.interpretation.factor_tree import speaks_of_lines, to_factor_tree
-from dcg_torch.language import default_parser
-from dcg_torch.lessons.arranged import KINDS
-from dcg_torch.lessons.boards import board_scene
-from dcg_torch.lessons.selections import ORDINALS
-from dcg_torch.scene.groups import groups, lines_of_all
-from dcg_torch.scene.layout import layout
-from dcg_torch.scene.ranks import RANKS, ranks
-from dcg_torch.types import Object, ParseTree, PhraseKind, Pose, WorldModel
+from dcg_torch.interpretation.plain_sets import of_its_members
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.scene.clusters import clusters
+from dcg_torch.scene.places import places
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import Percept, Phrase, PhraseKind, Pose
 
-_SEAT = Pose(-2.0, 0.0)
-
-
-def _board(*places: tuple[float, float, float]) -> tuple[Object, ...]:
-    return tuple(Object(f"o{k}", "cube", known=True, position=place) for k, place in enumerate(places))
+STEP = 0.15
+EDGES = (1.0, 2.5, -0.75, 0.75)
+ROBOT = Pose(0.0, 0.0)
+Spots = dict[str, tuple[float, float, int]]
 
 
-def _members(objects: tuple[Object, ...], *attributes: str) -> set[str]:
-    (line,) = (g for g in lines_of_all(objects, 1.0, _SEAT) if {*attributes} <= g.attributes)
-    return set(line.members)
+def meant(text: str, spots: Spots) -> set[str]:
+    """What a command means on a board of ten by ten blocks: id -> (columns to the right, rows up, level)."""
+    things = [
+        Percept(name, "block", None, (1.0 + STEP * up, 0.75 - STEP * right, STEP * level), (STEP, STEP, STEP))
+        for name, (right, up, level) in spots.items()
+    ]
+    model = pretrained()
+    world = model.world_model(things, ROBOT, workspace=Workspace(EDGES, STEP))
+    return {o.id for o in model.ground(text, world).objects}
 
 
-_TRIANGLE = _board(
-    (5.0, 0.0, 0.0), (3.1, 1.0, 0.0), (3.0, -1.0, 0.0), (1.0, 2.0, 0.0), (1.0, 0.1, 0.0), (1.2, -2.0, 0.0)
+def scattered(seed: int) -> Spots:
+    """Eight blocks in eight rows and eight columns, and one on one of the lower half."""
+    rng = np.random.default_rng(seed)
+    columns, rows = rng.permutation(10)[:8].tolist(), sorted(rng.permutation(10)[:8].tolist(), reverse=True)
+    spots = {f"b{k}": (column, row, 0) for k, (column, row) in enumerate(zip(columns, rows, strict=True))}
+    below = f"b{int(rng.integers(5, 8))}"
+    return {**spots, "over": (*spots[below][:2], 1)}
+
+
+@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize(("word", "place"), [("second", 1), ("third", 2), ("fourth", 3)])
+def test_the_second_highest_block_is_so_on_the_board(seed: int, word: str, place: int) -> None:
+    """Two levels have no second, third and fourth: the rows of the board do. Blocks are named from the top row down."""
+    for text in (f"take the {word} highest block", f"the {word} highest block on the board moves one space down"):
+        assert meant(text, scattered(seed)) == {f"b{place}"}, text
+
+
+def test_the_highest_of_many_kinds_is_the_top_of_the_stack() -> None:
+    """Only where all are of one kind are heights mere stacks."""
+    books = [Percept(f"book {k}", "book", None, (1.5, 0.2, 0.04 * k), (0.2, 0.15, 0.04)) for k in range(3)]
+    mugs = [Percept(f"mug {k}", "mug", None, (1.2 + 0.2 * k, -0.4, 0.0), (0.08, 0.08, 0.1)) for k in range(4)]
+    model = pretrained()
+    world = model.world_model([*books, *mugs], ROBOT, workspace=Workspace(EDGES, 0.25))
+    assert [o.id for o in model.ground("take the highest book", world).objects] == ["book 2"]
+
+
+@pytest.mark.parametrize("place", ["in the grid", "on the board", "in the picture", "of the scene", "on the screen"])
+def test_what_is_in_the_picture_is_anywhere_in_it(place: str) -> None:
+    for seed in range(4):
+        spots = scattered(seed)
+        assert meant(f"move the top block {place} to the left", spots) == {"b0"}
+        rightmost = max((s for s in spots if s != "over"), key=lambda s: spots[s][0])
+        if spots[rightmost][:2] != spots["over"][:2]:
+            assert meant(f"take the rightmost block {place}", spots) == {rightmost}
+
+
+MIDDLES: Spots = {
+    **{"top": (5, 9, 0), "bottom": (4, 0, 0), "left": (0, 5, 0), "right": (9, 4, 0), "center": (5, 5, 0)},
+    **{"nw": (0, 9, 0), "ne": (9, 9, 0), "sw": (0, 0, 0), "se": (9, 0, 0)},
+}
+
+
+@pytest.mark.parametrize("side", ["top", "bottom", "left", "right"])
+@pytest.mark.parametrize(
+    "text",
+    [
+        "take the {side} middle block",
+        "take the middle {side} block",
+        "move the block in the middle of the {side} side",
+        "pick up the block at the {side} center",
+    ],
 )
+def test_the_middle_of_a_side_is_a_place(side: str, text: str) -> None:
+    assert meant(text.format(side=side), MIDDLES) == {side}
+
+
+@given(box=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4, unique=True))
+def test_the_middle_of_a_side_is_that_of_the_box_around_what_is_there(box: list[float]) -> None:
+    near, far = sorted(box[:2])
+    right, left = sorted(box[2:])
+    found = places((-5.0, 5.0, -5.0, 5.0), ROBOT, None, (near, far, right, left))
+    at = {tuple(o.attributes): o.position[:2] for o in found if o.type == "middle of a side" and o.position}
+    middle = ((near + far) / 2.0, (right + left) / 2.0)
+    expected = {
+        ("near side",): (near, middle[1]),
+        ("far side",): (far, middle[1]),
+        ("left side",): (middle[0], left),
+        ("right side",): (middle[0], right),
+    }
+    assert at.keys() == expected.keys()
+    assert all(math.dist(at[side], expected[side]) < 1e-9 for side in expected)
+
+
+@pytest.mark.parametrize(("end", "row"), [("top", 9), ("bottom", 0)])
+@pytest.mark.parametrize(("side", "column"), [("left", 0), ("right", 9)])
+def test_the_top_of_a_side_is_a_corner(end: str, row: int, side: str, column: int) -> None:
+    name = next(n for n, spot in MIDDLES.items() if spot == (column, row, 0))
+    assert meant(f"take the block at the {end} of the {side} side", MIDDLES) == {name}
+
+
+COLUMN: Spots = {
+    **{"first": (1, 9, 0), "second": (2, 7, 0), "third": (0, 3, 0), "fourth": (2, 0, 0)},
+    **{"a": (6, 8, 0), "b": (9, 6, 0), "c": (8, 4, 0), "d": (7, 1, 0)},
+}
+
+
+@pytest.mark.parametrize("number", ["first", "second", "third"])
+@pytest.mark.parametrize(
+    "text", ["take the {} block from the top on the left side", "on the left, the {} block from the top"]
+)
+def test_an_ordinal_on_a_side_counts_through_it(number: str, text: str) -> None:
+    """Those on the left side are not its leftmost one alone."""
+    assert meant(text.format(number), COLUMN) == {number}
+
+
+ROW: Spots = {
+    **{"row 1": (2, 5, 0), "row 2": (3, 5, 0), "row 3": (4, 5, 0), "left": (0, 5.4, 0), "above": (3, 7, 0)},
+    **{"foot": (8, 8, 0), "head": (8, 8, 1), "by": (6, 8, 0), "far": (9, 1, 0)},
+}
 
 
 @pytest.mark.parametrize(
-    ("attributes", "meant"),
+    ("text", "expected"),
     [
-        (("line across", "1 from the top"), {"o0"}),
-        (("line across", "2 from the top"), {"o1", "o2"}),
-        (("line across", "1 from the bottom"), {"o3", "o4", "o5"}),
-        (("line across", "3 from the top"), {"o3", "o4", "o5"}),
-        (("line across", "middle line"), {"o1", "o2"}),
-        (("line along", "1 from the left"), {"o3"}),
-        (("line along", "3 from the left"), {"o0", "o4"}),
-        (("line along", "1 from the right"), {"o5"}),
+        ("take the block to the left of the three-block line", {"left"}),
+        ("take the block left of the line of three blocks", {"left"}),
+        ("move the block above the three block row", {"above"}),
+        ("take the top of the two-story tower", {"head"}),
+        ("take the top of the tower", {"head"}),
+        ("take the top block of the two block tower", {"head"}),
     ],
 )
-def test_lines_are_counted_from_either_end(attributes: tuple[str, ...], meant: set[str]) -> None:
-    assert _members(_TRIANGLE, *attributes) == meant
-
-
-def test_of_a_stack_the_top_alone_is_in_a_line() -> None:
-    objects = _board((2.0, 1.0, 0.0), (2.0, 1.0, 1.0), (2.0, -1.0, 0.0), (4.0, 0.0, 0.0))
-    assert _members(objects, "line across", "1 from the bottom") == {"o1", "o2"}
-
-
-def test_lines_are_no_rows_of_their_own() -> None:
-    assert all(not {"line across", "line along"} & g.attributes for g in groups(_TRIANGLE, 1.0, _SEAT))
-
-
-def _rank(objects: tuple[Object, ...], axis: str) -> str:
-    found = ranks(layout(WorldModel(objects, _SEAT)))
-    first = RANKS.index(f"rank: {axis} 1")
-    return " ".join(o.id for o, row in zip(objects, found.tolist(), strict=True) if first in row)
-
-
-def test_the_middle_of_all_is_that_of_the_box_around_it() -> None:
-    crowded = _board(
-        (0.0, 0.0, 0.0), (0.5, 0.5, 0.0), (0.0, 1.0, 0.0), (0.5, -0.6, 0.0), (5.0, 0.0, 0.0), (10.0, 0.0, 0.0)
-    )
-    assert _rank(crowded, "middle") == "o4"
-
-
-def _nodes(text: str) -> str:
-    tree = default_parser().parse(text, ()).tree
-    assert tree is not None
-    found = to_factor_tree(tree, WorldModel(_TRIANGLE, _SEAT))
-    nouns = [node.phrase for node in found.walk() if node.phrase.kind is PhraseKind.NOUN]
-    return "; ".join(", ".join((phrase.noun or "", *phrase.words)) for phrase in nouns)
+def test_what_is_named_by_its_members_is_a_group(text: str, expected: set[str]) -> None:
+    assert meant(text, ROW) == expected
 
 
 @pytest.mark.parametrize(
-    ("text", "nouns"),
+    ("text", "noun", "count", "there", "expected"),
     [
-        ("take the second cube in the third row", "cube, second, from the left; line across, 3 from the top"),
-        (
-            "take the second cube from the right in the top row",
-            "cube, second, from the right; line across, 1 from the top",
-        ),
-        ("take the first cube from the last row", "cube, first, from the left; line across, 1 from the bottom"),
-        ("take the last cube in the second column from the right", "cube, last; line along, 2 from the right"),
-        ("take the cube in the middle row", "cube; line across, middle line"),
-        ("take the cube in the row", "cube; row"),
-        ("take the cube from the top left of the board", "cube; corner, top, left"),
-        ("take the southwesternmost cube", "cube; corner, bottom, left"),
-        ("take the cube closest to the corner of the table", "cube; corner"),
-        ("take the single cube", "cube, alone"),
+        ("the three block line", "block line", 3, ["block"], ("block", ("line", "of 3"))),
+        ("the two story building", "story building", 2, ["block"], (None, ("stack", "of 2"))),
+        ("the block tower", "block tower", None, ["block"], ("block", ("tower",))),
+        ("the block tower", "block tower", None, ["block", "tower"], ("block tower", ())),
+        ("the washing line", "washing line", None, ["shirt"], ("washing line", ())),
+        ("the two book stacks", "book stack", 2, ["book"], ("book stack", ())),
     ],
 )
-def test_places_of_all_in_plain_words(text: str, nouns: str) -> None:
-    assert _nodes(text) == nouns
+def test_only_groups_are_made_of_their_members(
+    text: str, noun: str, count: int | None, there: list[str], expected: tuple[str | None, tuple[str, ...]]
+) -> None:
+    """A class of that name is meant itself, and several groups are no group of several."""
+    phrase = of_its_members(Phrase(PhraseKind.NOUN, text, noun=noun, count=count), frozenset(there))
+    assert (phrase.noun, phrase.words) == expected
 
 
-def _said(tree: ParseTree) -> str:
-    words = [w for w in (*tree.phrase.words, tree.phrase.noun) if w]
-    return f"{' '.join(words)}({' '.join(map(_said, tree.children))})" if tree.children else " ".join(words)
-
-
-@pytest.mark.parametrize(
-    ("text", "read"),
-    [
-        ("move the cube on the left so that it is behind the cone", "move(cube(on(left)) behind(cone))"),
-        ("take the red cube on the left to form a row of three", "take(cube(on(left)))"),
-        ("take the cube that is leftmost and put it on the table", "take(leftmost cube on(table))"),
-        ("the top cube moves left until it is behind the cone", "move(top cube to(left))"),
-        ("the bottom cube takes a neighbour from the left", "take(bottom cube from(left))"),
-        ("take the third highest cube on the left", "take(third highest cube(on(left)))"),
-        ("take the cube on the left that is second from the top", "take(second from the top cube(on(left)))"),
-    ],
-)
-def test_what_comes_of_an_order_does_not_describe_its_object(text: str, read: str) -> None:
-    tree = default_parser().parse(text, ()).tree
-    assert tree is not None
-    assert _said(tree) == read
-
-
-def test_lessons_on_lines_mean_what_they_say() -> None:
-    rng, counted = np.random.default_rng(3), 0
-    for scene in (board_scene(rng) for _ in range(60)):
-        there = {o.id for o in scene.objects}
-        objects = tuple(Object(o.id, o.type, known=True, position=o.position) for o in scene.objects)
-        for text, meant in scene.commands:
-            assert meant <= there
-            named = re.search(rf"in the ({'|'.join(ORDINALS)}) (row|column)$", text)
-            if named is not None:
-                counted += 1
-                end, line = ("top", "line across") if named[2] == "row" else ("left", "line along")
-                number = ORDINALS.index(named[1]) + 1
-                lines = lines_of_all(objects, 1.0, scene.robot)
-                assert any(meant <= set(g.members) for g in lines if {line, f"{number} from the {end}"} <= g.attributes)
-    assert counted > 20
-
-
-def test_lessons_on_boards_are_read_as_orders() -> None:
-    rng, parse = np.random.default_rng(4), default_parser().parse
-    for scene in (board_scene(rng) for _ in range(40)):
-        for text, _ in scene.commands[:3]:
-            tree = parse(text, KINDS).tree
-            assert tree is not None, text
-            in_line = bool(re.search(r"\b(row|column)\b", text))
-            assert speaks_of_lines(to_factor_tree(tree, WorldModel(_TRIANGLE, _SEAT))) == in_line, text
-
-
-def test_groups_are_the_same_when_near_things_are_found_with_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
-    rng = np.random.default_rng(3)
-    for _ in range(20):
-        points = rng.uniform(0.0, 8.0, (int(rng.integers(5, 50)), 3)) * [1.0, 1.0, 0.2]
-        objects = [
-            Object(f"o{k}", "cube", known=True, position=(float(p[0]), float(p[1]), float(p[2])))
-            for k, p in enumerate(points)
-        ]
-        found = []
-        for many in (512, 3):
-            monkeypatch.setattr(sys.modules["dcg_torch.scene.groups"], "_MANY", many)
-            found.append({group.id for group in (*groups(objects), *lines_of_all(objects))})
-        assert found[0] == found[1]
+@given(seed=st.integers(0, 2**32 - 1), count=st.integers(2, 9))
+def test_a_pair_is_two_that_are_each_others_nearest(seed: int, count: int) -> None:
+    points = np.random.default_rng(seed).uniform(0.0, 20.0, (count, 3))
+    apart = np.linalg.norm(points[:, None, :2] - points[None, :, :2], axis=2) + np.diag([np.inf] * count)
+    nearest = apart.argmin(axis=1).tolist()
+    pairs = {(i, j) for i, j in itertools.combinations(range(count), 2) if nearest[i] == j and nearest[j] == i}
+    wide = {pair for pair in pairs if apart[pair] > 0.7}  # what is closer is one spot
+    code = np.zeros(count, dtype=np.int64)
+    found = {tuple(sorted(of)) for of in clusters(points, code, pairs=True) if len(of) == 2}
+    assert wide <= found <= pairs
+    assert not [of for of in clusters(points, code) if len(of) == 2]

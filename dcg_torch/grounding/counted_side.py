@@ -35,7 +35,8 @@ def so_many_on_a_side(
         fit: (things,) log-factor of all but the ranks; -inf of what is not there.
         described: (things,) those that are described about as well as the best; returned where they are enough.
     """
-    number = max((ORDINALS[word] for word in phrase.words if word in ORDINALS), default=0)
+    ordinal = max((ORDINALS[word] for word in phrase.words if word in ORDINALS), default=0)
+    number = max(2, ordinal) if ordinal else 0  # the first is one of several, too
     sides = [(m, side) for m in modifiers if (side := _side(m)) is not None]
     if described.sum() >= number or not sides:
         return described

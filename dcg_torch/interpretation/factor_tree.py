@@ -12,8 +12,9 @@ import numpy as np
 from dcg_torch.interpretation.from_you import from_you
 from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
-from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
+from dcg_torch.interpretation.plain_words import in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import is_board, scene_kind, stands_among
+from dcg_torch.names.normal import heads
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     GROUP_WORDS,

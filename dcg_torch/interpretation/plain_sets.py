@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.normal import heads
 from dcg_torch.names.vocabulary import BUILT_OF, GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -60,27 +61,45 @@ def one_of_those(tree: ParseTree) -> ParseTree:
     return ParseTree(one, (*(c for c in tree.children if c is not of), *of.children[0].children))
 
 
-def of_its_members(tree: ParseTree, there: frozenset[str]) -> ParseTree:
-    """ "The three-block line" is the line of three blocks, "the block tower" the tower of blocks.
+def by_members(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which "the three-block line" is the line of three blocks, "the block tower" the tower of blocks.
 
     Args:
-        tree: of it the root alone is looked at.
-        there: the last words of the names of classes: a "tower" that is there is meant itself.
+        said: the words of the tree.
+        world: a "tower" that is there is meant itself.
     """
-    phrase = tree.phrase
+    if not any(set(noun.split(" ")) & _NAMED_BY_MEMBERS for noun in said.nouns):
+        return tree
+    return _by_members(tree, heads(world.classes))
+
+
+_NAMED_BY_MEMBERS = GROUP_WORDS.keys() | BUILT_OF.keys()
+
+
+def _by_members(tree: ParseTree, there: frozenset[str]) -> ParseTree:
+    children = tuple(_by_members(child, there) for child in tree.children)
+    return ParseTree(of_its_members(tree.phrase, there), children)
+
+
+def of_its_members(phrase: Phrase, there: frozenset[str]) -> Phrase:
+    """A noun phrase, where it is "the three-block line", as that of a group.
+
+    Args:
+        there: the last words of the names of classes.
+    """
     words = (phrase.noun or "").split(" ")
     kind = next((w for w in words if w in GROUP_WORDS or w in BUILT_OF), None)
     number = phrase.count if phrase.count is not None and phrase.count > 1 else counted(phrase.words)
     if phrase.kind is not PhraseKind.NOUN or kind is None or not there.isdisjoint({words[-1], kind}):
-        return tree
+        return phrase
     several = words[-1] != phrase.text.split(" ")[-1]  # "the two block towers" are two
     member = words[: words.index(kind)]
     if several or not ((number and (member or kind in BUILT_OF)) or (member and member[-1] in there)):
-        return tree
+        return phrase
     few = () if number is None else (f"of {number}",)
     said = tuple(dict.fromkeys((*phrase.words, BUILT_OF.get(kind, kind), *few)))
     noun = " ".join(member) or None
-    return replace(tree, phrase=replace(phrase, noun=noun, words=said, plural=noun is not None, count=None))
+    return replace(phrase, noun=noun, words=said, plural=noun is not None, count=None)
 
 
 def of_a_pair(tree: ParseTree) -> ParseTree:

@@ -3,8 +3,6 @@ right is "closest to the right", the middle of a table that is no object of its 
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Iterable
 from dataclasses import replace
 
 from dcg_torch.interpretation.measuring import compared_with
@@ -21,9 +19,8 @@ from dcg_torch.interpretation.plain_places import (
     side_with_a_middle,
     told_sides,
 )
-from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, of_its_members, one_of_those, together
-from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
-from dcg_torch.names.normal import normalise
+from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
+from dcg_torch.interpretation.stacks import end_of_a_stack, from_the_ground, levels_of_stack
 from dcg_torch.names.vocabulary import (
     BESIDE_WHOM,
     BY_COMPASS,
@@ -56,16 +53,6 @@ from dcg_torch.names.vocabulary import (
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 
-@functools.lru_cache(4096)
-def _head(type_: str) -> str:
-    return normalise(type_).split()[-1] if normalise(type_) else ""
-
-
-def heads(types: Iterable[str]) -> frozenset[str]:
-    """The last words of the names of classes."""
-    return frozenset(map(_head, set(types)))
-
-
 def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False, upright: bool = False) -> ParseTree:
     """A parse tree in plain words.
 
@@ -74,7 +61,6 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         flat: does all stand on one level?
         upright: is that level a page or a wall, so that what is over a thing is beyond it as well?
     """
-    tree = of_its_members(tree, there)
     for in_other_words in _FIRST:
         tree = in_other_words(tree)
     phrase = tree.phrase
@@ -194,7 +180,16 @@ def _sided(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
 
 
-_FIRST = (from_the_ground, _sided, one_of_those, of_a_pair, middle_of_set, _farthest_to_a_side, _counted_from_a_side)
+_FIRST = (
+    from_the_ground,
+    end_of_a_stack,
+    _sided,
+    one_of_those,
+    of_a_pair,
+    middle_of_set,
+    _farthest_to_a_side,
+    _counted_from_a_side,
+)
 
 
 def _seen_from_it(place: ParseTree, *, whose: bool) -> str | None:

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.vocabulary import GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
+from dcg_torch.names.vocabulary import DEFINITE, GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -35,13 +35,30 @@ def from_the_ground(tree: ParseTree) -> ParseTree:
     return ParseTree(replace(phrase, words=(*phrase.words, "from the bottom")), (*kept, *ground.children[0].children))
 
 
+def end_of_a_stack(tree: ParseTree) -> ParseTree:
+    """ "Take the top of the tower" is its top thing: no place, as "on top of the tower" is one."""
+    place = tree.children[0] if tree.children else tree
+    if tree.phrase.kind is not PhraseKind.VERB or place.phrase.kind is not PhraseKind.PREPOSITION:
+        return tree
+    said = place.phrase.text.split(" ")
+    end = next((word for word in said if word in _ENDS), None)
+    if end is None or said[0] not in DEFINITE or not (place.children and _is_stack(place.children[0].phrase)):
+        return tree
+    inside = ParseTree(Phrase(PhraseKind.PREPOSITION, "of", ("in",)), place.children)
+    one = ParseTree(Phrase(PhraseKind.NOUN, place.phrase.text, (end,)), (inside,))
+    return replace(tree, children=(one, *tree.children[1:]))
+
+
+def _is_stack(phrase: Phrase) -> bool:
+    return any(GROUP_WORDS.get(word or "", ())[:1] == ("stack",) for word in (phrase.noun, *phrase.words))
+
+
 def levels_of_stack(words: Sequence[str], children: Sequence[ParseTree]) -> tuple[str, ...]:
     """The words of a noun phrase whose object is in a stack: the bottom one is the lowest, and not the nearest."""
     if "bottom" not in words:
         return tuple(words)
     places = (c for c in children if c.phrase.words[:1] and c.phrase.words[0] in INSIDE and len(c.children) == 1)
-    named = (w for c in places for w in (c.children[0].phrase.noun or "", *c.children[0].phrase.words))
-    if not any(GROUP_WORDS.get(word, ())[:1] == ("stack",) for word in named):
+    if not any(_is_stack(c.children[0].phrase) for c in places):
         return tuple(words)
     return tuple("lowest" if word == "bottom" else word for word in words)
 

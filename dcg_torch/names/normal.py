@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import re
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -104,3 +105,13 @@ def singular(word: str) -> str:
     if word.endswith(("shes", "ches", "xes", "sses", "zzes")):
         return word[:-2]
     return word[:-1]
+
+
+@functools.lru_cache(4096)
+def _head(type_: str) -> str:
+    return normalise(type_).split()[-1] if normalise(type_) else ""
+
+
+def heads(types: Iterable[str]) -> frozenset[str]:
+    """The last words of the names of classes."""
+    return frozenset(map(_head, set(types)))
