@@ -52,7 +52,8 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
     x, y = (own[i] - own[j] for own in points.T)
     apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")
-    cluster, members, found = list(range(n)), [[k] for k in range(n)], []
+    cluster, members, found = list(range(n)), [[k] for k in range(n)], list[tuple[int, int, float]]()
+    last = n - len(set(code.tolist()))  # then each class is one
     for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
         left, right = cluster[one], cluster[other]
         if left == right:
@@ -61,4 +62,6 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
         for k in members[-1]:
             cluster[k] = len(members) - 1
         found.append((left, right, distance))
+        if len(found) == last:
+            break
     return found
