@@ -53,15 +53,16 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
     apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")
     cluster, members, found = list(range(n)), [[k] for k in range(n)], list[tuple[int, int, float]]()
-    last = n - len(set(code.tolist()))  # then each class is one
+    last = 2 * n - len(set(code.tolist())) - 1  # then each class is one
     for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
         left, right = cluster[one], cluster[other]
         if left == right:
             continue
-        members.append(members[left] + members[right])
-        for k in members[-1]:
-            cluster[k] = len(members) - 1
+        joined, number = members[left] + members[right], len(members)
+        members.append(joined)
+        for k in joined:
+            cluster[k] = number
         found.append((left, right, distance))
-        if len(found) == last:
+        if number == last:
             break
     return found
