@@ -14,21 +14,34 @@ from making import command_tree
 from dcg_torch.scene.kept_rows import Arrays, KeptRows
 
 
-@pytest.mark.parametrize("most", [None, 1, 2])
-def test_rows_are_found_once_and_come_as_they_are_asked_for(most: int | None) -> None:
+@pytest.mark.parametrize("count", [100, 5_000])
+def test_rows_are_found_once_and_come_as_they_are_asked_for(count: int) -> None:
     asked: list[int] = []
 
     def find(numbers: np.ndarray) -> Arrays:
         asked.extend(numbers.tolist())
-        assert most is None or len(numbers) <= most
+        assert count == 100 or len(numbers) == 1
         return np.repeat(10 * numbers[:, None], 3, axis=1), np.stack([numbers[:, None], -numbers[:, None]])
 
-    rows = KeptRows(find, most)
+    rows = KeptRows(find, count)
     for numbers in ([4, 2], [2], [7, 4, 5], [4, 2, 7, 5], [5, 5, 2]):
         flat, deep = rows.of(numbers)
         assert flat.tolist() == [[10 * j] * 3 for j in numbers]
         assert deep[:, :, 0].tolist() == [numbers, [-j for j in numbers]]
     assert sorted(asked) == [2, 4, 5, 7]
+
+
+def test_of_a_few_all_are_found_once_several_are_asked_for_again() -> None:
+    asked: list[list[int]] = []
+
+    def find(numbers: np.ndarray) -> Arrays:
+        asked.append(numbers.tolist())
+        return (10 * numbers[:, None],)
+
+    rows = KeptRows(find, 9)
+    for numbers in ([4, 2], [2, 7], [1, 0, 8, 3, 4], [6, 5, 7, 2]):
+        assert rows.of(numbers)[0].ravel().tolist() == [10 * j for j in numbers]
+    assert asked == [[4, 2], [7], list(range(9))]
 
 
 def test_a_tree_of_another_process_is_found_among_equal_ones() -> None:

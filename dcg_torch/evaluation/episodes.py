@@ -291,7 +291,7 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
     return Workspace((min(near), max(far), min(right), max(left)), unit)
 
 
-def own_scale(episode: Episode, where: Workspace) -> Workspace:
+def own_scale(percepts: Sequence[Percept], where: Workspace) -> Workspace:
     """The workspace with the scene's own unit where it is of another scale: a table top among rooms."""
-    unit = spacing(episode.percepts()) or where.unit
+    unit = spacing(percepts) or where.unit
     return where if 1.0 / _ONE_SCALE <= unit / where.unit <= _ONE_SCALE else replace(where, unit=unit)

@@ -170,8 +170,9 @@ def _scene(episode: Episode) -> Hashable:
 
 def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
     """Upsilon of an episode: all there is has been perceived, and there are places to speak of."""
-    scale = own_scale(episode, where)
-    return model.world_model(episode.percepts(), episode.pose, episode.speaker_pose, looked=True, workspace=scale)
+    percepts = episode.percepts()
+    scale = own_scale(percepts, where)
+    return model.world_model(percepts, episode.pose, episode.speaker_pose, looked=True, workspace=scale)
 
 
 def answers(

@@ -20,11 +20,16 @@ def _libraries() -> ThreadpoolController:
 def one_thread() -> Iterator[None]:
     """Let torch and BLAS use one thread in a `with` block, and as many as before after it."""
     before = torch.get_num_threads()
-    with _libraries().limit(limits=1):
+    counts = [(library, library.num_threads) for library in _libraries().lib_controllers]
+    several = [(library, count) for library, count in counts if count != 1]  # mostly there are none
+    for library, _ in several:
+        library.set_num_threads(1)
+    if before != 1:
+        torch.set_num_threads(1)
+    try:
+        yield
+    finally:
         if before != 1:
-            torch.set_num_threads(1)
-        try:
-            yield
-        finally:
-            if before != 1:
-                torch.set_num_threads(before)
+            torch.set_num_threads(before)
+        for library, count in several:
+            library.set_num_threads(count)

@@ -142,7 +142,8 @@ def _one_more(mask: Mask) -> Mask:
 
 def _offset(designs: Sequence[DesignMatrix], codes: Sequence[Ints], fixed: Floats) -> Floats | None:
     """(Q, N) score differences by weights that do not move; few of those that fire are not zero."""
-    if not fixed.any() or not (some := _not_zero(designs, fixed)).any():
+    some = _not_zero(designs, fixed)
+    if not some.any():
         return None
     flat, width, totals = some.reshape(-1), fixed.shape[2], []
     for code in codes:
@@ -172,7 +173,7 @@ def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, 
     flat, parts, lengths = mask.reshape(-1), [], []
     for code in codes:
         fires = flat.take(code)
-        parts.append(code.reshape(-1)[fires.reshape(-1)])
+        parts.append(code.take(np.flatnonzero(fires)))
         lengths.append(np.count_nonzero(fires, axis=(1, 2)))
     pairs, length = np.concatenate(parts), np.concatenate(lengths)
     seen = np.zeros(mask.size, dtype=np.bool_)

@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import ASLANT, UNSURE
-from dcg_torch.interpretation.scene_kinds import stands_among
 from dcg_torch.scene.layout import OF_ROBOT
-from dcg_torch.scene.order import TIE, numbered
+from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
@@ -47,10 +46,9 @@ def by_bearing(
     if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    seen = where.position[where.solid & np.isfinite(where.position).all(axis=1), :2] - where.robot
-    if not ways or not stands_among(seen):
+    if not ways or not encoder.among_things:
         return log_psi
-    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
     found = log_psi.copy()
     for k, way in ways:
         found[k] = _that_way(where.position[:, :2] - where.robot, way, None if phrase.plural else kind)

@@ -23,14 +23,14 @@ from dcg_torch.grounding.features import (
     padded,
     ranking,
 )
+from dcg_torch.interpretation.scene_kinds import stands_among
+from dcg_torch.scene.order import numbered
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, WorldModel
 
 Ints = NDArray[np.int64]
 
 _FEW = 256
 """Things up to which it does not pay to look for rows that are alike."""
-_MOST_KINDS = 1 << 14
-"""Kinds of things whose columns are kept from world to world."""
 
 
 @dataclass(frozen=True)
@@ -96,6 +96,17 @@ class WorldEncoder:
     def given(self) -> frozenset[str]:
         """The attributes that some object has."""
         return frozenset().union(*{o.attributes for o in self.world.objects})
+
+    @cached_property
+    def type_number(self) -> Ints:
+        """(things,) equal for things of one type."""
+        return numbered([o.type for o in self.all])
+
+    @cached_property
+    def among_things(self) -> bool:
+        """Does the robot stand among the things?"""
+        where = self.layout
+        return stands_among(where.position[where.solid & np.isfinite(where.position).all(axis=1), :2] - where.robot)
 
     @cached_property
     def number(self) -> dict[str, int]:
@@ -228,23 +239,6 @@ class WorldEncoder:
         else:
             rows = self.features.encode_groundings(kind, self.world, [example.children])
         return rows.reshape(rows.shape[1:])
-
-
-class LastWorld:
-    """The encoder of the world that was last grounded in: what a command teaches is found by grounding there again."""
-
-    def __init__(self) -> None:
-        self._encoder: WorldEncoder | None = None
-        self._kinds: KindColumns = {}
-
-    def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
-        """The one that there is if it is of this very world and under these columns, else a new one."""
-        last = self._encoder
-        if last is None or last.world is not world or last.features is not features:
-            if last is None or last.features is not features or len(self._kinds) > _MOST_KINDS:
-                self._kinds = {}
-            last = self._encoder = WorldEncoder(features, world, self._kinds)
-        return last
 
 
 @dataclass(frozen=True)

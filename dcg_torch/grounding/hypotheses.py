@@ -75,7 +75,10 @@ class Combos:
     @cached_property
     def log_scores(self) -> NDArray[np.float64]:
         """(choices,) of each its hypotheses' log-scores, added up."""
-        return np.array(list(map(sum, self._of_each([beam.log_scores for beam in self.beams]))), dtype=np.float64)
+        columns = [beam.log_scores for beam in self.beams]
+        if len(columns) == 1 and self._given is None:
+            return np.array(columns[0], dtype=np.float64)
+        return np.array(list(map(sum, self._of_each(columns))), dtype=np.float64)
 
     def _of_each(self, columns: Sequence[Sequence[T]]) -> Sequence[tuple[T, ...]]:
         if self._given is None:

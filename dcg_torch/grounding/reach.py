@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
-from dcg_torch.scene.order import numbered
 from dcg_torch.scene.relations import RELATION_NAMES, between
 from dcg_torch.types import NOT, ParseTree, Phrase
 
@@ -50,7 +49,7 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
     if name in _AROUND:
         return _within_reach(log_psi, [of[0] for of in landmarks], encoder)
     if name in _ON_A_SIDE:
-        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder, ASLANT)
+        return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
     return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
 
 
@@ -117,26 +116,29 @@ _REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
 and the share of it by which that is vague."""
 
 
-def _on_the_side(
-    name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder, aslant_by: float
-) -> Floats:
+def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
 
     Args:
         name: one of `_ON_A_SIDE`.
         log_psi: what is known of the one that is meant.
         landmarks: numbers of things.
-        aslant_by: radians off that direction up to which a thing is on that side.
     """
+    aslant = _aslant(name, landmarks, encoder)
+    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - ASLANT) / UNSURE), log_psi)
+    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
+    return found
+
+
+def _aslant(name: str, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) radians by which a thing is off a side of each landmark; NaN for what is nowhere."""
     where, (x, y) = encoder.layout, _ON_A_SIDE[name]
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
     half = where.half[landmarks][:, None]
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
     ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
-    aslant = np.arctan2(aside, ahead)
-    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - aslant_by) / UNSURE), log_psi)
-    found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
-    return found
+    aslant: Floats = np.arctan2(aside, ahead)
+    return aslant
 
 
 _ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
@@ -201,7 +203,7 @@ def by_distance(
     gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
     nearest = gap.min(axis=0)
     there = (np.isfinite(nearest) & encoder.layout.solid).nonzero()[0]
-    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
     away = fold * np.log(gap[:, there] if fold > 0.0 else nearest[None, there])
     ends = np.full(len(kind) + 1, np.inf)
     np.minimum.at(ends, kind[there], away.min(axis=0))
@@ -222,10 +224,11 @@ def nearer_on_a_side(
     """
     if name not in _ON_A_SIDE:
         return None
-    gap = encoder.distances(list(landmarks)) + _TOUCHING
-    beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder, STRAIGHT) > _LIKELY
-    beside &= encoder.layout.solid[list(landmarks)][:, None] & encoder.layout.solid[None]
-    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
+    solid, mark = encoder.layout.solid, list(landmarks)
+    gap = encoder.distances(mark) + _TOUCHING
+    beside = (_aslant(name, mark, encoder) < STRAIGHT) & solid[mark][:, None] & solid
+    beside[np.arange(len(mark)), mark] = False
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
     of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
     nearest = np.full(of_each.max(initial=0) + 1, np.inf)
     np.minimum.at(nearest, of_each[beside], gap[beside])
@@ -234,8 +237,8 @@ def nearer_on_a_side(
     return lost
 
 
-_LIKELY, _SIDE_FOLD = math.log(0.5), 0.7
-"""Log-factor from which a thing is taken to be on a side, and nats for each e-fold by which it is farther off there."""
+_SIDE_FOLD = 0.7
+"""Nats for each e-fold by which a thing is farther off than the nearest on that side."""
 _TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
 _E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(

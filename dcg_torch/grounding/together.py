@@ -20,6 +20,7 @@ from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.names.attributes import size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
+from dcg_torch.scene.neighbours import nearest
 from dcg_torch.scene.order import highest
 from dcg_torch.types import Phrase
 
@@ -85,10 +86,8 @@ def closest_together(position: Floats, candidates: Bools, log_fit: Floats, sever
     Returns:
         (n,) which these are; (n,) the log-factor of every thing, 0 for these.
     """
-    from scipy.spatial import cKDTree  # here: few commands count, and it takes a while
-
     at = np.flatnonzero(candidates)
-    away, near = cKDTree(position[at]).query(position[at], k=several)
+    away, near = nearest(position[at], several)
     wide = away[:, -1] + _TOUCHING * np.linalg.norm(np.ptp(position[at], axis=0)) + 1e-9
     loss = -_TIGHT * np.log(wide / wide.min())
     first = int((loss + log_fit[at]).argmax())

@@ -37,6 +37,7 @@ from dcg_torch.names.vocabulary import (
 from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.geometry import positions
 
 AT_SIDE = frozenset({"on", "at", "to", "in", "towards"})
 """Prepositions that say at which side of the scene a thing is."""
@@ -144,7 +145,7 @@ _NOWHERE = Setting(frozenset(), (False, False), "")
 
 def setting_of(world: WorldModel) -> Setting:
     """Of a world."""
-    at = np.array([o.position for o in world.objects if o.position is not None]).reshape(-1, 3)
+    at = positions([o for o in world.objects if o.position is not None])
     flat = len(at) > 0 and float(np.ptp(at[:, 2])) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
     kind = scene_kind(world)

@@ -32,7 +32,7 @@ def tokens(text: str) -> list[str]:
     ['go', 'to', 'the', 'red', 'cube', ',', 'please', '!']
     """
     text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
-    text = "".join(" " if unicodedata.category(letter)[0] == "C" else letter for letter in text)
+    text = text if text.isprintable() else "".join(" " if unicodedata.category(c)[0] == "C" else c for c in text)
     text = _HYPHENATED.sub(_swap, text)
     for old, new, needs in lx.REWRITES:
         if any(part in text for part in needs):

@@ -10,13 +10,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.fitting.psi import Floats, LogLinearFactor
-from dcg_torch.grounding.encode import LastWorld
-from dcg_torch.grounding.features import FeatureSet
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import FeatureSet, KindColumns
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.types import Example
+from dcg_torch.types import Example, WorldModel
 
 Mask = NDArray[np.bool_]
+
+_MOST_KINDS = 1 << 14
+"""Kinds of things whose columns are kept from world to world."""
+
+
+class LastWorld:
+    """The encoder of the world that was last grounded in: what a command teaches is found by grounding there again."""
+
+    def __init__(self) -> None:
+        self._encoder: WorldEncoder | None = None
+        self._kinds: KindColumns = {}
+
+    def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
+        """The one that there is if it is of this very world and under these columns, else a new one."""
+        last = self._encoder
+        if last is None or last.world is not world or last.features is not features:
+            if last is None or last.features is not features or len(self._kinds) > _MOST_KINDS:
+                self._kinds = {}
+            last = self._encoder = WorldEncoder(features, world, self._kinds)
+        return last
 
 
 @dataclass

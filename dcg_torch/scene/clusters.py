@@ -57,13 +57,17 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
     x, y = (own[i] - own[j] for own in points.T)
     apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")
-    cluster, members, found = list(range(n)), [[k] for k in range(n)], []
+    cluster, members, found = list(range(n)), [[k] for k in range(n)], list[tuple[int, int, float]]()
+    last = 2 * n - len(set(code.tolist())) - 1  # then each class is one
     for one, other, distance in zip(i[order].tolist(), j[order].tolist(), apart[order].tolist(), strict=True):
         left, right = cluster[one], cluster[other]
         if left == right:
             continue
-        members.append(members[left] + members[right])
-        for k in members[-1]:
-            cluster[k] = len(members) - 1
+        joined, number = members[left] + members[right], len(members)
+        members.append(joined)
+        for k in joined:
+            cluster[k] = number
         found.append((left, right, distance))
+        if number == last:
+            break
     return found

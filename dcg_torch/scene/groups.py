@@ -221,9 +221,9 @@ def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tup
     for start in range(0, len(places) or 1, _CHUNK):
         part = slice(start, start + _CHUNK)
         square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(points.T, places[part].T, strict=True))
-        miss = np.where(code[None, :] == wanted[part, None], np.sqrt(square), np.inf)
-        found.append(miss.argmin(axis=1))
-        missed.append(miss[np.arange(len(miss)), found[-1]])
+        square[code[None, :] != wanted[part, None]] = np.inf
+        found.append(square.argmin(axis=1))
+        missed.append(np.sqrt(square[np.arange(len(square)), found[-1]]))
     return np.concatenate(found), np.concatenate(missed)
 
 

@@ -10,18 +10,23 @@ from numpy.typing import NDArray
 
 Arrays = tuple[NDArray[Any], ...]
 
+_SOME, _FEW = 3, 40
+"""New numbers up to which no more than those are found, and numbers all of which are found about as fast as several."""
+_MANY = 1024
+"""Numbers from which one is found after the other: what is worked out of many takes room."""
+
 
 class KeptRows:
     """Rows of arrays by number, kept once they are found: the last axis but one of each array is that of the rows.
 
     Args:
         find: the arrays of some numbers, a row for each.
-        most: numbers that are looked for at once; None: all that are asked for.
+        count: of all numbers. Of a few all are found once several are asked for again.
     """
 
-    def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], most: int | None = None) -> None:
+    def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], count: int) -> None:
         self._find = find
-        self._most = most
+        self._count = count
         self._kept: dict[int, tuple[Arrays, int]] = {}
         self._together: dict[tuple[int, ...], Arrays] = {}
 
@@ -32,8 +37,10 @@ class KeptRows:
 
     def _looked_up(self, numbers: Sequence[int]) -> Arrays:
         new = [j for j in dict.fromkeys(numbers) if j not in self._kept]
-        step = self._most or len(new)
-        for start in range(0, len(new), step or 1):
+        if len(new) > _SOME and self._kept and self._count <= _FEW:
+            new = list(range(self._count))  # one block, of which all further rows are taken
+        step = len(new) or 1 if self._count <= _MANY else 1
+        for start in range(0, len(new), step):
             part = new[start : start + step]
             found = self._find(np.array(part))
             self._together[tuple(part)] = found

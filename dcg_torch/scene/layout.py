@@ -263,11 +263,9 @@ def _of_groups(members: dict[int, Ints], position: Floats, half: Floats) -> None
 
 def _middle(seen: Floats) -> Floats:
     """(2,) the mean of where the objects are that are somewhere."""
-    there = np.isfinite(seen)
-    if there.all() and len(seen):
-        middle: Floats = seen.sum(axis=0) / len(seen)
-        return middle
-    return np.nanmean(seen, axis=0) if there.any() else np.zeros(2)
+    there = np.isfinite(seen).all(axis=1)
+    middle: Floats = seen[there].sum(axis=0) / max(1, np.count_nonzero(there))
+    return middle
 
 
 def _headings(things: tuple[Object, ...], position: Floats, middle: Floats, turned: float | None) -> Floats:

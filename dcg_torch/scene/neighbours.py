@@ -134,6 +134,19 @@ def _close(points: Floats, i: Ints, j: Ints, bound: float) -> tuple[Ints, Ints, 
     return i[near], j[near], apart[near]
 
 
+def nearest(points: Floats, count: int) -> tuple[Floats, Ints]:
+    """(m, count) how far the nearest of (m, 3) points are from each, itself among them, and which these are."""
+    if len(points) <= _FEW:
+        x, y, z = (own[:, None] - own[None, :] for own in points.T)
+        square = x * x + y * y + z * z
+        order = square.argsort(axis=1, kind="stable")[:, :count]
+        return np.sqrt(np.take_along_axis(square, order, axis=1)), order
+    from scipy.spatial import cKDTree  # here: few worlds are so large
+
+    away, number = cKDTree(points).query(points, k=count)
+    return away.reshape(len(points), -1), number.reshape(len(points), -1)
+
+
 def nearest_other(position: Floats) -> Floats:
     """(n,) how far the nearest other thing is from each of (n, 3) positions; NaN where there is none."""
     found = np.full(len(position), np.nan)

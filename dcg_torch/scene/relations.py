@@ -52,9 +52,6 @@ _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, 
 _COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
 _BETWEEN = list(RELATIONS).index("between")
 
-_FEW = 1024
-"""Things up to which all landmarks are looked at together: what is worked out of many takes room."""
-
 
 class Relations:
     """The relation features of all things to landmarks. What is worked out of each is kept: in `standing`, `_standing`.
@@ -65,8 +62,7 @@ class Relations:
 
     def __init__(self, where: Layout) -> None:
         self._where = where
-        self._most = None if len(where.things) <= _FEW else 1
-        self.standing = KeptRows(lambda first: _standing(where, first), self._most)
+        self.standing = KeptRows(lambda first: _standing(where, first), len(where.things))
         self._ordered: dict[str, KeptRows] = {}
 
     def to(
@@ -94,7 +90,7 @@ class Relations:
         if members is None and ordinal is None and count is None:
             if among not in self._ordered:
                 alike = self._where.alike(among)
-                self._ordered[among] = KeptRows(lambda new: (self._orders(new, alike),), self._most)
+                self._ordered[among] = KeptRows(lambda new: (self._orders(new, alike),), len(alike.code))
             (found[_COMPARED],) = self._ordered[among].of(first)
         else:
             kept = None if members is None else Alike.by(np.where(members & ~self._where.place, 0, -1))

@@ -261,9 +261,10 @@ class FeatureSet:
             kinds: what was found before under these columns, of things that are called alike; more is added.
         """
         kinds, denies = {} if kinds is None else kinds, said.denies()
+        (what,) = kinds.setdefault(said, [len(kinds)])  # a number takes less to hash, once for each thing
         rows = []
         for thing, look in zip(things, looks, strict=True):
-            key = said, thing.type, thing.color, thing.attributes, look, thing.rgb if denies else None
+            key = what, thing.type, thing.color, thing.attributes, look, thing.rgb if denies else None
             columns = kinds.get(key)
             if columns is None:
                 columns = kinds[key] = self._columns(facts(said, thing, look))
