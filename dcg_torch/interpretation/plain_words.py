@@ -24,6 +24,7 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     LIKE_RELATION,
+    NEAREST,
     ORDINALS,
     OWNERS,
     PICKED_FROM,
@@ -40,8 +41,6 @@ from dcg_torch.names.vocabulary import (
     is_superlative,
 )
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
-
-NEAREST = "closest to"
 
 
 @functools.lru_cache(4096)

@@ -115,7 +115,7 @@ def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: lis
         sideways = place.name in PLACING["toward"] and place.children[0].is_a("sided_place")
         return moved or (sideways and place.beside and clause.action in VERBS["put"])
     goals = any(other.name in PLACING["goals"] for other in full[: full.index(place)])
-    return (_is_path(place) and not _about_noun(place)) or not goals or clause.action in VERBS["look"]
+    return (_is_path(place) and not _about_noun(place)) or not goals
 
 
 def _unnamed(clause: Clause) -> None:

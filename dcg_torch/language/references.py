@@ -17,7 +17,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        if clause is own or not (clause.objects and clause.tells):
+        if clause is own or clause.refused or not (clause.objects and clause.tells):
             continue
         there = exists(clause)
         more = clause.objects[0]

@@ -46,8 +46,8 @@ class NounPhrases:
             self.nouns.append(item)
         elif self.preposition is not None and (self.joined or not self.preposition.children):
             self.landmark(item, self.preposition)
-        elif self.excluded:
-            self.exclude(item)
+        elif self.excluded or self.is_exception(item):
+            self.exclude(item)  # "the cube, not the sphere"
         elif self.nouns and item.noun and self.copula and not (self.clause.objects or self.relative):
             self.mention(item)  # "behind the cube is a cone"
             for pending in self.pending:
@@ -101,6 +101,15 @@ class NounPhrases:
         self.meant = list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
+
+    def resume(self) -> None:
+        """Go on with what was spoken of before something was ruled out."""
+        self.nouns, self.meant = self.nouns if self.meant is None else self.meant, None
+
+    def is_exception(self, item: Item) -> bool:
+        """ "Something red but no sphere", "(the one that is) no cube and no sphere"."""
+        more = self.conjunction == "but" or bool(self.ruled_out)
+        return item.negative and self.joined and more and self.last.is_a("open")
 
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
@@ -159,7 +168,7 @@ class NounPhrases:
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
         last = self.last
-        if item.is_a("color") and last.stop == item.start and last.noun is None and last.color is None:
+        if item.is_a("color") and last.stop == item.start and last.is_a("bare"):
             return True  # "something red"
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
@@ -172,6 +181,11 @@ class NounPhrases:
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
+        no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
+        if no_such and (self.denied or predicate.negative):
+            self.exclude(predicate)  # "the red thing that is no cup"
+            self.denied = False
+            return
         if self.denied:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))

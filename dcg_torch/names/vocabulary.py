@@ -97,7 +97,8 @@ CELL_STEPS |= {"northwest of": (-1, -1), "northeast of": (-1, 1), "southwest of"
 NUMBER_WORDS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8}
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
-RANKING = frozenset({"closest to", "farthest from", "farthest to"})
+NEAREST = "closest to"
+RANKING = frozenset({NEAREST, "farthest from", "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
 WITHIN = "within"
 """What "on" and "to" a side say of things that are ranked there: they are in that part of the scene."""
