@@ -6,6 +6,8 @@ corner. So a noun phrase gets a word ("spot: corner"), which is compared with wh
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -27,12 +29,14 @@ _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
 _APART = 0.3
 """Metres by which the heights of some things of one name differ at least."""
+_OVER, _FEW = 0.3, 60
+"""Metres from straight over one another up to which some of these are, and how many of them are looked at."""
 _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
 _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
 
 def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest.
+    """Of things at quite other heights, in a room or over one another, "the lower shelf" is the lowest.
 
     Args:
         said: the words of the tree.
@@ -49,10 +53,11 @@ def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
 
 def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     noun = phrase.noun
-    if noun is None or noun in PLACE_WORDS or len(world.classes) < _CLASSES or {*phrase.words} & LATERAL:
+    if noun is None or noun in PLACE_WORDS or {*phrase.words} & LATERAL:
         return False
-    heights = [o.position[2] for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
-    return len(heights) > 1 and max(heights) - min(heights) >= _APART
+    at = [o.position for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    pairs = [(a, b) for a, b in itertools.combinations(at[:_FEW], 2) if abs(a[2] - b[2]) >= _APART]
+    return bool(pairs) and (len(world.classes) >= _CLASSES or any(math.dist(a[:2], b[:2]) <= _OVER for a, b in pairs))
 
 
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
