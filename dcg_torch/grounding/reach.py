@@ -35,8 +35,9 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     """A modifier of a noun phrase that ranks: "the farthest cup behind the lamp" is one of all that are behind it."""
     words, phrase = noun.phrase.words, modifier.phrase
     ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
-    ranks = (ranks or any(ranks_from(c) for c in noun.children if c is not modifier)) and not noun.phrase.plural
     to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
+    counted = to_you and any(ranks_from(c) for c in noun.children if c is not modifier)  # "the second chair behind you"
+    ranks = (ranks or counted) and not noun.phrase.plural
     sided = phrase.words[0] in _ON_A_SIDE and ("to a thing" in phrase.context or to_you)
     if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
         return modifier

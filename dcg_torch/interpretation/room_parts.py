@@ -6,8 +6,6 @@ corner. So a noun phrase gets a word ("spot: corner"), which is compared with wh
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Iterable
 from dataclasses import replace
 
@@ -29,14 +27,12 @@ _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
 _APART = 0.3
 """Metres by which the heights of some things of one name differ at least."""
-_OVER, _FEW = 0.3, 60
-"""Metres from straight over one another up to which some of these are, and how many of them are looked at."""
 _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
 _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
 
 def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """Of things at quite other heights, in a room or over one another, "the lower shelf" is the lowest.
+    """Of things at quite other heights, in a room or on a rack, "the lower shelf" is the lowest.
 
     Args:
         said: the words of the tree.
@@ -56,8 +52,20 @@ def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     if noun is None or noun in PLACE_WORDS or {*phrase.words} & LATERAL:
         return False
     at = [o.position for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
-    pairs = [(a, b) for a, b in itertools.combinations(at[:_FEW], 2) if abs(a[2] - b[2]) >= _APART]
-    return bool(pairs) and (len(world.classes) >= _CLASSES or any(math.dist(a[:2], b[:2]) <= _OVER for a, b in pairs))
+    lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
+    if len(world.classes) >= _CLASSES or highest - lowest < _APART:
+        return highest - lowest >= _APART
+    return any(_holds(o, at) for o in world.objects)
+
+
+def _holds(thing: Object, at: Iterable[tuple[float, float, float]]) -> bool:
+    """Does a thing, such as a rack, reach over several heights at which things are in it?"""
+    if thing.size is None or thing.position is None or thing.size[2] < _APART:
+        return False
+    (x, y, _), (wide, deep, _) = thing.position, thing.size
+    reach = max(wide, deep) / 2.0
+    inside = [z for other_x, other_y, z in at if abs(other_x - x) <= reach and abs(other_y - y) <= reach]
+    return len(inside) > 1 and max(inside) - min(inside) >= _APART
 
 
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:

@@ -178,7 +178,8 @@ def _destination(places: list[Item]) -> Item | None:
 
 def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause) -> None:
     """ "the cube and the cone": the second noun phrase stands beside one before it."""
-    apart = nouns[-1].is_a("place") and not item.is_a("place")
+    one = item.pronoun and clause.action in SETS["be"]  # "a cube near you and one near me"
+    apart = nouns[-1].is_a("somewhere" if one else "place") and not item.is_a("place")
     partner = last_thing(nouns) if apart else nouns[-1]  # "the cube on the left and the cone"
     beside = clause.objects
     if not (apart and partner.is_a("place")):  # but "On the left, the red cone"

@@ -211,10 +211,14 @@ class NounPhrases:
 
     def side(self, item: Item) -> None:
         """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it; "move it left" too."""
-        within = self.last.is_a("place") and self.last.stop == item.start  # "the table center"
+        within = self.last.is_a("place") and self.last.stop == item.start  # "the table's left"
         noun = self.last if within else last_thing(self.nouns)
         item.said = True
-        if not self.says_where():
+        if within and item.is_a("middle"):  # "the table center"
+            noun.children, noun.noun = [noun.copy().behind("of")], item.noun
+        elif self.conjunction and self.last.is_a("edge") and item.is_a("sided_place"):  # "closest to the top and left"
+            self.last.words, self.last.noun = (str(self.last.noun), str(item.noun)), "corner"
+        elif not self.says_where():
             self.pending.append(replace(item.behind("to"), before=list(self.nouns)))
         elif item.determined:
             noun.children.append(item.behind("on"))
