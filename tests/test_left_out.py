@@ -1,4 +1,4 @@
-"""What is left out by its kind ("something red but no cup"), all that is so, and judgements that order nothing.
+"""What is left out by its kind ("something red but no cup"), all that is so, what is said in several turns, and judgements.
 
 Scenes and commands are ours.
 """
@@ -9,7 +9,7 @@ import functools
 
 import pytest
 
-from dcg_torch.language import default_parser
+from dcg_torch.language import default_parser, target_phrase
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
@@ -116,3 +116,35 @@ def test_a_judgement_orders_nothing(text: str) -> None:
 )
 def test_an_order_beside_a_judgement_is_one(text: str, meant: set[str]) -> None:
     assert _meant(text) == meant
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "color", "words", "places"),
+    [
+        ("the star shaped cushion", "cushion", None, {"star"}, {}),
+        ("a yellow oval shaped tray", "tray", "yellow", {"oval"}, {}),
+        ("the piece shaped like a star", "piece", None, set(), {"shape": "star"}),
+        ("the most central bolt", "bolt", None, {"middlemost"}, {}),
+        ("the bolt closest to the top and left", "bolt", None, set(), {"closest to": "corner"}),
+        ("the bolt left of the board center", "bolt", None, set(), {"left of": "center"}),
+        ("the bolt all of the way on the right", "bolt", None, set(), {"on": "right"}),
+        ("take the vase - tall or short? - the tall one", "vase", None, {"tall"}, {}),
+        ("I need a scarf. Green or red? Red please.", "scarf", "red", set(), {}),
+        ("Take the pot. Actually no, leave it. Take the green pan instead.", "pan", "green", set(), {}),
+        ("there is a tray close to you and one far from you. i want the far one", "tray", None, {"far"}, {}),
+        ("the red one next to the blue bin. The left blue bin, I mean.", None, "red", set(), {"next to": "bin"}),
+        ("if you are standing at the shelves and facing them, the stool on the right", "stool", None, set(),
+         {"on": "right"}),
+        ("the man not wearing glasses", "man", None, set(), {"without": "glass"}),
+        ("bald man, wears glasses", "man", None, {"bald"}, {"with": "glass"}),
+        ("The crate at the door moves north", "crate", None, set(), {"at": "door"}),
+    ],
+)  # fmt: skip
+def test_what_is_said_of_the_thing(
+    text: str, noun: str | None, color: str | None, words: set[str], places: dict[str, str]
+) -> None:
+    tree = default_parser().parse(text).tree
+    assert tree is not None
+    meant = target_phrase(tree)
+    told = {c.phrase.words[0]: c.children[0].phrase.noun for c in meant.children}
+    assert (meant.phrase.noun, meant.phrase.color, {*meant.phrase.words}, told) == (noun, color, words, places)

@@ -38,6 +38,9 @@ class _Builder(NounPhrases):
 
     def step(self, item: Item, after: Item) -> None:
         """Read one item; `after` is the next."""
+        joins = item.kind is Kind.AND and (after.kind is not Kind.NOUN or after.negative)
+        if self.meant is not None and (joins or item.kind is Kind.COMMA or item.text == "nor"):
+            self.nouns, self.meant = self.meant, None  # it goes on with what was spoken of before what is ruled out
         if item.kind is Kind.NEGATION:
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
@@ -49,8 +52,6 @@ class _Builder(NounPhrases):
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
             self.conjunction = item.text if item.kind is Kind.AND else ""
-            if item.kind is Kind.COMMA or after.kind is not Kind.NOUN or after.negative:
-                self.resume()
         elif item.kind is Kind.VERB:
             self.verb(item, after)
         elif item.kind is Kind.PREPOSITION:
@@ -63,9 +64,7 @@ class _Builder(NounPhrases):
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
-        if item.text == "nor":
-            self.resume()
-            self.joined = True
+        self.joined = self.joined or item.text == "nor"
         place = after.kind is Kind.PREPOSITION
         told = place or after.kind is Kind.ADVERB or after.participle
         if self.nouns and (self.forced or item.text == "nor"):

@@ -14,18 +14,8 @@ from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 _MOST: Final = "most"
 
 
-class Kind(enum.Enum):
-    """What an item of a command is."""
-
-    VERB = "verb"
-    PREPOSITION = "preposition"
-    NOUN = "noun"
-    RELATIVE = "relative"  # which, that, who
-    NEGATION = "negation"
-    AND = "and"
-    COMMA = "comma"
-    STOP = "stop"
-    ADVERB = "adverb"
+Kind = enum.Enum("Kind", "VERB PREPOSITION NOUN RELATIVE NEGATION AND COMMA STOP ADVERB")
+"""What an item of a command is; RELATIVE is "which", "that" or "who"."""
 
 
 @dataclass(slots=True, eq=False)

@@ -102,10 +102,6 @@ class NounPhrases:
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
 
-    def resume(self) -> None:
-        """Go on with what was spoken of before something was ruled out."""
-        self.nouns, self.meant = self.nouns if self.meant is None else self.meant, None
-
     def is_exception(self, item: Item) -> bool:
         """ "Something red but no sphere", "(the one that is) no cube and no sphere"."""
         more = self.conjunction == "but" or bool(self.ruled_out)
@@ -184,7 +180,6 @@ class NounPhrases:
         no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
         if no_such and (self.denied or predicate.negative):
             self.exclude(predicate)  # "the red thing that is no cup"
-            self.denied = False
             return
         if self.denied:
             thing = None if predicate.pronoun else predicate.noun
