@@ -1,4 +1,4 @@
-"""What is left out by its kind ("something red but no cup"), all that is so, what is said in several turns, and judgements.
+"""What is left out by its kind ("something red but no cup"), all that is so, things told in turns, and judgements.
 
 Scenes and commands are ours.
 """
