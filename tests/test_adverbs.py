@@ -90,3 +90,30 @@ def test_what_ranks_among_all_in_front_is_not_the_nearest_in_front() -> None:
     world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True)
     for text, meant in (("the leftmost trolley in front of the robot", "a"), ("the trolley in front of you", "b")):
         assert [o.id for o in _model().ground(text, world).objects] == [meant]
+
+
+def test_all_on_a_side_and_those_that_are_counted_there() -> None:
+    """Behind, before and beside a robot that is turned."""
+    robot, things = Pose(2.0, -1.0, 2.1), list[Percept]()
+    spots = {
+        "l1": (1.5, 85.0),
+        "l2": (3.0, 95.0),
+        "ahead": (2.0, 4.0),
+        "right": (2.5, -90.0),
+        "back1": (1.4, 180.0),
+        "back2": (3.1, 172.0),
+    }
+    for name, (away, angle) in spots.items():
+        spot = cmath.rect(away, robot.yaw + math.radians(angle))
+        things.append(Percept(name, "barrel", "green", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
+    world = _model().world_model(things, robot=robot, looked=True)
+    for text, meant in (
+        ("the barrels on your left", {"l1", "l2"}),
+        ("all barrels to your left", {"l1", "l2"}),
+        ("the closest barrel on your left", {"l1"}),
+        ("the second barrel on your left", {"l2"}),
+        ("the second barrel behind you", {"back2"}),
+        ("the barrels behind you", {"back1", "back2"}),
+        ("turn to the barrel at your back", {"back1"}),
+    ):
+        assert {o.id for o in _model().ground(text, world).objects} == meant, text

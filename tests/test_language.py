@@ -9,8 +9,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from language_sentences import DEVELOPMENT, HELD_OUT, Sentence
 
+from dcg_torch.experiment.reading import bearing
 from dcg_torch.language import Parse, Parser, default_parser, target_phrase
-from dcg_torch.language.parser import bearing
 from dcg_torch.types import ParseTree, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder", "fire hydrant", "pyramid")

@@ -160,6 +160,37 @@ def test_a_shelf_of_a_thing_is_a_height_on_it(text: str, meant: list[str]) -> No
     assert _told(text, things) == meant
 
 
+def _racks() -> list[Percept]:
+    """Two racks with three shelves, which are no things; a jar in the middle of one."""
+    things = [Percept(f"{side} rack", "rack", None, (3.0, y, 0.0), (0.5, 1.4, 1.9)) for side, y in _SIDES.items()]
+    for side, y in _SIDES.items():
+        for level, z in enumerate((0.1, 0.75, 1.4), 1):
+            shift = 0.02 * level
+            for color, at in (("red", (2.9 + shift, y + 0.4, z)), ("blue", (2.9 - shift, y - 0.4, z + 0.01))):
+                things.append(Percept(f"{side} {color} {level}", "box", color, at, (0.3, 0.3, 0.25)))
+    return [*things, Percept("jar", "jar", "green", (2.9, 1.2, 0.75), (0.15, 0.15, 0.2))]
+
+
+_SIDES = {"left": 1.2, "right": -1.2}
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the red box on the top shelf of the left rack", {"left red 3"}),
+        ("the boxes on the top shelf of the right rack", {"right red 3", "right blue 3"}),
+        ("all red boxes on the middle shelf", {"left red 2", "right red 2"}),
+        ("the red box on the second shelf from the bottom of the right rack", {"right red 2"}),
+        ("the jar on the second shelf", {"jar"}),
+        ("all blue boxes on the lowest shelf", {"left blue 1", "right blue 1"}),
+        ("the top blue box on the right rack", {"right blue 3"}),
+        ("the lower red box on the left rack", {"left red 1"}),
+    ],
+)
+def test_shelves_are_heights_where_the_rack_is_there(text: str, meant: set[str]) -> None:
+    assert {o.id for o in _ground(text, _racks()).objects} == meant
+
+
 def test_in_the_middle_of_a_few_in_a_line_is_their_middle_one() -> None:
     things = [_percept(f"p{k}", "pot", "red", 1.2, 0.9 - 0.2 * k) for k in range(3)]
     things += [_percept(f"s{k}", "spade", "blue", 1.5, -0.2 - 0.3 * k) for k in range(4)]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Callable, Collection, Hashable
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -15,12 +15,11 @@ from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.experiment.factory import make_asking, make_explorer, make_model
 from dcg_torch.experiment.folder import MODEL, ORIGIN, animation_of, lexicon_of, part_of
 from dcg_torch.experiment.plan import trial_commands, trial_generators
+from dcg_torch.experiment.reading import parse_once
 from dcg_torch.experiment.recording.recorder import Recorder
 from dcg_torch.experiment.recording.wording import meant
 from dcg_torch.experiment.robots import make_robot
 from dcg_torch.experiment.trial import run_trial
-from dcg_torch.language import Parse, default_parser
-from dcg_torch.language.parser import bearing
 from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
@@ -49,7 +48,7 @@ def run_one(
         trial,
         commands,
         model,
-        _parse_once,
+        parse_once,
         robot,
         trial_generators(settings.seed, trial)[2],
         spin_step=math.radians(settings.simulator.spin_step),
@@ -73,21 +72,6 @@ def run_one(
         journal(part_of(directory, trial))
     _save_outcome(settings, model, recorder, trial, directory)
     return model
-
-
-_MOST_PARSES = 4096
-_PARSES: dict[tuple[str, Hashable], Parse] = {}
-
-
-def _parse_once(text: str, words: Collection[str]) -> Parse:
-    """Reads a command: people say the same in many trials, in which the robot knows different words."""
-    key = (text, bearing(text, words))
-    found = _PARSES.get(key)
-    if found is None:
-        if len(_PARSES) >= _MOST_PARSES:
-            _PARSES.clear()
-        found = _PARSES[key] = default_parser().parse(text, words)
-    return found
 
 
 def _save_outcome(

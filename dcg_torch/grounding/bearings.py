@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import ASLANT, UNSURE
+from dcg_torch.names.vocabulary import WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
@@ -21,7 +22,7 @@ from dcg_torch.types import Phrase
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_AT = frozenset({"on", "to", "at", "in"})
+_AT = frozenset({"on", "to", "at", "in", WITHIN})
 _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}
 """Preposition before who is spoken to -> the direction in which what is so stands."""
 _SLANT = math.radians(40.0)
@@ -49,9 +50,10 @@ def by_bearing(
     if not ways or not encoder.among_things:
         return log_psi
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
     found = log_psi.copy()
     for k, way in ways:
-        found[k] = _that_way(where.position[:, :2] - where.robot, way, None if phrase.plural else kind)
+        found[k] = _that_way(where.position[:, :2] - where.robot, way, None if whole else kind)
     return found
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
 from dcg_torch.scene.relations import RELATION_NAMES, between
 from dcg_torch.types import NOT, ParseTree, Phrase
@@ -33,8 +34,9 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     """A modifier of a noun phrase that ranks: "the farthest cup behind the lamp" is one of all that are behind it."""
     words, phrase = noun.phrase.words, modifier.phrase
     ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
-    ranks = ranks and not noun.phrase.plural
     to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
+    counted = to_you and any(ranks_from(c) for c in noun.children if c is not modifier)  # "the second chair behind you"
+    ranks = (ranks or counted) and not noun.phrase.plural
     sided = phrase.words[0] in _ON_A_SIDE and ("to a thing" in phrase.context or to_you)
     if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
         return modifier

@@ -36,7 +36,7 @@ from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.plain_sets import by_members, few_together
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, with_corners
 from dcg_torch.interpretation.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
-from dcg_torch.interpretation.shelves import by_shelves
+from dcg_torch.interpretation.shelves import by_shelves, with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
 from dcg_torch.names.attributes import OF_KEY
@@ -125,7 +125,7 @@ def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
         world = with_places_of_all(world, kinds)
     if not any(OF_KEY in word for of in said for word in of.words):
         return world
-    return with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees)
+    return with_tiers(with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees), trees)
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

@@ -4,7 +4,17 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.names.vocabulary import ADVERBS, BEARINGS, BESIDE_WHOM, PLACE_WORDS
+from dcg_torch.names.vocabulary import (
+    ADVERBS,
+    BEARINGS,
+    BESIDE_WHOM,
+    LATERAL,
+    NEAREST,
+    ORDINALS,
+    PLACE_WORDS,
+    RANKING,
+    is_superlative,
+)
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 _YOU = ParseTree(Phrase(PhraseKind.NOUN, "you", (), "you"))
@@ -18,6 +28,8 @@ def from_you(tree: ParseTree, *, among: bool) -> ParseTree:
     """
     children = tuple(_of_place(from_you(child, among=among), among) for child in tree.children)
     phrase = tree.phrase
+    if among and _counts_from_you(phrase, children):
+        children = (*children, _place("", NEAREST))
     said = [word for word in phrase.words if word in ADVERBS and (among or word not in BEARINGS)]
     if phrase.kind is not PhraseKind.NOUN or not said or phrase.noun is None:
         return tree if children == tree.children else replace(tree, children=children)
@@ -40,6 +52,20 @@ def _of_place(place: ParseTree, among: bool) -> ParseTree:
     if side.children or side.phrase.noun not in BEARINGS or not (own or bare):
         return place
     return _place(place.phrase.text, BEARINGS[side.phrase.noun])
+
+
+def _counts_from_you(phrase: Phrase, places: tuple[ParseTree, ...]) -> bool:
+    """ "The second chair on your left": counted from you, where nothing else is said to count from."""
+    ordinals = [word for word in phrase.words if word in ORDINALS]
+    ranked = any(is_superlative(word) or word.startswith("from ") for word in phrase.words)
+    placed = [(p.phrase.words[0], p.children[0].phrase) for p in places if p.phrase.words and p.children]
+    if len(ordinals) != 1 or ranked or any(name in RANKING for name, _ in placed):
+        return False
+    return any(_is_your_side(side) or (name in BEARINGS.values() and _is_you(side)) for name, side in placed)
+
+
+def _is_your_side(phrase: Phrase) -> bool:
+    return phrase.noun in LATERAL and phrase.words == ("your",)
 
 
 def _is_you(phrase: Phrase) -> bool:

@@ -10,6 +10,7 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     MIDDLES,
+    NEAREST,
     ORDINALS,
     PLACE_WORDS,
     SIDED,
@@ -17,8 +18,6 @@ from dcg_torch.names.vocabulary import (
     is_superlative,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
-
-NEAREST = "closest to"
 
 
 def is_of_all(place: ParseTree) -> bool:

@@ -8,7 +8,6 @@ from dataclasses import replace
 from dcg_torch.interpretation.measuring import compared_with
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
-    NEAREST,
     closest,
     in_one_corner,
     is_of_all,
@@ -33,6 +32,7 @@ from dcg_torch.names.vocabulary import (
     LATERAL,
     LIKE_RELATION,
     MIDDLES,
+    NEAREST,
     OF_TWO,
     ORDINALS,
     OWNERS,

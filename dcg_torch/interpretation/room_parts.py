@@ -32,7 +32,7 @@ _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
 
 def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """Of things in a room that hang or stand at quite other heights "the lower shelf" is the lowest.
+    """Of things at quite other heights, in a room or on a rack, "the lower shelf" is the lowest.
 
     Args:
         said: the words of the tree.
@@ -49,10 +49,23 @@ def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
 
 def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     noun = phrase.noun
-    if noun is None or noun in PLACE_WORDS or len(world.classes) < _CLASSES or {*phrase.words} & LATERAL:
+    if noun is None or noun in PLACE_WORDS or {*phrase.words} & LATERAL:
         return False
-    heights = [o.position[2] for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
-    return len(heights) > 1 and max(heights) - min(heights) >= _APART
+    at = [o.position for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
+    if len(world.classes) >= _CLASSES or highest - lowest < _APART:
+        return highest - lowest >= _APART
+    return any(_holds(o, at) for o in world.objects)
+
+
+def _holds(thing: Object, at: Iterable[tuple[float, float, float]]) -> bool:
+    """Does a thing, such as a rack, reach over several heights at which things are in it?"""
+    if thing.size is None or thing.position is None or thing.size[2] < _APART:
+        return False
+    (x, y, _), (wide, deep, _) = thing.position, thing.size
+    reach = max(wide, deep) / 2.0
+    inside = [z for other_x, other_y, z in at if abs(other_x - x) <= reach and abs(other_y - y) <= reach]
+    return len(inside) > 1 and max(inside) - min(inside) >= _APART
 
 
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:

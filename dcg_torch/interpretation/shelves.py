@@ -1,19 +1,29 @@
 """Shelves that are no things of a scene.
 
 What stands before who looks at several heights stands on shelves: "the top shelf" is its top row. "The box on the top
-shelf of the rack" is the highest that is on the rack.
+shelf of the rack" is the highest that is on the rack. Where it is no such picture, for the rack is there as well, a
+noun phrase gets a word for the height ("tier: 3"), which is compared with the height that each thing stands at
+(`with_tiers`).
 """
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.normal import normalise
-from dcg_torch.names.vocabulary import LINE_ENDS, ORDINALS, TIERS
+from dcg_torch.names.vocabulary import LINE_ENDS, ORDINALS, TIER, TIERS
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.upright import is_upright
-from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
+from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
+_STEP = 0.1
+"""Metres that shelves are apart at least."""
+_EVEN = 0.5
+"""Share of the widest step between heights by which others are steps to another shelf as well."""
 _ON = frozenset({"on", "in", "from", "at"})
 _OF = frozenset({"of", "on", "in"})
 _EXTREMES = {0: "highest", -1: "lowest"}
@@ -29,7 +39,87 @@ def by_shelves(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
         return tree
     heads = {normalise(type_).split(" ")[-1] for type_ in world.classes if not type_.startswith(OPAQUE)}
     missing = frozenset(TIERS - heads)
-    return _shelved(tree, missing, is_upright(world.objects, world.viewer or world.robot)) if missing else tree
+    if not missing:
+        return tree
+    upright = is_upright(world.objects, world.viewer or world.robot)
+    found = _shelved(tree, missing, upright)
+    return found if upright else _at_heights(found, missing, world, _tiers(world))
+
+
+def with_tiers(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
+    """The world whose things have the number of their shelf as an attribute, if a tree speaks of one."""
+    if not any(word.startswith(TIER) for tree in trees for node in tree.walk() for word in node.phrase.words):
+        return world
+    tiers = _tiers(world)
+    told = {id_: frozenset({f"{TIER}{tier}"}) for id_, tier in tiers.items()}
+    objects = (replace(o, attributes=o.attributes | told.get(o.id, frozenset())) for o in world.objects)
+    return replace(world, objects=tuple(objects))
+
+
+def _tiers(world: WorldModel) -> dict[str, int]:
+    """Id -> number of the shelf, from the bottom, of what stands at two heights at least; else nothing."""
+    there = [o for o in world.objects if o.position is not None and not o.hypothetical]
+    heights = [o.position[2] for o in there if o.position is not None]
+    high = max(heights, default=0.0) - min(heights, default=0.0)
+    # Not the rack itself.
+    seen = sorted((z, o.id) for o, z in zip(there, heights, strict=True) if o.size is None or o.size[2] < high)
+    steps = [above - below for (below, _), (above, _) in itertools.pairwise(seen)]
+    widest = max(steps, default=0.0)
+    if widest < _STEP:
+        return {}
+    number = itertools.accumulate((step > _EVEN * widest for step in steps), initial=1)
+    return {id_: tier for (_, id_), tier in zip(seen, number, strict=True)}
+
+
+def _at_heights(tree: ParseTree, missing: frozenset[str], world: WorldModel, tiers: Mapping[str, int]) -> ParseTree:
+    phrase = tree.phrase
+    children = tuple(_at_heights(child, missing, world, tiers) for child in tree.children)
+    for k, place in enumerate(children if phrase.kind is PhraseKind.NOUN else ()):
+        shelf = _shelf(place, missing)
+        tier = None if shelf is None else _tier(shelf.phrase, phrase, world, tiers)
+        if shelf is not None and tier is not None:
+            of = [replace(c, phrase=replace(c.phrase, words=("on",))) for c in shelf.children if _is_of(c)]
+            phrase = replace(phrase, words=(*phrase.words, f"{TIER}{tier}"))
+            return ParseTree(phrase, (*children[:k], *of, *children[k + 1 :]))
+    return ParseTree(phrase, children)
+
+
+def _tier(shelf: Phrase, phrase: Phrase, world: WorldModel, tiers: Mapping[str, int]) -> int | None:
+    """The number of "the top shelf", "the second shelf from the bottom", "the middle shelf".
+
+    The top shelf is the topmost on which things of a name stand that stand on several.
+    """
+    every, own = sorted({*tiers.values()}), _of_name(phrase.noun, world, tiers)
+    ends = [LINE_ENDS[word][1] for word in shelf.words if word in LINE_ENDS and LINE_ENDS[word][0] in (0, None)]
+    number = next((ORDINALS[word] for word in shelf.words if word in ORDINALS), None)
+    if "middle" in shelf.words and len(every) % 2:
+        return every[len(every) // 2]
+    among = own if number is None and len(own) > 1 else every
+    if len(ends) > 1 or not (ends or number) or (number or 1) > len(among):
+        return None
+    return among[-(number or 1)] if (*ends, 1)[0] == 1 else among[(number or 1) - 1]
+
+
+def _of_name(noun: str | None, world: WorldModel, tiers: Mapping[str, int]) -> list[int]:
+    """The shelves of what is called so."""
+    named = noun is not None and not is_generic(noun)
+    return sorted({tiers[o.id] for o in world.objects if named and o.id in tiers and _is_called(noun, o)})
+
+
+def _is_called(noun: str | None, thing: Object) -> bool:
+    return noun is not None and thing.type is not None and names_one_of(noun, (thing.type,))
+
+
+def _shelf(place: ParseTree, missing: frozenset[str]) -> ParseTree | None:
+    """The shelf that a place is on."""
+    shelf = place.children[0] if len(place.children) == 1 else place
+    name = place.phrase.words[0] if place.phrase.words else ""
+    on = place.phrase.kind is PhraseKind.PREPOSITION and name in _ON and shelf.phrase.noun in missing
+    return shelf if on else None
+
+
+def _is_of(place: ParseTree) -> bool:
+    return place.phrase.words[:1] != () and place.phrase.words[0] in _OF and len(place.children) == 1
 
 
 def _shelved(tree: ParseTree, missing: frozenset[str], upright: bool) -> ParseTree:
@@ -46,11 +136,10 @@ def _shelved(tree: ParseTree, missing: frozenset[str], upright: bool) -> ParseTr
 
 def _height_on(place: ParseTree, missing: frozenset[str]) -> tuple[str, ParseTree] | None:
     """Of "on the top shelf of the rack": the highest, and "on the rack"."""
-    shelf = place.children[0] if len(place.children) == 1 else place
-    name = place.phrase.words[0] if place.phrase.words else ""
-    if place.phrase.kind is not PhraseKind.PREPOSITION or name not in _ON or shelf.phrase.noun not in missing:
+    shelf = _shelf(place, missing)
+    if shelf is None:
         return None
-    of = [c for c in shelf.children if c.phrase.words[:1] and c.phrase.words[0] in _OF and len(c.children) == 1]
+    of = [c for c in shelf.children if _is_of(c)]
     ends = [LINE_ENDS[word] for word in shelf.phrase.words if word in LINE_ENDS]
     if (
         len(of) != 1

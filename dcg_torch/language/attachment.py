@@ -38,6 +38,9 @@ class _Builder(NounPhrases):
 
     def step(self, item: Item, after: Item) -> None:
         """Read one item; `after` is the next."""
+        joins = item.kind is Kind.AND and (after.kind is not Kind.NOUN or after.negative)
+        if self.meant is not None and (joins or item.kind is Kind.COMMA or item.text == "nor"):
+            self.nouns, self.meant = self.meant, None  # it goes on with what was spoken of before what is ruled out
         if item.kind is Kind.NEGATION:
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
@@ -49,8 +52,6 @@ class _Builder(NounPhrases):
             still = item.text == "or" and self.was_denied  # "that aren't red or blue"
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
             self.conjunction = item.text if item.kind is Kind.AND else ""
-            if item.kind is Kind.COMMA and self.meant is not None:
-                self.nouns, self.meant = self.meant, None
         elif item.kind is Kind.VERB:
             self.verb(item, after)
         elif item.kind is Kind.PREPOSITION:
@@ -59,10 +60,11 @@ class _Builder(NounPhrases):
             self.adverb(item, after)
         elif item.kind is Kind.NOUN and not self.is_subject(item, after):
             self.noun(item)
-            self.joined = self.forced = self.excluded = False
+            self.joined = self.forced = self.excluded = self.denied = False
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
+        self.joined = self.joined or item.text == "nor"
         place = after.kind is Kind.PREPOSITION
         told = place or after.kind is Kind.ADVERB or after.participle
         if self.nouns and (self.forced or item.text == "nor"):
@@ -86,10 +88,13 @@ class _Builder(NounPhrases):
             self.last.words = tuple(word for word in self.last.words if word != extreme)
             item.words, item.forced = (f"{extreme} {item.name}",), True
         item.before, item.beside = list(self.nouns), self.joined
+        alike = [place for place in self.pending if place.forced] if item.forced and not self.relative else []
+        if self.joined and alike and self.clause.action not in VERBS["put"]:
+            item.before = list(alike[-1].before)  # "that is on the desk by the door and is not near the lamp"
+        elif self.joined and self.denied and self.pending and len(self.nouns) > 1:
+            item.before.pop()  # "on the sofa and not on the bed"
         if self.denied:
-            item.words, self.denied = (f"not {item.name}",), False
-            if self.joined and self.pending and len(self.nouns) > 1:
-                item.before.pop()  # "on the sofa and not on the bed"
+            item.words, self.denied, self.was_denied = (f"not {item.name}",), False, True
         self.preposition = item
         self.pending.append(item)
         self.forced = self.joined = False

@@ -45,23 +45,15 @@ def _features(word: str) -> dict[str, float]:
     told = {part: GRAMMAR["step"] * (max(known.values()) - often) for part, often in known.items()}
     color, plain = normal_color(word), word.replace("'", "").isalnum() and word.isascii() and len(word) <= _LONGEST
     asked = {
-        "digits": word.isdecimal(),
-        "letter": len(word) == 1 and word.isalpha(),
-        "normal": word in NORMAL,
-        "color": color in SINGLE_COLORS,
-        "basic_color": color in SETS["basic_colors"],
-        "open": plain and not (word.isdecimal() or is_fixed(word)),
-        "long": len(word) > _SHORT,
-        "compared": is_compared(word),
-        "unknown": not known and stem == word,
-        "plural": base != word,
-        "form": stem != word or (word, "v") in irregular(),
-        "derived": stem != word,
-        "closed": word in _CLOSED,
+        "digits": word.isdecimal(), "letter": len(word) == 1 and word.isalpha(), "normal": word in NORMAL,
+        "color": color in SINGLE_COLORS, "basic_color": color in SETS["basic_colors"], "long": len(word) > _SHORT,
+        "open": plain and not (word.isdecimal() or is_fixed(word)), "compared": is_compared(word),
+        "unknown": not known and stem == word, "plural": base != word, "derived": stem != word,
+        "form": stem != word or (word, "v") in irregular(), "closed": word in _CLOSED,
         "command": base in SETS["commands"],
         **{ending: word.endswith(ending) for ending in ("ing", "ed", "ly", "s")},
         **{name: word in SETS[name] for name in _ASKED},
-    }
+    }  # fmt: skip
     told |= dict.fromkeys((name for name, holds in asked.items() if holds), 0.0)
     if "n" in told:
         told["n"] += next((less for name, less in GRAMMAR["seldom_nouns"].items() if name in told), 0.0)

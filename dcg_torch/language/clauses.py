@@ -66,10 +66,10 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
-            while clauses[-1] and clauses[-1][-1].kind in (
-                _JOINTS if tail and tail[0].kind in _JOINTS else _BEFORE_VERB
-            ):
+            goes = _BEFORE_VERB
+            while clauses[-1] and clauses[-1][-1].kind in goes:
                 tail.insert(0, clauses[-1].pop())
+                goes = _JOINTS if tail[0].kind in _JOINTS else _BEFORE_VERB
             clauses.append([*tail, item])
             continue
         elif item.kind is Kind.NOUN and _subject(items, k):

@@ -14,18 +14,8 @@ from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 _MOST: Final = "most"
 
 
-class Kind(enum.Enum):
-    """What an item of a command is."""
-
-    VERB = "verb"
-    PREPOSITION = "preposition"
-    NOUN = "noun"
-    RELATIVE = "relative"  # which, that, who
-    NEGATION = "negation"
-    AND = "and"
-    COMMA = "comma"
-    STOP = "stop"
-    ADVERB = "adverb"
+Kind = enum.Enum("Kind", "VERB PREPOSITION NOUN RELATIVE NEGATION AND COMMA STOP ADVERB")
+"""What an item of a command is; RELATIVE is "which", "that" or "who"."""
 
 
 @dataclass(slots=True, eq=False)
@@ -160,9 +150,11 @@ def last_thing(nouns: Sequence[Item]) -> Item:
 
 def deny(noun: Item, other: Item) -> None:
     """ "The cube, but not the red one", "not the one on the left": what is said of the other does not hold."""
-    if noun.noun is None and other.determined and noun.text.endswith(" one"):
+    bare = other.is_a("empty") and noun.start < other.start  # "the red one, not the cup"
+    if noun.noun is None and other.determined and noun.text.endswith(" one") and not bare:
         noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
     if other.noun not in {None, noun.noun}:
+        noun.children += [other.behind("except")] if noun.is_a("open") and other.is_a("kind") else []
         return
     of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
     for word in (None if of_one else other.color, *other.words):
@@ -189,6 +181,9 @@ def settle_words(noun: Item) -> None:
         elif place.name in GRAMMAR["isolation"] and below.is_a("the_rest"):  # "the cube away from the others"
             noun.words, below.said = (*noun.words, *GRAMMAR["isolation"][place.name].split()), True
             noun.children.remove(place)
+    ranks = any(map(is_superlative, noun.words)) or any(place.name in PLACING["extremes"] for place in noun.children)
+    if ranks and noun.is_a("whatever"):
+        noun.words, noun.plural = noun.words[1:], False  # "whatever is closest to you"
     if "each other" in noun.words[1:]:  # "side by side" becomes the preposition "next to" with another such thing
         at = noun.words.index("each other")
         other = Item(noun.kind, noun.stop, noun.stop, "", ("each other",), noun.noun, noun.color, pronoun=True)

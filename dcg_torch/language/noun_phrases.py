@@ -90,7 +90,7 @@ class NounPhrase:
 
     def _color(self, token: Token) -> int:
         after = self.tokens[self.at + 1].text
-        if self.tokens[self.at + 1].tag == "MOD" and after.endswith("ed") and after not in SETS["color_fillers"]:
+        if self.tokens[self.at + 1].tag == "MOD" and self.tokens[self.at + 1].value[0].endswith("ed"):
             self.item.words += (f"{token.value[0]} {after}",)  # "white-haired": it is no colour of the whole
             return 2
         if self.item.color is not None:  # "the red and blue tower": the first is its colour

@@ -10,7 +10,6 @@ from collections.abc import Collection, Hashable, Sequence
 from dataclasses import dataclass, replace
 
 from dcg_torch.english.dictionary import english
-from dcg_torch.english.forms import singular
 from dcg_torch.language.attachment import build
 from dcg_torch.language.candidates import is_content
 from dcg_torch.language.clauses import Clause, split
@@ -199,25 +198,6 @@ def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:
     top = readings[0].log_weight
     total = top + math.log(sum(math.exp(reading.log_weight - top) for reading in readings))
     return tuple(Reading(r.tree, r.log_weight - total, r.rules, r.unread) for r in readings)
-
-
-def bearing(text: str, vocabulary: Collection[str]) -> Hashable:
-    """What of a vocabulary bears on how a text is read: where it is equal, `Parser.parse` says the same of the text.
-
-    That is how misspelt words are mended, and the nouns that the text may speak of.
-    """
-    if len(text) > MAX_CHARACTERS:
-        return text, frozenset()  # it is refused, whatever is known
-    known, (words, named) = frozenset(normal_noun(noun) for noun in vocabulary), _written(text)
-    mended = mend(words, known | named) if len(words) <= MAX_WORDS else list(words)
-    said = {form for word in (*words, *mended) for form in (word, singular(word))}
-    return tuple(mended), frozenset(noun for noun in known if said.issuperset(noun.split()))
-
-
-@functools.lru_cache(maxsize=1024)
-def _written(text: str) -> tuple[tuple[str, ...], frozenset[str]]:
-    """The words of a text, and those that are written like names."""
-    return tuple(tokens(text)), names(text)
 
 
 @functools.cache

@@ -88,12 +88,14 @@ class _Phrases:
         return i + 1
 
     def pronoun(self, i: int) -> int:
-        text = self.tokens[i].text
+        text, apart = self.tokens[i].text, self.before.kind is Kind.COMMA
         item = self.add(Kind.NOUN, i, i + 1, self.tokens[i].value if " " in text else ())  # "each other"
         item.noun = PRONOUNS.get(text)
         item.pronoun = item.noun is None
         if text in SETS["questions_as_things"]:  # "(drop) what you are holding"
             item.determined = True
+            item.plural = text in SETS["all_things"] and not apart  # but "the cube, whatever it is"
+            item.words = ("all",) * item.plural
             self.add(Kind.RELATIVE, i, i + 1)
         return i + 1
 

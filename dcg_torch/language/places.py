@@ -115,7 +115,7 @@ def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: lis
         sideways = place.name in PLACING["toward"] and place.children[0].is_a("sided_place")
         return moved or (sideways and place.beside and clause.action in VERBS["put"])
     goals = any(other.name in PLACING["goals"] for other in full[: full.index(place)])
-    return (_is_path(place) and not _about_noun(place)) or not goals or clause.action in VERBS["look"]
+    return (_is_path(place) and not _about_noun(place)) or not goals
 
 
 def _unnamed(clause: Clause) -> None:
@@ -178,7 +178,8 @@ def _destination(places: list[Item]) -> Item | None:
 
 def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause) -> None:
     """ "the cube and the cone": the second noun phrase stands beside one before it."""
-    apart = nouns[-1].is_a("place") and not item.is_a("place")
+    one = item.pronoun and clause.action in SETS["be"]  # "a cube near you and one near me"
+    apart = nouns[-1].is_a("somewhere" if one else "place") and not item.is_a("place")
     partner = last_thing(nouns) if apart else nouns[-1]  # "the cube on the left and the cone"
     beside = clause.objects
     if not (apart and partner.is_a("place")):  # but "On the left, the red cone"

@@ -17,7 +17,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     """What other sentences say of the object, or of a landmark: "It is behind the cube.", "... The red one.",
     "The laptop on the desk. The desk near the door."."""
     for clause in clauses:
-        if clause is own or not (clause.objects and clause.tells):
+        if clause is own or clause.refused or not (clause.objects and clause.tells):
             continue
         there = exists(clause)
         more = clause.objects[0]
@@ -45,7 +45,7 @@ def named_again(clause: Clause, clauses: Sequence[Clause]) -> Item | None:
     more = clause.objects[0] if len(clause.objects) == 1 and not clause.verb else END
     tops = [top for other in clauses[: clauses.index(clause)] for top in (*other.objects, *other.places)]
     below = [node for top in tops for child in top.children for node in child.walk()]
-    same = [node for node in below if node.noun == more.noun is not None and None in (node.color, more.color)]
+    same = [n for n in below if n.noun == more.noun is not None and (n.color in {None, more.color} or not more.color)]
     return same[-1] if same and more.definite and all(top.noun != more.noun for top in tops) else None
 
 
@@ -91,6 +91,9 @@ def about_it(noun: Item) -> bool:
 
 def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
     """ "We need a lid. Forget the lid.", "the cup. No, I don't need a cup": what a later clause denies by its name."""
+    after = next((clause for clause in later if clause.verb or clause.objects or clause.places), Clause())
+    if after.action in VERBS["shun"] and not after.places and any(one.is_a("back") for one in after.objects):
+        return True  # "Take the lid. No, leave it."
     denied = (main_object(clause) for clause in later if clause.negated)
     return noun.noun is not None and any(one and one.noun == noun.noun and one.is_a("empty") for one in denied)
 
@@ -153,8 +156,8 @@ def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
     """ "There is a tall plant and a short one": plants, of which nothing else is said."""
     told = next((clause.objects for clause in clauses if clause.action in SETS["be"] and len(clause.objects) > 1), [])
     nouns = {noun.noun for noun in told if noun.noun is not None}
-    alike = len(nouns) == 1 and not any(noun.definite or noun.children for noun in told)
-    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True)] if alike else []
+    alike = len(nouns) == 1 and not any(noun.definite for noun in told)
+    return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True, children=[])] if alike else []
 
 
 def _so_many_of(named: Item, one: Item, clauses: Sequence[Clause]) -> list[Item]:

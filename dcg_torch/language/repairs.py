@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PLACING, SETS
-from dcg_torch.names.evidence import FAR_APART, steps_apart
+from dcg_torch.names.evidence import is_akin
 
 _SAYING = frozenset({Kind.VERB, Kind.NOUN, Kind.PREPOSITION})
 
@@ -42,21 +42,10 @@ def _taken_back(said: Sequence[Item], new: Item) -> int:
         return 0
     fits = [k for k, item in enumerate(said) if item.kind is new.kind and not item.is_a("someone")]
     objects = [k for k in fits if new.kind is Kind.NOUN and (k == 0 or said[k - 1].kind is not Kind.PREPOSITION)]
-    if objects and fits[-1] not in objects and _is_akin(new.noun, said[fits[-1]].noun, said[objects[-1]].noun):
+    landmark = said[fits[-1]].noun if objects and fits[-1] not in objects else None
+    if landmark not in {None, *SETS["places"]} and is_akin(new.noun, landmark, said[objects[-1]].noun):
         return fits[-1]  # "the pillow on the bed, no, the couch"
     return (objects or fits or [len(said)])[-1]
-
-
-def _is_akin(new: str | None, landmark: str | None, thing: str | None) -> bool:
-    """Is a noun rather said for a landmark than for the thing that is meant?"""
-    if new is None or landmark is None or landmark in SETS["places"]:
-        return False
-    apart = FAR_APART if thing is None else steps_apart(new, thing)
-    return steps_apart(new, landmark) + 1 < min(apart, _AKIN)
-
-
-_AKIN = 8
-"""Steps from which nouns are hardly said for one another."""
 
 
 def _speak_of(was: Item, new: list[Item], old: Item) -> None:

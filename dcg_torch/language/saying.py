@@ -46,8 +46,8 @@ class NounPhrases:
             self.nouns.append(item)
         elif self.preposition is not None and (self.joined or not self.preposition.children):
             self.landmark(item, self.preposition)
-        elif self.excluded:
-            self.exclude(item)
+        elif self.excluded or self.is_exception(item):
+            self.exclude(item)  # "the cube, not the sphere"
         elif self.nouns and item.noun and self.copula and not (self.clause.objects or self.relative):
             self.mention(item)  # "behind the cube is a cone"
             for pending in self.pending:
@@ -101,6 +101,11 @@ class NounPhrases:
         self.meant = list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
+
+    def is_exception(self, item: Item) -> bool:
+        """ "Something red but no sphere", "(the one that is) no cube and no sphere"."""
+        more = self.conjunction == "but" or bool(self.ruled_out)
+        return item.negative and self.joined and more and self.last.is_a("open")
 
     def names_it(self, item: Item) -> bool:
         """ "A green thing, the ball": the second noun phrase names what the first leaves open."""
@@ -159,7 +164,7 @@ class NounPhrases:
     def repeats(self, item: Item) -> bool:
         """Whether a comma joins more of the same thing: "the drill, yellow, ...", "the cone, the yellow one"."""
         last = self.last
-        if item.is_a("color") and last.stop == item.start and last.noun is None and last.color is None:
+        if item.is_a("color") and last.stop == item.start and last.is_a("bare"):
             return True  # "something red"
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
@@ -172,6 +177,10 @@ class NounPhrases:
     def merge(self, noun: Item, predicate: Item) -> None:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
+        no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
+        if no_such and (self.denied or predicate.negative):
+            self.exclude(predicate)  # "the red thing that is no cup"
+            return
         if self.denied:
             thing = None if predicate.pronoun else predicate.noun
             self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
@@ -197,10 +206,14 @@ class NounPhrases:
 
     def side(self, item: Item) -> None:
         """ "the sphere, left": a side with no preposition; "the sphere, my left" is on it; "move it left" too."""
-        within = self.last.is_a("place") and self.last.stop == item.start  # "the table center"
+        within = self.last.is_a("place") and self.last.stop == item.start  # "the table's left"
         noun = self.last if within else last_thing(self.nouns)
         item.said = True
-        if not self.says_where():
+        if within and item.is_a("middle"):  # "the table center"
+            noun.children, noun.noun = [noun.copy().behind("of")], item.noun
+        elif self.conjunction and self.last.is_a("edge") and item.is_a("sided_place"):  # "closest to the top and left"
+            self.last.words, self.last.noun = (str(self.last.noun), str(item.noun)), "corner"
+        elif not self.says_where():
             self.pending.append(replace(item.behind("to"), before=list(self.nouns)))
         elif item.determined:
             noun.children.append(item.behind("on"))

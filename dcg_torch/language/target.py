@@ -31,7 +31,8 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
             continue
         target = main_object(clause)
         taken_back = target is not None and references.denied_later(target, clauses[n + 1 :])
-        penalty = TARGETS["negated"] if clause.negated or taken_back else 0.0
+        clause.negated = clause.negated or taken_back
+        penalty = TARGETS["negated"] if clause.negated else 0.0
         if target is not None:
             found.append(Mention(target, clause, _object_score(target, clause, clauses, found) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:

@@ -233,6 +233,22 @@ def steps_apart(one: str, other: str) -> int:
 
 
 _MAIN, _UP, _SHORTEST = 2, 5, 3
+
+
+def is_akin(new: str | None, other: str | None, thing: str | None) -> bool:
+    """Is a noun rather said for another thing than for one?
+
+    >>> is_akin("couch", "bed", "pillow"), is_akin("cushion", "bed", "pillow")
+    (True, False)
+    """
+    if new is None or other is None:
+        return False
+    apart = FAR_APART if thing is None else steps_apart(new, thing)
+    return steps_apart(new, other) + 1 < min(apart, _AKIN)
+
+
+_AKIN = 8
+"""Steps from which nouns are hardly said for one another."""
 FAR_APART = 12
 
 

@@ -96,7 +96,9 @@ SPOT = "spot: "
 """Begins the attribute that tells whether a thing is in a corner of a room."""
 LEVEL = "level: "
 """Begins the attributes that tell how many levels of its stack are below a thing, and how many above it."""
-WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, LEVEL)
+TIER = "tier: "
+"""Begins the attribute that tells on which shelf a thing stands, from the bottom, where shelves are no things."""
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, LEVEL, TIER)
 """Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
@@ -106,7 +108,8 @@ CELL_STEPS |= {"northwest of": (-1, -1), "northeast of": (-1, 1), "southwest of"
 NUMBER_WORDS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8}
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
-RANKING = frozenset({"closest to", "farthest from", "farthest to"})
+NEAREST = "closest to"
+RANKING = frozenset({NEAREST, "farthest from", "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
 WITHIN = "within"
 """What "on" and "to" a side say of things that are ranked there: they are in that part of the scene."""
