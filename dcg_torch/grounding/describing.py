@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import by_bearing
+from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
@@ -20,7 +21,8 @@ from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.outermost import outermost
-from dcg_torch.grounding.reach import by_distance, inside_of, means_all, nearer_on_a_side, of_all, of_denied
+from dcg_torch.grounding.outlines import by_outline
+from dcg_torch.grounding.reach import by_distance, means_all, nearer_on_a_side, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -116,8 +118,7 @@ def _log_psi(
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
     if denied:
         return log_psi
-    outside = inside_of(name, landmarks, encoder)
-    log_psi = log_psi if outside is None else log_psi + outside
+    log_psi = by_outline(name, log_psi, landmarks, encoder)
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
@@ -206,7 +207,7 @@ def comparison_set(
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
-    described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
+    described = by_that_name(phrase, _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET), own, encoder)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)

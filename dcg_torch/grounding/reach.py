@@ -56,11 +56,21 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
 
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all."""
-    gap, reach = _gaps(landmarks, encoder)
-    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
+    near = within_reach(landmarks, encoder)
     found = np.where(np.isfinite(near), near, log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
+
+
+def within_reach(landmarks: Sequence[int], encoder: WorldEncoder, up_to: float | None = None) -> Floats:
+    """(combos, things) how surely each thing stands close to a landmark; NaN where nobody knows.
+
+    Args:
+        up_to: units; None: `_REACH`, or `_STEP` where nobody says how large things are.
+    """
+    gap, reach = _gaps(landmarks, encoder)
+    reach = reach if up_to is None else up_to
+    return np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
 
 
 def of_denied(

@@ -19,6 +19,7 @@ from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.containers import in_what_holds_it
+from dcg_torch.interpretation.faces import by_faces
 from dcg_torch.interpretation.factor_tree import (
     Setting,
     coordinated,
@@ -87,7 +88,10 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     ]
 
 
-_REWRITES = (by_rooms, by_compounds, by_corners, by_heights, by_levels, by_shelves, by_middles, few_together)
+_REWRITES = (
+    *(by_rooms, by_compounds, by_faces, by_corners, by_heights, by_levels, by_shelves, by_middles),
+    few_together,
+)
 """What turns words into others that say the same in a scene."""
 
 

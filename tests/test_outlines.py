@@ -1,0 +1,101 @@
+"""Ends and sides of what has extents, and who is compared by name."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import pytest
+
+from dcg_torch.model.pretrain import pretrained
+from dcg_torch.types import Percept, Pose
+
+Three = tuple[float, float, float]
+SEAT = (0.4, 0.4, 0.5)
+
+
+def percept(id_: str, type_: str, x: float, y: float, size: Three, z: float | None = None) -> Percept:
+    return Percept(id_, type_, None, (x, y, size[2] / 2.0 if z is None else z), size)
+
+
+BENCH_ROOM = [  # a workbench along y, stools around it, a sink beyond one long side and a gate beyond one end
+    percept("workbench", "workbench", 4.0, 2.0, (1.0, 3.0, 0.9)),
+    *(percept(f"east{k}", "stool", 4.8, 1.2 + 0.8 * k, SEAT) for k in range(3)),
+    *(percept(f"west{k}", "stool", 3.2, 1.2 + 0.8 * k, SEAT) for k in range(3)),
+    percept("north", "stool", 4.0, 3.8, SEAT),
+    percept("south", "stool", 4.0, 0.2, SEAT),
+    percept("spare", "stool", 0.5, 4.5, SEAT),
+    percept("sink", "sink", 7.5, 2.0, (0.5, 0.6, 0.9)),
+    percept("gate", "gate", 4.2, 6.5, (1.2, 0.1, 2.0)),
+    percept("locker", "locker", 0.3, 0.3, (0.5, 0.5, 1.8)),
+]
+
+
+def meant(text: str, things: list[Percept]) -> dict[str, float]:
+    model = pretrained()
+    answer = model.ground(text, model.world_model(things, robot=None, looked=True))
+    return {id_: p for id_, p in answer.probabilities.items() if not id_.startswith("hypothetical")}
+
+
+def likeliest(text: str, things: list[Percept], count: int) -> set[str]:
+    """The so many likeliest things, where the last of them is far likelier than the next."""
+    found = sorted(meant(text, things).items(), key=lambda one: -one[1])
+    (_, last), (_, after) = list(pairwise(found))[count - 1]
+    assert last > 2.0 * after, found[: count + 2]
+    return {id_ for id_, _ in found[:count]}
+
+
+@pytest.mark.parametrize(
+    ("text", "ids"),
+    [
+        ("the stool at the end of the workbench", {"north", "south"}),
+        ("the stool at the head of the workbench closest to the gate", {"north"}),
+        ("the stool on the sink side of the workbench", {"east0", "east1", "east2"}),
+        ("a stool on the side of the workbench closest to the sink", {"east0", "east1", "east2"}),
+        ("the stool on the side of the workbench near the gate", {"north"}),
+        ("the stool on the other side of the workbench from the sink", {"west0", "west1", "west2"}),
+        ("the stool on the sink side of the workbench, nearest the gate", {"east2"}),
+        ("the stool on the gate side", {"north"}),
+    ],
+)
+def test_ends_and_sides_of_a_long_thing(text: str, ids: set[str]) -> None:
+    assert likeliest(text, BENCH_ROOM, len(ids)) == ids
+
+
+def test_all_on_a_side_are_meant() -> None:
+    model = pretrained()
+    answer = model.ground("the stools on the sink side of the workbench", model.world_model(BENCH_ROOM, looked=True))
+    assert {thing.id for thing in answer.objects} == {"east0", "east1", "east2"}
+
+
+def test_what_is_as_long_as_wide_has_no_ends() -> None:
+    square = [percept("workbench", "workbench", 4.0, 2.0, (1.6, 1.6, 0.9)), *BENCH_ROOM[1:]]
+    found = meant("the stool at the end of the workbench", square)
+    assert found["north"] < 2.0 * found["east1"]
+
+
+def test_what_goes_by_another_name_is_not_compared() -> None:
+    """A crate may be called a box, but not where there are boxes."""
+    yard = [Percept("b1", "box", None, (2.0, 1.0, 0.0)), Percept("b2", "box", None, (2.5, -1.0, 0.0))]
+    crates = [Percept("c1", "crate", None, (2.2, 2.0, 0.0)), Percept("c2", "crate", None, (2.4, -2.0, 0.0))]
+    model, robot = pretrained(), Pose(0.0, 0.0, 0.0)
+
+    def found(text: str, things: list[Percept]) -> list[str | None]:
+        return [o.id for o in model.ground(text, model.world_model(things, robot=robot, looked=True)).objects]
+
+    assert found("the left box", yard + crates) == ["b1"]
+    assert found("the rightmost box", yard + crates) == ["b2"]
+    assert found("the left crate", yard + crates) == ["c1"]
+    assert found("the left box", crates) == ["c1"]
+
+
+def test_kinds_that_are_named_by_their_head_are_compared() -> None:
+    """An office chair is a chair, whatever else is called just that."""
+    chairs = [Percept("a", "chair", None, (2.0, 0.0, 0.0)), Percept("b", "office chair", None, (2.0, 1.5, 0.0))]
+    model = pretrained()
+    world = model.world_model([*chairs, Percept("c", "chair", None, (2.0, -1.0, 0.0))], robot=Pose(0.0, 0.0, 0.0))
+    assert model.ground("the chair", world).probabilities["b"] < 0.2
+    kitchen = [Percept("k", "kitchen cabinet", None, (2.0, 1.0, 0.0)), Percept("s", "sink", None, (2.0, 0.0, 0.0))]
+    answer = model.ground("the cabinet", model.world_model(kitchen, robot=Pose(0.0, 0.0, 0.0), looked=True))
+    assert [o.id for o in answer.objects] == ["k"]
+    assert answer.probability is not None
+    assert answer.probability > 0.9
