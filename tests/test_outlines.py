@@ -99,3 +99,36 @@ def test_kinds_that_are_named_by_their_head_are_compared() -> None:
     assert [o.id for o in answer.objects] == ["k"]
     assert answer.probability is not None
     assert answer.probability > 0.9
+
+
+GARAGE = [  # four carts: one with a radio, one with two helmets, one bare, one with a helmet, and a bucket beside it
+    *(percept(f"cart{k}", "cart", 2.0 * k, 0.0, (0.9, 0.6, 0.8)) for k in range(4)),
+    percept("radio", "radio", 0.1, 0.1, (0.3, 0.2, 0.2), 0.9),
+    percept("helmet0", "helmet", 1.8, 0.0, (0.25, 0.25, 0.2), 0.9),
+    percept("helmet1", "helmet", 2.25, 0.0, (0.25, 0.25, 0.2), 0.9),
+    percept("helmet2", "helmet", 6.0, 0.1, (0.25, 0.25, 0.2), 0.9),
+    percept("bucket", "bucket", 6.0, 0.6, (0.3, 0.3, 0.3)),
+    percept("rag", "rag", 4.1, 1.6, (0.3, 0.3, 0.05)),
+    *(percept(f"can{k}", "oil can", 2.0 * k + 0.1, -0.5, (0.15, 0.15, 0.3)) for k in range(4)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("the cart with the radio", "cart0"),
+        ("the cart with two helmets", "cart1"),
+        ("the cart with a bucket", "cart3"),
+        ("the cart with the helmet and the bucket", "cart3"),
+        ("the oil can by the cart with two helmets", "can1"),
+        ("the oil can next to the cart that has a radio", "can0"),
+        ("the helmet on the cart with the bucket", "helmet2"),
+    ],
+)
+def test_what_a_thing_has_on_it_or_at_it(text: str, id_: str) -> None:
+    assert likeliest(text, GARAGE, 1) == {id_}
+
+
+def test_what_has_none_of_it() -> None:
+    found = meant("the cart without a helmet", GARAGE)
+    assert min(found["cart0"], found["cart2"]) > 5.0 * max(found["cart1"], found["cart3"])

@@ -17,6 +17,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
@@ -81,13 +82,16 @@ def modifier_factor(
     several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
     denied = NOT in tree.phrase.words
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
+    first = [of[0] for of in combos.things]
+    having = of_having(tree.phrase, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
+    log_psi = log_psi if having is None else having
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
         log_psi = log_psi[np.array(chosen)].sum(axis=1)
     landmarks, scores = combos.things, combos.log_scores
-    if len(beams) == 1 and not of_each:
+    if len(beams) == 1 and not of_each and having is None:
         name, to = tree.phrase.words[0], [of[0] for of in landmarks]
         far = of_denied(name, log_psi, to, scores, encoder, denied=denied)
         if far is not None:

@@ -68,7 +68,7 @@ def within_reach(landmarks: Sequence[int], encoder: WorldEncoder, up_to: float |
     Args:
         up_to: units; None: `_REACH`, or `_STEP` where nobody says how large things are.
     """
-    gap, reach = _gaps(landmarks, encoder)
+    gap, reach = gaps(landmarks, encoder)
     reach = reach if up_to is None else up_to
     return np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
 
@@ -94,10 +94,10 @@ def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: 
     Returns:
         None for what is no nearness, and for places.
     """
-    alike = scores >= scores.max() - _ALIKE
+    alike = alike_by(scores)
     if name not in _APART | _FAR_OFF or not encoder.layout.solid[np.array(landmarks)[alike]].all():
         return None
-    gap, reach = _gaps(landmarks, encoder)
+    gap, reach = gaps(landmarks, encoder)
     gap[np.arange(len(landmarks)), landmarks] = 0.0
     gap[alike] = np.where(np.isfinite(gap[alike]), gap[alike], np.inf).min(axis=0)
     far = np.where(np.isfinite(gap), gap, 0.0)
@@ -106,7 +106,7 @@ def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: 
     return found
 
 
-def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
+def gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
     """(combos, things) units from each landmark to every thing, between extents where these are known; NaN where
     nobody knows, and up to how many units things are near."""
     where = encoder.layout
@@ -170,7 +170,7 @@ _BETWEEN = "relation: between, "
 
 def _of_none(log_psi: Floats, scores: Floats) -> Floats:
     """(combos, things) what is not at a desk is at none of them: of landmarks that are named alike the worst counts."""
-    alike = scores >= scores.max() - _ALIKE
+    alike = alike_by(scores)
     found = log_psi.copy()
     found[alike] = log_psi[alike].min(axis=0)
     return found
@@ -178,6 +178,12 @@ def _of_none(log_psi: Floats, scores: Floats) -> Floats:
 
 _ALIKE = 1.0
 """Nats by which the scores of landmarks of one name may differ."""
+
+
+def alike_by(scores: Floats) -> Bools:
+    """(combos,) the landmarks that are named as well as the best."""
+    alike: Bools = scores >= scores.max() - _ALIKE
+    return alike
 
 
 def by_distance(

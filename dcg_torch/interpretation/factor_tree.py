@@ -20,7 +20,7 @@ from dcg_torch.names.vocabulary import (
     LATERAL,
     LEVEL,
     NTH,
-    OF_OUTLINE,
+    OF_BOTH,
     OF_TWO,
     OR,
     ORDINALS,
@@ -196,12 +196,9 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
     return ParseTree(phrase, tuple(_modifier(one, phrase) for child in described for one in _apart(child)))
 
 
-_TO_BOTH = OF_TWO | OF_OUTLINE
-
-
 def _apart(tree: ParseTree) -> list[ParseTree]:
     """ "Next to the cube and the cone" is next to each of them; "between" needs both."""
-    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in _TO_BOTH:
+    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in OF_BOTH:
         return [tree]
     return [replace(tree, children=(landmark,)) for landmark in tree.children]
 

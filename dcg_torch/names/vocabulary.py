@@ -197,6 +197,8 @@ LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "
 AT_END, TOWARDS, AWAY_FROM = "at the end of", "on the side towards", "on the side away from"
 """Where a thing is at what has extents; the sides face another thing, or away from it."""
 OF_OUTLINE = frozenset({AT_END, TOWARDS, AWAY_FROM})
+OF_BOTH = OF_TWO | OF_OUTLINE
+"""Prepositions of which several landmarks are no several places."""
 LIKE_RELATION |= {AT_END: "at", TOWARDS: "next to", AWAY_FROM: "next to"}
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom of": "bottom"}
