@@ -138,15 +138,23 @@ def _on_the_side(
         landmarks: numbers of things.
         aslant_by: radians off that direction up to which a thing is on that side.
     """
-    where, (x, y) = encoder.layout, _ON_A_SIDE[name]
+    where, way = encoder.layout, _ways(_ON_A_SIDE[name], landmarks, encoder)
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
     half = where.half[landmarks][:, None]
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
-    ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
+    ahead = (offset * way).sum(axis=2)
+    aside = np.abs((offset[..., ::-1] * way * (1.0, -1.0)).sum(axis=2))
     aslant = np.arctan2(aside, ahead)
     found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - aslant_by) / UNSURE), log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
+
+
+def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, 1, 2) where a side of each landmark is, as it is looked at."""
+    angle = np.zeros(1) if encoder.layout.outlook is None else encoder.layout.outlook[list(landmarks)]
+    x, y = side
+    return np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], axis=1)[:, None]
 
 
 _ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
