@@ -174,7 +174,8 @@ def test_where_nobody_stands_sides_are_told_with_ones_face_to_the_wall(text: str
     for one in STUDY:
         assert one.position is not None
         assert one.size is not None
-        at, size = one.position, tuple(one.size) if quarters % 2 == 0 else (one.size[1], one.size[0], one.size[2])
+        at, (wide, deep, tall) = one.position, one.size
+        size = (wide, deep, tall) if quarters % 2 == 0 else (deep, wide, tall)
         place = (at[0] * x[0] + at[1] * y[0], at[0] * x[1] + at[1] * y[1], at[2])
         turned.append(Percept(one.id, one.type, None, place, size))
     assert likeliest(text, turned, 1) == {id_}
