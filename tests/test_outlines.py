@@ -179,3 +179,26 @@ def test_where_nobody_stands_sides_are_told_with_ones_face_to_the_wall(text: str
         place = (at[0] * x[0] + at[1] * y[0], at[0] * x[1] + at[1] * y[1], at[2])
         turned.append(Percept(one.id, one.type, None, place, size))
     assert likeliest(text, turned, 1) == {id_}
+
+
+def test_the_other_two_are_of_the_kind_of_what_is_meant() -> None:
+    things = [percept(f"urn{k}", "urn", 1.5 * k, 0.1 * k, (0.4, 0.4, 0.6)) for k in range(3)]
+    room = [*things, percept("clock", "clock", 1.5, 2.0, (0.3, 0.1, 0.3)), percept("post", "post", 5.0, 2.0, SEAT)]
+    assert likeliest("the urn in between the other two", room, 1) == {"urn1"}
+    assert likeliest("the urn between the two others", room, 1) == {"urn1"}
+
+
+def test_what_is_nearly_as_near_as_the_nearest_is_as_near() -> None:
+    """Two barrels stand at the gate, a hand's breadth apart in distance; what else is said picks one."""
+    yard = [
+        percept("gate", "gate", 0.0, 0.0, (0.1, 3.0, 2.0)),
+        percept("barrel0", "barrel", 2.0, 1.5, (0.6, 0.6, 0.9)),
+        percept("barrel1", "barrel", 2.1, -1.5, (0.6, 0.6, 0.9)),
+        percept("barrel2", "barrel", 7.0, 1.0, (0.6, 0.6, 0.9)),
+        percept("ladder", "ladder", 2.6, 2.6, (0.5, 0.2, 2.0)),
+        percept("tub", "tub", 6.0, -2.0, (1.0, 0.6, 0.6)),
+    ]
+    found = meant("the barrel near the gate", yard)
+    assert found["barrel1"] > 0.4 * found["barrel0"]
+    assert found["barrel2"] < 0.1 * found["barrel0"]
+    assert likeliest("the barrel that is close to the gate and not near the ladder", yard, 1) == {"barrel1"}

@@ -21,9 +21,10 @@ from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
+from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
-from dcg_torch.grounding.reach import by_distance, means_all, nearer_on_a_side, of_all, of_denied
+from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -97,9 +98,7 @@ def modifier_factor(
         if far is not None:
             log_psi = far
         elif not means_all(tree.phrase):
-            log_psi = log_psi + by_distance(name, to, scores, compared, encoder)
-            nearer = nearer_on_a_side(name, to, compared, encoder)
-            log_psi = log_psi if nearer is None else log_psi + nearer
+            log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
     if of_each or len(beams) > 1:
         scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)

@@ -101,7 +101,7 @@ def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: 
     gap[np.arange(len(landmarks)), landmarks] = 0.0
     gap[alike] = np.where(np.isfinite(gap[alike]), gap[alike], np.inf).min(axis=0)
     far = np.where(np.isfinite(gap), gap, 0.0)
-    log_far = np.log(np.maximum(far, _TOUCHING))
+    log_far = np.log(np.maximum(far, TOUCHING))
     found: Floats = -np.logaddexp(0.0, (reach - far) / (_VAGUE * reach)) + log_far - log_far.max(axis=1, keepdims=True)
     return found
 
@@ -121,6 +121,7 @@ def gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float
 
 _AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _APART = _AROUND | {"close to"}
+NEARNESS = _APART - {"around", "surrounded by"}
 _FAR_OFF = frozenset({"far from", "away from"})
 _REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
 """Units of a gap, and of a distance where nobody says how large things are, up to which things stand around another,
@@ -220,7 +221,7 @@ def by_distance(
     if len(alike) < 2:
         return lost
     mark = np.array(landmarks)[alike]
-    gap = encoder.distances(mark.tolist()) + _TOUCHING
+    gap = encoder.distances(mark.tolist()) + TOUCHING
     gap[~np.isfinite(gap)] = np.inf
     gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
     nearest = gap.min(axis=0)
@@ -246,7 +247,7 @@ def nearer_on_a_side(
     """
     if name not in _ON_A_SIDE:
         return None
-    gap = encoder.distances(list(landmarks)) + _TOUCHING
+    gap = encoder.distances(list(landmarks)) + TOUCHING
     beside = _on_the_side(name, np.full(gap.shape, -np.inf), landmarks, encoder, STRAIGHT) > _LIKELY
     beside &= encoder.layout.solid[list(landmarks)][:, None] & encoder.layout.solid[None]
     kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
@@ -260,11 +261,9 @@ def nearer_on_a_side(
 
 _LIKELY, _SIDE_FOLD = math.log(0.5), 0.7
 """Log-factor from which a thing is taken to be on a side, and nats for each e-fold by which it is farther off there."""
-_TOUCHING = 0.1
+TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
-_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(
-    ("close to", *_AROUND - {"around", "surrounded by"}), 1.5
-)
+_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
 """Nats for each e-fold of a distance, by relation."""
 _FARTHEST = -6.0
 """The most that is lost."""
