@@ -11,17 +11,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import by_bearing
+from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.counted_side import so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
+from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
+from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.outermost import outermost
-from dcg_torch.grounding.reach import by_distance, inside_of, means_all, nearer_on_a_side, of_all, of_denied
+from dcg_torch.grounding.outlines import by_outline
+from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -55,9 +60,6 @@ _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
-_APART, _FARTHEST = 0.5, 8.0
-"""Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
-speak of two things at once that stand together."""
 _COMBINATIONS = 1728
 """Combinations of more than two landmarks that are weighed: all of three beams of twelve."""
 _LANDMARKS = 8
@@ -80,23 +82,24 @@ def modifier_factor(
     several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
     denied = NOT in tree.phrase.words
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
+    first = [of[0] for of in combos.things]
+    having = of_having(tree.phrase, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
+    log_psi = log_psi if having is None else having
     of_each = several > 0 and len(combos) >= several
     if of_each:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
         log_psi = log_psi[np.array(chosen)].mean(axis=1)  # said once, it counts once
     landmarks, scores = combos.things, combos.log_scores
-    if len(beams) == 1 and not of_each:
+    if len(beams) == 1 and not of_each and having is None:
         name, to = tree.phrase.words[0], [of[0] for of in landmarks]
         far = of_denied(name, log_psi, to, scores, encoder, denied=denied)
         if far is not None:
             log_psi = far
         elif not means_all(tree.phrase):
-            log_psi = log_psi + by_distance(name, to, scores, compared, encoder)
-            nearer = nearer_on_a_side(name, to, compared, encoder)
-            log_psi = log_psi if nearer is None else log_psi + nearer
+            log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
     if of_each or len(beams) > 1:
-        scores = scores - _APART * _spread(np.array(landmarks), encoder.layout.position[:, :2])
+        scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
 
@@ -117,8 +120,7 @@ def _log_psi(
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
     if denied:
         return log_psi
-    outside = inside_of(name, landmarks, encoder)
-    log_psi = log_psi if outside is None else log_psi + outside
+    log_psi = by_outline(name, log_psi, landmarks, encoder)
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
@@ -136,21 +138,6 @@ def _fewer(beams: Sequence[Beam]) -> Sequence[tuple[int, ...]] | None:
 
 
 _MEMBER = frozenset({"in", "of"})
-
-
-def _spread(landmarks: NDArray[np.int64], place: Floats) -> Floats:
-    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
-
-    Args:
-        landmarks: (combos, k) numbers of things.
-        place: (things, 2).
-    """
-    at, ordered = place[landmarks], np.sort(landmarks, axis=1)
-    apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
-    once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
-    apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
-    near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
-    return near
 
 
 @dataclass(frozen=True)
@@ -207,7 +194,7 @@ def comparison_set(
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
-    described = _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET)
+    described = by_that_name(phrase, _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET), own, encoder)
     described = so_many_on_a_side(phrase, modifiers, fit, described, encoder)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR

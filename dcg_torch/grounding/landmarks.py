@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.scored import Scored
@@ -24,6 +25,10 @@ _NOT_THERE = 0.25
 parts of things, and to what no recogniser tells."""
 _ALIKE = math.log(0.5)
 """Log-odds that things named as well as one another differ by at most."""
+
+APART, _FARTHEST = 0.5, 8.0
+"""Each unit that two landmarks are farther apart takes so much from their log-score, up to a number of units: people
+speak of two things at once that stand together."""
 
 
 def only_named(tree: ParseTree, found: Scored, encoder: WorldEncoder) -> Scored:
@@ -78,3 +83,20 @@ def without_landmarks(log_odds: float, of_each: Sequence[float], found: Scored, 
     doubt = (1.0 - 1.0 / alike) * _NOT_THERE
     left = (1.0 - doubt) / (1.0 + math.exp(log_odds))
     return math.log1p(-left) - math.log(left)
+
+
+def spread(landmarks: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
+
+    Args:
+        landmarks: (combos, k) numbers of things.
+        place: (things, 2).
+    """
+    at, ordered = place[landmarks], np.sort(landmarks, axis=1)
+    apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
+    once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
+    apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
+    near: NDArray[np.float64] = (
+        np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
+    )
+    return near

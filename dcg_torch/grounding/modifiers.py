@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.vocabulary import INSIDE, RANKING, SIDED, WITHIN
+from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, RANKING, SIDED, WITHIN
 from dcg_torch.types import ParseTree
 
 _MOST_COUNTED = 3
@@ -27,8 +27,8 @@ def is_in_a_group(tree: ParseTree) -> bool:
 
 
 def is_to_a_place(tree: ParseTree) -> bool:
-    """Does a modifier say in which part of the scene a thing is? What stands by a thing is a vaguer set."""
-    return "to a thing" not in tree.phrase.context
+    """Does a modifier say in which part of the scene, or of a table, a thing is? What stands by one is a vaguer set."""
+    return "to a thing" not in tree.phrase.context or tree.phrase.words[0] in OF_OUTLINE
 
 
 def counted_landmark(tree: ParseTree) -> int:

@@ -57,11 +57,21 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
 
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all."""
-    gap, reach = _gaps(landmarks, encoder)
-    near = np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
+    near = within_reach(landmarks, encoder)
     found = np.where(np.isfinite(near), near, log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
+
+
+def within_reach(landmarks: Sequence[int], encoder: WorldEncoder, up_to: float | None = None) -> Floats:
+    """(combos, things) how surely each thing stands close to a landmark; NaN where nobody knows.
+
+    Args:
+        up_to: units; None: `_REACH`, or `_STEP` where nobody says how large things are.
+    """
+    gap, reach = gaps(landmarks, encoder)
+    reach = reach if up_to is None else up_to
+    return np.where(np.isfinite(gap), -np.logaddexp(0.0, (np.nan_to_num(gap) - reach) / (_VAGUE * reach)), np.nan)
 
 
 def of_denied(
@@ -85,19 +95,19 @@ def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: 
     Returns:
         None for what is no nearness, and for places.
     """
-    alike = scores >= scores.max() - _ALIKE
+    alike = alike_by(scores)
     if name not in _APART | _FAR_OFF or not encoder.layout.solid[np.array(landmarks)[alike]].all():
         return None
-    gap, reach = _gaps(landmarks, encoder)
+    gap, reach = gaps(landmarks, encoder)
     gap[np.arange(len(landmarks)), landmarks] = 0.0
     gap[alike] = np.where(np.isfinite(gap[alike]), gap[alike], np.inf).min(axis=0)
     far = np.where(np.isfinite(gap), gap, 0.0)
-    log_far = np.log(np.maximum(far, _TOUCHING))
+    log_far = np.log(np.maximum(far, TOUCHING))
     found: Floats = -np.logaddexp(0.0, (reach - far) / (_VAGUE * reach)) + log_far - log_far.max(axis=1, keepdims=True)
     return found
 
 
-def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
+def gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
     """(combos, things) units from each landmark to every thing, between extents where these are known; NaN where
     nobody knows, and up to how many units things are near."""
     where = encoder.layout
@@ -112,6 +122,7 @@ def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, floa
 
 _AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
 _APART = _AROUND | {"close to"}
+NEARNESS = _APART - {"around", "surrounded by"}
 _FAR_OFF = frozenset({"far from", "away from"})
 _REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
 """Units of a gap, and of a distance where nobody says how large things are, up to which things stand around another,
@@ -134,13 +145,21 @@ def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: 
 
 def _aslant(name: str, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) radians by which a thing is off a side of each landmark; NaN for what is nowhere."""
-    where, (x, y) = encoder.layout, _ON_A_SIDE[name]
+    where, way = encoder.layout, _ways(_ON_A_SIDE[name], landmarks, encoder)
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
     half = where.half[landmarks][:, None]
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
-    ahead, aside = offset @ np.array([x, y]), np.abs(offset @ np.array([-y, x]))
+    ahead = (offset * way).sum(axis=2)
+    aside = np.abs((offset[..., ::-1] * way * (1.0, -1.0)).sum(axis=2))
     aslant: Floats = np.arctan2(aside, ahead)
     return aslant
+
+
+def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, 1, 2) where a side of each landmark is, as it is looked at."""
+    angle = np.zeros(1) if encoder.layout.outlook is None else encoder.layout.outlook[list(landmarks)]
+    x, y = side
+    return np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], axis=1)[:, None]
 
 
 _ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
@@ -164,7 +183,7 @@ _BETWEEN = "relation: between, "
 
 def _of_none(log_psi: Floats, scores: Floats) -> Floats:
     """(combos, things) what is not at a desk is at none of them: of landmarks that are named alike the worst counts."""
-    alike = scores >= scores.max() - _ALIKE
+    alike = alike_by(scores)
     found = log_psi.copy()
     found[alike] = log_psi[alike].min(axis=0)
     return found
@@ -172,6 +191,12 @@ def _of_none(log_psi: Floats, scores: Floats) -> Floats:
 
 _ALIKE = 1.0
 """Nats by which the scores of landmarks of one name may differ."""
+
+
+def alike_by(scores: Floats) -> Bools:
+    """(combos,) the landmarks that are named as well as the best."""
+    alike: Bools = scores >= scores.max() - _ALIKE
+    return alike
 
 
 def by_distance(
@@ -200,7 +225,7 @@ def by_distance(
     if len(alike) < 2:
         return lost
     mark = np.array(landmarks)[alike]
-    gap = encoder.distances(mark.tolist()) + _TOUCHING
+    gap = encoder.distances(mark.tolist()) + TOUCHING
     gap[~np.isfinite(gap)] = np.inf
     gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
     nearest = gap.min(axis=0)
@@ -227,7 +252,7 @@ def nearer_on_a_side(
     if name not in _ON_A_SIDE:
         return None
     solid, mark = encoder.layout.solid, list(landmarks)
-    gap = encoder.distances(mark) + _TOUCHING
+    gap = encoder.distances(mark) + TOUCHING
     beside = (_aslant(name, mark, encoder) < STRAIGHT) & solid[mark][:, None] & solid
     beside[np.arange(len(mark)), mark] = False
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
@@ -241,11 +266,9 @@ def nearer_on_a_side(
 
 _SIDE_FOLD = 0.7
 """Nats for each e-fold by which a thing is farther off than the nearest on that side."""
-_TOUCHING = 0.1
+TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
-_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(
-    ("close to", *_AROUND - {"around", "surrounded by"}), 1.5
-)
+_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
 """Nats for each e-fold of a distance, by relation."""
 _FARTHEST = -6.0
 """The most that is lost."""

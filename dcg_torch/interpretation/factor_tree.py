@@ -22,6 +22,7 @@ from dcg_torch.names.vocabulary import (
     LATERAL,
     LEVEL,
     NTH,
+    OF_BOTH,
     OF_TWO,
     OR,
     ORDINALS,
@@ -215,7 +216,7 @@ def _noun(tree: ParseTree, context: tuple[str, ...]) -> ParseTree:
 
 def _apart(tree: ParseTree) -> list[ParseTree]:
     """ "Next to the cube and the cone" is next to each of them; "between" needs both."""
-    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in OF_TWO:
+    if len(tree.children) < 2 or tree.phrase.words[0].removeprefix(f"{NOT} ") in OF_BOTH:
         return [tree]
     return [replace(tree, children=(landmark,)) for landmark in tree.children]
 

@@ -33,6 +33,7 @@ from dcg_torch.names.vocabulary import (
     LIKE_RELATION,
     MIDDLES,
     NEAREST,
+    OF_BOTH,
     OF_TWO,
     ORDINALS,
     OWNERS,
@@ -243,8 +244,12 @@ _NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
 
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     """What a preposition and its landmark say: sides of the workspace, degrees, two sides at once."""
-    if tree.phrase.kind is not PhraseKind.PREPOSITION or len(tree.children) != 1:
+    if tree.phrase.kind is not PhraseKind.PREPOSITION or not tree.children:
         return (tree,)
+    if len(tree.children) > 1:  # "with the lamp and the plant" is with each of them
+        whole = tree.phrase.words[0].removeprefix(f"{NOT} ") in OF_BOTH
+        each = (replace(tree, children=(child,)) for child in tree.children)
+        return (tree,) if whole else tuple(said for one in each for said in _placed(one, there))
     landmark, name = _of_all(tree.children[0]), tree.phrase.words[0]
     if name in BY_COMPASS:
         words = BY_COMPASS[name]

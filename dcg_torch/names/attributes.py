@@ -171,7 +171,9 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
     named = [(k, v) for k, v in pairs if f" {said}".endswith(f" {k}")]
     if not named:
         return "attribute: silent"
-    key, value = max(named, key=lambda pair: (len(pair[0]), pair))
+    # Of two values of one key, `hasHair` and `hairColour`, "no" says most, and "yes" less than what it is like.
+    bare = _words_of("present")
+    key, value = max(named, key=lambda one: (len(one[0]), _is_none(*one), one[1] not in {one[0], *bare}, one))
     like = said.removesuffix(key).strip()
     if not like or _is_none(key, value):
         return "attribute: contrary" if _is_none(key, value) else "attribute: equal"

@@ -210,6 +210,12 @@ SAME_RELATION |= {
 LIKE_RELATION = {"touching": "next to", "in the middle of": "between", "among": "near", "around": "near"}
 LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "in line with": "next to"}
 """Prepositions, and those that say much the same: what is known of these holds for them too, until they are learned."""
+AT_END, TOWARDS, AWAY_FROM = "at the end of", "on the side towards", "on the side away from"
+"""Where a thing is at what has extents; the sides face another thing, or away from it."""
+OF_OUTLINE = frozenset({AT_END, TOWARDS, AWAY_FROM})
+OF_BOTH = OF_TWO | OF_OUTLINE
+"""Prepositions of which several landmarks are no several places."""
+LIKE_RELATION |= {AT_END: "at", TOWARDS: "next to", AWAY_FROM: "next to"}
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom of": "bottom"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""

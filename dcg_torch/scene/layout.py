@@ -19,6 +19,7 @@ from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG
 from dcg_torch.scene.bodies import Bodies, bodies
 from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
+from dcg_torch.scene.outlooks import outlooks
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import positions, to_robot_frame
@@ -71,6 +72,7 @@ class Layout:
         speaker: (2,) where the speaker is, or None.
         bodies: how large the objects are, or None.
         picture: does it show a page or a wall, where none is over another?
+        outlook: (n,) angles along which things are looked at, in a room where nobody says who stands where.
     """
 
     things: tuple[Object, ...]
@@ -88,6 +90,7 @@ class Layout:
     speaker: Floats | None
     bodies: Bodies | None = None
     picture: bool = False
+    outlook: Floats | None = None
 
     @functools.cached_property
     def solid(self) -> Bools:
@@ -224,6 +227,10 @@ def layout(world: WorldModel) -> Layout:
         own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
+    outlook = None
+    if sized is not None and world.robot is None and world.viewer is None:
+        outlook = outlooks(position, sized, len({o.type for o in world.objects if not o.hypothetical}), world.unit)
+        outlook = None if outlook is None else np.pad(outlook, (0, n - len(outlook)))
     return Layout(
         things,
         position,
@@ -240,6 +247,7 @@ def layout(world: WorldModel) -> Layout:
         speaker,
         sized,
         picture=not on_floor,
+        outlook=outlook,
     )
 
 

@@ -16,6 +16,7 @@ from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
+from dcg_torch.scene.outlooks import views
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """The bounds of the distance features, in units of the world."""
@@ -113,12 +114,14 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     """
     position, place = where.position, where.place[first][:, None]
     x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
-    covers = apart = None
+    covers = apart = touches = None
+    offset = x, y
     if where.bodies is not None:
         covers, apart = where.bodies.over(first, np.stack([x, y], axis=2))
     if where.wide is not None:
         half = where.half[first][:, None, :] + where.wide[first][:, None, :] + where.wide[None]
         x, y = (np.sign(v) * np.maximum(np.abs(v) - half[..., k], 0.0) for k, v in enumerate((x, y)))
+        touches = (x == 0.0) & (y == 0.0)
     distance = np.hypot(x, y)
     itself = first[:, None] == np.arange(len(position))[None, :]
     exists = np.isfinite(distance) & ~itself
@@ -142,6 +145,8 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
         aside &= point & ~where.edge[first][:, None]  # an edge or a corner has no sides
         found["place distance"] = np.where(exists & place & point, steps, -1)
         found |= _headed(where, first, exists)
+    if touches is not None:  # what touches is still on a side
+        x, y = (np.where(touches, to, v) for to, v in zip(offset, (x, y), strict=True))
     found |= _sides(where, first, x, y, aside)
     if where.group[first].any():
         found |= _members(where, first)
@@ -188,16 +193,8 @@ def _vertical(
 def _sides(where: Layout, first: Ints, x: Floats, y: Floats, sided: Bools) -> dict[str, Ints]:
     """On which side of the landmark, by the three frames."""
     bearing = np.arctan2(y, x)
-    mark = where.position[first, :2]
-    away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    views, kept = [np.zeros(len(first)), np.arctan2(mark[:, 1], mark[:, 0])], [sided, sided & away]
-    if where.speaker is not None:
-        view = mark - where.speaker
-        near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
-        view[near] = where.middle - where.speaker
-        views, kept = [*views, np.arctan2(view[:, 1], view[:, 0])], [*kept, sided]
-    seen = np.array(kept)
-    found = dict(zip(FRAMES, np.where(seen, _sector(bearing - np.array(views)[:, :, None], seen), -1), strict=False))
+    looks, seen = views(where, first, sided)
+    found = dict(zip(FRAMES, np.where(seen, _sector(bearing - looks[:, :, None], seen), -1), strict=False))
     along, across = (sided & (np.abs(v) < SAME_SPOT) for v in (x, y))
     found["line"] = np.where(along, 0, np.where(across, 1, -1))
     return found

@@ -1,0 +1,65 @@
+"""What things have on them, in them or at them: "the desk with two monitors", "a chair with a pillow".
+
+Where extents are known that is measured, not learned: what lies on a thing, under it or against it is its own, and what
+stands farther off is the less so. Of several that are named alike any will do, or so many as are counted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.reach import alike_by, gaps
+from dcg_torch.types import NOT, Phrase
+
+Floats = NDArray[np.float64]
+
+_WITH = "with"
+_ASIDE, _E_FOLD, _STEP = 1.0, 2.0, 0.2
+"""Nats that a thing loses whose landmark stands beside it, and for each e-fold of the gap in steps of so many units."""
+_NOT_ITS = -8.0
+"""The most that is lost."""
+
+
+def of_having(
+    phrase: Phrase, log_psi: Floats, landmarks: Sequence[int], scores: Floats, several: int, encoder: WorldEncoder
+) -> Floats | None:
+    """(landmarks, things) of "with" and "without" among things that have extents.
+
+    Args:
+        log_psi: what is learned, which stays for what has no extents.
+        scores: (landmarks,) of the landmarks.
+        several: how many landmarks are counted; 0 for one.
+
+    Returns:
+        None where nobody says how large the landmarks are, and of all other relations.
+    """
+    bodies = encoder.layout.bodies
+    if phrase.words[0] != _WITH or bodies is None:
+        return None
+    alike = np.flatnonzero(alike_by(scores))
+    mark = [landmarks[k] for k in alike.tolist()]
+    if max(mark) >= len(bodies.half) or not np.isfinite(bodies.half[mark]).all():
+        return None
+    count = max(1, several)
+    if len(mark) < count:
+        return None
+    where = encoder.layout
+    covers, _ = bodies.over(np.array(mark), where.position[None, :, :2] - where.position[mark][:, None, :2])
+    gap, _ = gaps(mark, encoder)
+    aside = -_ASIDE - _E_FOLD * np.log1p(np.nan_to_num(gap) / _STEP)
+    own = np.where(_padded(covers, aside.shape[1]), 0.0, np.where(np.isfinite(gap), aside, _NOT_ITS))
+    own[np.arange(len(mark)), mark] = _NOT_ITS  # nothing is with itself
+    best: Floats = np.maximum(np.sort(own, axis=0)[-count:].mean(axis=0), _NOT_ITS)
+    if NOT in phrase.words:
+        best = np.maximum(np.log(-np.expm1(np.minimum(best, -1e-4))), _NOT_ITS)
+    found = log_psi.copy()
+    found[alike] = np.where(np.isfinite(where.position[:, 0]) & where.solid, best, log_psi[alike])
+    return found
+
+
+def _padded(covers: NDArray[np.bool_], things: int) -> NDArray[np.bool_]:
+    return np.pad(covers, ((0, 0), (0, things - covers.shape[1])))

@@ -1,0 +1,96 @@
+"""From where things are looked at, where sides are told of them.
+
+Nobody says where who speaks stands in a room that was scanned. People then mean a thing's sides as who stands before it
+sees them: its back is to the wall that it stands at. What lies on a table is looked at from the nearest edge of that;
+what else stands at no wall, from the middle of the room.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from dcg_torch.scene.bodies import Bodies
+from dcg_torch.scene.order import TIE, Bools, Floats, Ints
+
+if TYPE_CHECKING:
+    from dcg_torch.scene.layout import Layout
+
+_AT_WALL = 0.4
+"""Metres from a wall up to which a thing stands at it."""
+_RESTS, _MANY = 0.12, 512
+"""Units between the top of a thing and the foot of another that lies on it; things up to which that is looked for."""
+_THINGS, _CLASSES, _WIDE = 10, 4, 2.0
+"""Things and classes at least in a room, and metres between its walls."""
+
+
+def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float) -> Floats | None:
+    """(n,) angles along which who stands before things looks at them; None for what is no room.
+
+    Args:
+        position: (n, 2 or more) of the objects, in units.
+        classes: how many there are.
+        unit: metres.
+    """
+    at = position[: len(bodies.half), :2]
+    half = np.nan_to_num(bodies.half)
+    there = np.isfinite(at).all(axis=1)
+    if there.sum() < _THINGS or classes < _CLASSES:
+        return None
+    low, high = (at - half)[there].min(axis=0), (at + half)[there].max(axis=0)
+    if ((high - low) * unit < _WIDE).any():
+        return None
+    inward, lies = _from_edges(at, bodies)
+    gaps = np.concatenate([at - half - low, high - at - half], axis=1) * unit  # (n, 4): low x, low y, high x, high y
+    along = np.tile(half[:, ::-1], 2)  # how far a thing reaches along each of these walls
+    wall = np.where(gaps <= _AT_WALL, along - TIE * gaps, -np.inf)
+    best = wall.argmax(axis=1)
+    other = np.where(lies[:, None], inward, at - (low + high) / 2.0)
+    out = np.where(np.isfinite(wall.max(axis=1))[:, None], _OUT[best], other)
+    found: Floats = np.where(there, np.arctan2(out[:, 1], out[:, 0]), 0.0)
+    return found
+
+
+_OUT = np.array([(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)])
+
+
+def _from_edges(at: Floats, bodies: Bodies) -> tuple[Floats, Bools]:
+    """(n, 2) from the nearest edge of what each thing lies on straight inward, and (n,) which things lie on another."""
+    numbers = np.arange(len(at))
+    if len(at) > _MANY:
+        return np.zeros_like(at), np.zeros(len(at), dtype=np.bool_)
+    offset = at[None] - at[:, None]  # (below, on, 2)
+    with np.errstate(invalid="ignore"):
+        area = bodies.half.prod(axis=1)
+        inside = (np.abs(offset) < bodies.half[:, None]).all(axis=2) & (area[:, None] > area)
+        on = inside & (np.abs(bodies.bottom[None] - bodies.top[:, None]) < _RESTS)
+    below = np.where(on, bodies.top[:, None], -np.inf).argmax(axis=0)
+    own, half = offset[below, numbers], bodies.half[below]
+    room = half - np.abs(own)  # up to each edge
+    nearest = room == room.min(axis=1, keepdims=True)
+    inward: Floats = np.where(nearest, -own, 0.0)
+    return inward, np.logical_and(on.any(axis=0), inward.any(axis=1))
+
+
+def views(where: Layout, first: Ints, sided: Bools) -> tuple[Floats, Bools]:
+    """How c landmarks are looked at, in up to three frames: the robot's, its own as it faces them, the speaker's.
+
+    Args:
+        sided: (c, n) which things stand on a side of which landmark.
+
+    Returns:
+        (frames, c) angles, and (frames, c, n) which things stand on a side.
+    """
+    mark = where.position[first, :2]
+    if where.outlook is not None:
+        seen = where.outlook[first]
+        return np.array([seen, seen]), np.array([sided, sided])
+    away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
+    found, kept = [np.zeros(len(first)), np.arctan2(mark[:, 1], mark[:, 0])], [sided, sided & away]
+    if where.speaker is not None:
+        view = mark - where.speaker
+        near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
+        view[near] = where.middle - where.speaker
+        found, kept = [*found, np.arctan2(view[:, 1], view[:, 0])], [*kept, sided]
+    return np.array(found), np.array(kept)
