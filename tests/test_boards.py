@@ -114,6 +114,17 @@ def test_the_top_of_a_side_is_a_corner(end: str, row: int, side: str, column: in
     assert meant(f"take the block at the {end} of the {side} side", MIDDLES) == {name}
 
 
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize(
+    "text", ["of the two blocks on the right take the {} one", "there are two blocks on the right. take the {} one"]
+)
+def test_of_two_on_a_side_one_is_picked(seed: int, text: str) -> None:
+    spots = {name: spot for name, spot in scattered(seed).items() if name != "over"}
+    lower, upper = sorted(sorted(spots, key=lambda name: -spots[name][0])[:2], key=lambda name: spots[name][1])
+    assert meant(text.format("upper"), spots) == {upper}
+    assert meant(text.format("lower"), spots) == {lower}
+
+
 COLUMN: Spots = {
     **{"first": (1, 9, 0), "second": (2, 7, 0), "third": (0, 3, 0), "fourth": (2, 0, 0)},
     **{"a": (6, 8, 0), "b": (9, 6, 0), "c": (8, 4, 0), "d": (7, 1, 0)},

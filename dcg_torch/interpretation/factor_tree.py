@@ -247,6 +247,8 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     """
     whole = phrase.plural and phrase.count is None
     ranked = any(map(is_superlative, phrase.words)) or any(map(_ranks_from_somebody, described))
+    # "Of the two cubes on the right the lower one" is the lower one of the two that are on the right.
+    ranked |= counted(phrase.words) is not None and any(not c.phrase.text and _side_of(c) in SIDED for c in described)
     # "The left cube at the front", "the cube on your right in the back": the left one of those at the front.
     lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
     return [

@@ -88,9 +88,13 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"
-    middle = None if phrase.plural or children else side_with_a_middle([w for w in words if picks_by_place(w)])
+    apart = not (
+        phrase.plural or any(in_group(at.phrase) or at.phrase.noun in SIDED for c in children for at in c.children)
+    )
+    middle = side_with_a_middle([w for w in words if picks_by_place(w)]) if apart else None
     if middle is not None:
-        words, children = tuple(w for w in words if w not in {*MIDDLES, middle}), (closest(f"{middle} middle"),)
+        words = tuple(w for w in words if w not in {*MIDDLES, middle})
+        children = (*children, closest(f"{middle} middle"))
     named = () if phrase.noun in PLACE_WORDS else told_sides(words, children)
     if named:
         words = tuple(word for word in words if word not in named)
