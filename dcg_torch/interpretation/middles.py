@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from dcg_torch.interpretation.scene_kinds import scene_kind
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.names.vocabulary import NEAREST, PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.groups import in_line
 from dcg_torch.scene.upright import laid_flat
@@ -23,12 +24,28 @@ _LEAST = 3
 
 
 def by_middles(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """A tree in which "in the middle" picks from a few things in a line.
+    """A tree in which "in the middle" picks from a few things in a line, and "the middle one" of many is in the middle.
 
     Args:
         said: the words of the tree.
     """
-    return tree if said.nouns.isdisjoint(_MIDDLES) else _in_middle(tree, world)
+    found = tree if said.nouns.isdisjoint(_MIDDLES) else _in_middle(tree, world)
+    return found if said.words.isdisjoint(_MIDDLES) else _middle_of_many(found, world)
+
+
+def _middle_of_many(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """Of many things strewn about on a table the middle one is the one at its middle: they have no order."""
+    phrase = tree.phrase
+    if phrase.kind is not PhraseKind.NOUN:
+        return replace(tree, children=(*(_middle_of_many(c, world) for c in tree.children[:1]), *tree.children[1:]))
+    if not {*phrase.words} or not {*phrase.words} <= _MIDDLES or phrase.plural or tree.children:
+        return tree
+    such = [o for o in world.objects if _is_such(o, phrase)]
+    if len(such) <= _LEAST or "table" not in scene_kind(world).split(" ") or _in_a_line(such, world):
+        return tree
+    place = ParseTree(Phrase(PhraseKind.NOUN, phrase.words[0], noun="middle"))
+    nearest = Phrase(PhraseKind.PREPOSITION, phrase.words[0], (NEAREST,))
+    return ParseTree(replace(phrase, words=()), (ParseTree(nearest, (place,)),))
 
 
 def _in_middle(tree: ParseTree, world: WorldModel) -> ParseTree:
