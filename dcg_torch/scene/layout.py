@@ -141,7 +141,9 @@ class Layout:
     @functools.cached_property
     def resting(self) -> Bools:
         """(n,) does it rest on an object?"""
-        return np.pad(self.near.resting, (0, len(self.things) - len(self.near.resting)))
+        found = np.zeros(len(self.things), dtype=np.bool_)
+        found[: len(self.near.resting)] = self.near.resting
+        return found
 
     def alike(self, among: str) -> Alike:
         """Which of `SETS` each thing is compared with, by the name of the set."""

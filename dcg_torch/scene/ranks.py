@@ -171,8 +171,9 @@ def _from_middle(where: Layout, alike: Alike) -> Floats:
     for members in alike.members:
         if len(members):
             of_all = (where.group[members[0]] and len(members) < 3) or where.solid[members].sum() == len(solid)
-            middle = np.nan_to_num(where.position[members]).sum(axis=0) / len(members)
+            own = where.position[members]
+            middle = np.where(np.isfinite(own), own, 0.0).sum(axis=0) / len(members)
             if of_all and len(solid):
                 middle[:2] = (solid[:, :2].min(axis=0) + solid[:, :2].max(axis=0)) / 2
-            distance[members] = np.sqrt(((where.position[members] - middle) ** 2).sum(axis=1))
+            distance[members] = np.sqrt(((own - middle) ** 2).sum(axis=1))
     return distance

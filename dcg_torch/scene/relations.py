@@ -232,7 +232,8 @@ def _orders(
 
 def _ahead(where: Layout, first: Ints) -> Floats:
     """(c, n) how far a thing is in the direction of each place that has one."""
-    ahead: Floats = (_offset(where, first) * where.heading[first][:, None, :]).sum(axis=2)
+    x, y = (_offset(where, first) * where.heading[first][:, None, :]).transpose(2, 0, 1)
+    ahead: Floats = x + y
     return ahead
 
 
