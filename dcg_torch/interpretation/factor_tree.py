@@ -14,6 +14,7 @@ from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import heads, in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import scene_kind, stands_among
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     INSIDE,
@@ -35,7 +36,7 @@ from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
-_AT = frozenset({"on", "at", "to", "in", "towards"})
+_AT = listed("on a side of the scene")
 """Prepositions that say at which side of the scene a thing is."""
 
 _LEVEL = 0.02

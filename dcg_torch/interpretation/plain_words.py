@@ -12,6 +12,7 @@ from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
 from dcg_torch.interpretation.stacks import from_the_ground, levels_of_stack
 from dcg_torch.names.normal import normalise
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     BESIDE_WHOM,
     BY_COMPASS,
@@ -107,7 +108,7 @@ def _in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
     return (*(c for c in children if c not in both), _near_side((str(vertical[0]), str(lateral[0]))))
 
 
-_BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
+_BESIDE = listed("on a side") | {NEAREST}
 
 
 def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
@@ -220,7 +221,7 @@ _SEEN_FROM_IT = {
 }
 
 
-_WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
+_WITHIN = listed("at a side")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
 
@@ -296,7 +297,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             phrase = replace(phrase, noun=GROUND_WORD)
     if _picks(tree) is not None or (name == "of" and in_group(phrase)):
         name = "in"  # "the middle one of the stack"
-    inside = name in ("on", "at", "to", "in", "towards")
+    inside = name in listed("on a side of the scene")
     if phrase.noun in SIDED:
         sides = tuple(word for word in phrase.words if word not in DEGREES)
         corner = _sides((*sides, phrase.noun), ())
