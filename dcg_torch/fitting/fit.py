@@ -90,9 +90,7 @@ def fit(
     weight = factor.weight.detach().cpu().numpy()
     pairs = factor.pairs.cpu().numpy()
     active = pairs if free is None else pairs & free
-    strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), pairs.shape)
-    if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
-        raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
+    strength = _strength(l2, active)
     fixed = _with_prior(weight, prior, active)
     where = factor.weight.device if device is None else device_of(device)
     with one_thread():
@@ -115,6 +113,18 @@ def fit(
         status=found.status,
         seconds=time.perf_counter() - began,
     )
+
+
+def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
+    """(L, G) of the penalty.
+
+    Raises:
+        ValueError: it is not positive.
+    """
+    strength = np.broadcast_to(np.asarray(l2, dtype=np.float64), active.shape)
+    if not (np.all(np.asarray(l2) > 0.0) or (strength[active] > 0.0).all()):
+        raise ValueError(f"l2 must be positive, not {strength.min():g}: without it the optimum is not unique")
+    return strength
 
 
 def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import ASLANT, UNSURE
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
@@ -22,7 +23,7 @@ from dcg_torch.types import Phrase
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_AT = frozenset({"on", "to", "at", "in", WITHIN})
+_AT = listed("on a side") | {WITHIN}
 _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}
 """Preposition before who is spoken to -> the direction in which what is so stands."""
 _SLANT = math.radians(40.0)

@@ -34,6 +34,7 @@ from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
@@ -137,7 +138,7 @@ def _fewer(beams: Sequence[Beam]) -> Sequence[tuple[int, ...]] | None:
     return list(itertools.product(*[range(min(len(beam), max(1, most))) for beam in beams]))
 
 
-_MEMBER = frozenset({"in", "of"})
+_MEMBER = listed("one of a group")
 
 
 @dataclass(frozen=True)

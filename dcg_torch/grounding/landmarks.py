@@ -13,12 +13,13 @@ from dcg_torch.grounding.scored import Scored
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.everyday import is_everyday
 from dcg_torch.names.evidence import is_generic
+from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_named
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
-_HAVING = frozenset({"of", "with"})
+_HAVING = listed("has or consists of")
 """Prepositions before what a thing has or consists of, which need not be a thing of its own."""
 _NOT_THERE = 0.25
 """Probability at most that nothing is meant where a landmark is named that nobody has seen: people also stand things to

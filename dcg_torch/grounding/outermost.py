@@ -11,12 +11,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.relations import listed
 from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_OUTER, _INNER = frozenset({"outermost", "outer"}), frozenset({"innermost", "inner"})
+_OUTER, _INNER = listed("outer"), listed("inner")
 _NOT_THERE = -8.0
 """Nats that a thing loses that is not at an end, or is."""
 

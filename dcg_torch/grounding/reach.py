@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.modifiers import ranks_from
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
 from dcg_torch.scene.relations import RELATION_NAMES, between
 from dcg_torch.types import NOT, ParseTree, Phrase
@@ -120,10 +121,10 @@ def gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float
     return np.where(where.solid[None], gap, np.nan), _REACH
 
 
-_AROUND = frozenset({"around", "near", "at", "by", "next to", "beside", "surrounded by"})
+_AROUND = listed("around")
 _APART = _AROUND | {"close to"}
 NEARNESS = _APART - {"around", "surrounded by"}
-_FAR_OFF = frozenset({"far from", "away from"})
+_FAR_OFF = listed("far off")
 _REACH, _STEP, _VAGUE = 0.6, 1.25, 0.2
 """Units of a gap, and of a distance where nobody says how large things are, up to which things stand around another,
 and the share of it by which that is vague."""
@@ -296,7 +297,7 @@ def inside_of(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEnc
     return np.pad(np.where(larger | out, -_NOT_IN, 0.0), ((0, 0), (0, len(encoder.all) - len(area))))
 
 
-_INSIDE = frozenset({"in", "inside", "into"})
+_INSIDE = listed("inside")
 _NOT_IN = 5.0
 """Nats that a thing loses that can't be in a landmark."""
 _LARGER = 1.5

@@ -24,17 +24,18 @@ from dcg_torch.names.attributes import (
 )
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.normal import normalise, singular
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS, SIDED
 from dcg_torch.names.weights import log_odds, names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _HELD = "held"
 """What is in the gripper: a state, and no key that a noun names."""
-_POSSESSIVE = frozenset({"with", "wear", "in", "have", "of", "from", "carry", "without"})
+_POSSESSIVE = listed("has")
 """Prepositions before what a thing has."""
-_HAVING = frozenset({"have", "wear", "be", "with"})
+_HAVING = listed("has as a verb")
 """Verbs whose object is what a thing has: "he has a beard"."""
-_MADE = frozenset({"of", "from", "in"})
+_MADE = listed("made of")
 """Prepositions before what a thing is made of."""
 _OF_LOOKS = frozenset({"gender", "age", "hair", "shape"})
 """Keys whose values people use as nouns: "the woman", "the blonde", "the ball"; "the iron" is no thing of iron."""
@@ -249,7 +250,7 @@ def _is_person(name: str) -> bool:
     return not is_generic(name) and log_odds(name, "person") > 0.0
 
 
-_OWNED = frozenset({"your", "my", "his", "her", "their"})
+_OWNED = listed("owners")
 
 
 def _with_words(tree: ParseTree, words: Sequence[str]) -> ParseTree:

@@ -8,13 +8,12 @@ from dataclasses import replace
 
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.palette import region
+from dcg_torch.names.relations import listed
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
-_INSIDE = frozenset({"in", "into", "inside"})
-_OWN = frozenset(
-    {"my", "our", "his", "her", "their", "this", "these", "some", "it", "they", "them", "something", "a", "an"}
-)
+_INSIDE = listed("inside")
+_OWN = listed("own")
 """First words of what the speaker has and the scene need not."""
 
 

@@ -15,6 +15,7 @@ from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import is_board, scene_kind, stands_among
 from dcg_torch.names.normal import heads
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     ANYTHING,
     GROUP_WORDS,
@@ -40,7 +41,7 @@ from dcg_torch.scene.upright import is_upright
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions
 
-AT_SIDE = frozenset({"on", "at", "to", "in", "towards"})
+AT_SIDE = listed("on a side of the scene")
 """Prepositions that say at which side of the scene a thing is."""
 
 _LEVEL = 0.02

@@ -12,20 +12,21 @@ from dataclasses import replace
 
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.color_names import color_evidence
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import CELL, CELL_STEPS, INSIDE, LINE_ENDS, LINE_OF, NUMBER_WORDS, ORDINALS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.grids import Cell, Grid, grid_of
 from dcg_torch.types import LOOKED_ROUND, NOT, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
-_WITHIN = INSIDE | {"on", "at", "to", "into"}
-_BESIDE = frozenset({"next to", "touching", "beside"})
+_WITHIN = INSIDE | listed("in a cell")
+_BESIDE = listed("beside in a grid")
 _DIAGONAL = "diagonal to"
 _ANY, _FEW = 3, 6
 """Neighbours at least of what is surrounded, and landmarks up to which "left of the white one" is read in a grid."""
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
 _ASLANT: tuple[Cell, ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
-_MIDDLES = frozenset({"middle", "center", "central", "middlemost"})
-_SPOTS = frozenset({"corner", "side", "edge", "end", "middle", "center"})
+_MIDDLES = listed("middle")
+_SPOTS = listed("spots of a grid")
 _TELLING = frozenset().union(
     LINE_OF, LINE_ENDS, CELL_STEPS, _BESIDE, _SPOTS, _MIDDLES, ("between", "surrounded by", _DIAGONAL)
 )

@@ -22,6 +22,7 @@ from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.marks import OF_CLASS, Marks, is_strange, mark_words, marks_of, words_of
 from dcg_torch.names.normal import singular
+from dcg_torch.names.relations import listed
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 
 _Parsed = TypeVar("_Parsed", bound=ParsedCommand)
@@ -29,7 +30,7 @@ _LONGEST: Final = 1000  # characters of a text whose marks are looked for; longe
 _STAND_IN: Final = "quorb"
 _STAND_INS: Final = tuple(f"{_STAND_IN}{one}{two}" for two in "bcdfgklmnpqrtvw" for one in "abcdefghijklmnopqrstuvwxyz")
 """More than a command has words; with another letter at their ends they might be plurals of one another."""
-_BEARING = frozenset({"with", "of", "have"})
+_BEARING = listed("bears")
 
 
 def heard(

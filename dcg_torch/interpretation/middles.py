@@ -11,14 +11,15 @@ from dataclasses import replace
 from dcg_torch.interpretation.scene_kinds import scene_kind
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.vocabulary import NEAREST, PLACE_WORDS
+from dcg_torch.names.relations import listed
+from dcg_torch.names.vocabulary import NEAREST
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.groups import in_line
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions, to_robot_frame
 
-_MIDDLES = frozenset(word for word, (place, _) in PLACE_WORDS.items() if place == "middle")
+_MIDDLES = listed("middle")
 _LEAST = 3
 """Things at least of which one is the middle one."""
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     DEGREES,
     INSIDE,
     LATERAL,
-    MIDDLES,
     NEAREST,
     ORDINALS,
     PLACE_WORDS,
@@ -18,6 +18,8 @@ from dcg_torch.names.vocabulary import (
     is_superlative,
 )
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
+
+MIDDLES = listed("middle")
 
 
 def is_of_all(place: ParseTree) -> bool:
@@ -59,7 +61,7 @@ def in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
     return (*(c for c in children if c not in both), near_side((str(vertical[0]), str(lateral[0]))))
 
 
-_BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
+_BESIDE = listed("on a side") | {NEAREST}
 
 
 def over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:

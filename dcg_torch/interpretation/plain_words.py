@@ -8,6 +8,7 @@ from dataclasses import replace
 from dcg_torch.interpretation.measuring import compared_with
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
+    MIDDLES,
     closest,
     in_one_corner,
     is_of_all,
@@ -20,6 +21,7 @@ from dcg_torch.interpretation.plain_places import (
 )
 from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
 from dcg_torch.interpretation.stacks import end_of_a_stack, from_the_ground, levels_of_stack
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     BESIDE_WHOM,
     BY_COMPASS,
@@ -31,7 +33,6 @@ from dcg_torch.names.vocabulary import (
     HOME,
     LATERAL,
     LIKE_RELATION,
-    MIDDLES,
     NEAREST,
     OF_BOTH,
     OF_TWO,
@@ -215,8 +216,8 @@ _SEEN_FROM_IT = {
 
 
 _OF_A_PLACE = {"on top of": ("top", "behind"), "above": ("top", "behind"), "under": ("bottom", "in front of")}
-_ANYWHERE = ("in", "on", "of")
-_WITHIN = ("in", "on", "at", "of", "from", "to", "towards")
+_ANYWHERE = listed("anywhere in")
+_WITHIN = listed("at a side")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
 
@@ -276,7 +277,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             phrase = replace(phrase, noun=GROUND_WORD)
     if _picks(tree) is not None or (name == "of" and in_group(phrase)):
         name = "in"  # "the middle one of the stack"
-    inside = name in ("on", "at", "to", "in", "towards")
+    inside = name in listed("on a side of the scene")
     side = None if landmark.children else side_with_a_middle((phrase.noun or "", *phrase.words))
     side = side_itself(phrase) or side if name in OF_TWO else side
     if side is not None and (inside or name in OF_TWO or name == NEAREST):

@@ -14,13 +14,14 @@ import numpy as np
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
-_ALL = frozenset({"room", "house", "place"})
+_ALL = listed("whole of a room")
 _CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
-_WITHIN = frozenset({"in", "at", "inside", "into", "near", "next to", "close to", "by"})
+_WITHIN = listed("in a corner")
 _CLASSES, _THINGS, _WIDE = 4, 10, 2.0
 """Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1

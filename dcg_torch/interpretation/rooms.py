@@ -15,6 +15,7 @@ from dataclasses import replace
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
+from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_keys, room_named, told_rooms, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM
 from dcg_torch.names.weights import log_odds, names_one_of
@@ -27,7 +28,7 @@ _IN, _ELSEWHERE = 0.45, 0.15
 _ELSE = f"{LIKELY_ROOM}another"
 _TELLING = 0.8
 """From which a thing tells its room by itself."""
-_ABOUT = frozenset({"in", "inside", "at"})
+_ABOUT = listed("in a room")
 _NAMED = 4.0
 """Log-odds from which a noun is rather a class that is there than a room."""
 

@@ -15,6 +15,7 @@ from dataclasses import replace
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.normal import normalise
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_ENDS, ORDINALS, TIER, TIERS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.upright import is_upright
@@ -24,8 +25,8 @@ _STEP = 0.1
 """Metres that shelves are apart at least."""
 _EVEN = 0.5
 """Share of the widest step between heights by which others are steps to another shelf as well."""
-_ON = frozenset({"on", "in", "from", "at"})
-_OF = frozenset({"of", "on", "in"})
+_ON = listed("on a shelf")
+_OF = listed("of a shelf")
 _EXTREMES = {0: "highest", -1: "lowest"}
 
 

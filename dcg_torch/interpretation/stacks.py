@@ -11,13 +11,14 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
 from dcg_torch.scene.groups import stacks
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _ENDS = dict.fromkeys(("bottom", "bottommost", "lowest", "lower", "from the bottom"), "up")
 _ENDS |= dict.fromkeys(("top", "topmost", "highest", "upper", "from the top"), "down")
-_FEET = frozenset({"base", "foot", "bottom"})
+_FEET = listed("foot of a stack")
 _AT_ENDS = {"at the bottom of": "up"}
 _TALL = 3
 """Levels at least of the one stack that "the second from the bottom" is about where none is named."""

@@ -133,8 +133,6 @@ SIDE_WORDS |= {
     "upper": "far side",
     "lower": "near side",
 }
-MIDDLES = frozenset({"middle", "center", "centre"})
-"""Words for the middle of something."""
 OF_TWO = frozenset({"between", "in the middle of"})
 """Prepositions that say how a thing stands to two landmarks at once."""
 OR = "or"

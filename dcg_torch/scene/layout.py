@@ -199,13 +199,7 @@ def layout(world: WorldModel) -> Layout:
     n, robot = len(things), world.robot or Pose(0.0, 0.0)
     viewer = world.viewer or robot
     objects, placed = len(world.objects), n - len(world.places)
-    position = positions(things)
-    position[:, :2] = to_robot_frame(viewer, position[:, :2])
-    seen = position[:objects]
-    flat = laid_flat(seen)
-    on_floor = flat is seen  # no picture
-    position[:objects] = flat
-    position /= world.unit
+    position, on_floor = _as_seen(world, viewer)
     half = np.zeros((n, 2))
     for j in range(placed, n):
         if (size := things[j].size) is not None:
@@ -221,12 +215,8 @@ def layout(world: WorldModel) -> Layout:
     direction, ground, edge = (
         np.array([*none, *[type_ in of for type_ in types]], dtype=np.bool_) for of in ((DIRECTION,), (GROUND,), EDGES)
     )
-    speaker = None
-    if world.speaker is not None:
-        speaker = to_robot_frame(viewer, np.array([[world.speaker.x, world.speaker.y]]))[0] / world.unit
-    own = np.zeros(2)
-    if world.viewer is not None:
-        own = to_robot_frame(viewer, np.array([[robot.x, robot.y]]))[0] / world.unit
+    speaker = None if world.speaker is None else _foot(world.speaker, viewer, world.unit)
+    own = np.zeros(2) if world.viewer is None else _foot(robot, viewer, world.unit)
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
     outlook = None
@@ -251,6 +241,23 @@ def layout(world: WorldModel) -> Layout:
         picture=not on_floor,
         outlook=outlook,
     )
+
+
+def _as_seen(world: WorldModel, viewer: Pose) -> tuple[Floats, bool]:
+    """(n, 3) where things are in the viewer's frame, in units, a picture laid flat; and is there no picture?"""
+    position = positions(world.things)
+    position[:, :2] = to_robot_frame(viewer, position[:, :2])
+    seen = position[: len(world.objects)]
+    flat = laid_flat(seen)
+    position[: len(world.objects)] = flat
+    position /= world.unit
+    return position, flat is seen
+
+
+def _foot(pose: Pose, viewer: Pose, unit: float) -> Floats:
+    """(2,) where somebody stands in the viewer's frame, in units."""
+    found: Floats = to_robot_frame(viewer, np.array([[pose.x, pose.y]]))[0] / unit
+    return found
 
 
 def _members(world: WorldModel) -> dict[int, Ints]:
