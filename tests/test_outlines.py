@@ -202,3 +202,24 @@ def test_what_is_nearly_as_near_as_the_nearest_is_as_near() -> None:
     assert found["barrel1"] > 0.4 * found["barrel0"]
     assert found["barrel2"] < 0.1 * found["barrel0"]
     assert likeliest("the barrel that is close to the gate and not near the ladder", yard, 1) == {"barrel1"}
+
+
+def test_a_pair_of_what_is_named_in_the_plural_is_one_thing() -> None:
+    hall = [
+        percept("boots0", "boots", 0.5, 0.5, (0.3, 0.3, 0.3)),
+        percept("boots1", "boots", 3.0, 2.0, (0.3, 0.3, 0.3)),
+        percept("stove", "stove", 3.2, 2.4, (0.6, 0.6, 0.9)),
+        percept("coat", "coat", 0.2, 2.2, (0.3, 0.3, 1.0)),
+    ]
+    model = pretrained()
+    answer = model.ground("the pair of boots next to the stove", model.world_model(hall, looked=True))
+    assert [thing.id for thing in answer.objects] == ["boots1"]
+    cushions = [percept(f"cushion{k}", "cushion", 1.0 + 0.4 * k, 1.0, (0.3, 0.3, 0.1)) for k in range(2)]
+    answer = model.ground("the pair of cushions", model.world_model([*hall, *cushions], looked=True))
+    assert {thing.id for thing in answer.objects} == {"cushion0", "cushion1"}
+
+
+def test_what_is_on_a_thing_is_a_set_to_rank_in() -> None:
+    yard = [*GARAGE, percept("gate", "gate", 8.5, 0.0, (0.1, 1.5, 2.0))]
+    assert likeliest("the helmet closest to the gate", yard, 1) == {"helmet2"}
+    assert likeliest("of the helmets on the cart with two helmets, the one closest to the gate", yard, 1) == {"helmet1"}

@@ -26,9 +26,17 @@ def is_in_a_group(tree: ParseTree) -> bool:
     return tree.phrase.words[0] in INSIDE and len(tree.children) == 1 and in_group(tree.children[0].phrase)
 
 
-def is_to_a_place(tree: ParseTree) -> bool:
-    """Does a modifier say in which part of the scene, or of a table, a thing is? What stands by one is a vaguer set."""
-    return "to a thing" not in tree.phrase.context or tree.phrase.words[0] in OF_OUTLINE
+def is_to_a_place(tree: ParseTree, *, sized: bool = False) -> bool:
+    """Does a modifier say in which part of the scene, or of a table, a thing is? What stands by one is a vaguer set.
+
+    Args:
+        sized: is it known how large things are, so that what is on a thing is told from what is beside it?
+    """
+    name = tree.phrase.words[0]
+    return "to a thing" not in tree.phrase.context or name in OF_OUTLINE or (sized and name in _ON_IT)
+
+
+_ON_IT = frozenset({"on", "on top of", "in", "inside", "under"})
 
 
 def counted_landmark(tree: ParseTree) -> int:

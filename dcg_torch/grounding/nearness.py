@@ -43,10 +43,11 @@ def nearly_as_near(
     """(combos, things) what is nearly as near to a thing as the nearest of its kind is near to it as well.
 
     Args:
-        log_psi: what is known of each thing; it stays where it is more, and for what is no nearness.
+        log_psi: what is known of each thing; it stays where it is more, for what is no nearness, and where nobody says
+            how large things are.
         compared: (things,) those that are compared; None: those of one type.
     """
-    if name not in NEARNESS:
+    if name not in NEARNESS or encoder.layout.bodies is None:
         return log_psi
     gap = encoder.distances(list(landmarks)) + TOUCHING
     gap[~np.isfinite(gap)] = np.inf
@@ -65,5 +66,5 @@ def nearly_as_near(
     return found
 
 
-_NEARLY = 6.0
+_NEARLY = 9.0
 """Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind."""

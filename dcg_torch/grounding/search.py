@@ -171,7 +171,8 @@ class Search:
         several = counted(tree.phrase.words) is not None
         kind = self._beside_what_is_faced(tree) if own else None
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
-        parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c) or is_in_a_group(c))]
+        sized = self.encoder.layout.bodies is not None
+        parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
         some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]

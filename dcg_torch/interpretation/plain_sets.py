@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.normal import heads
+from dcg_torch.names.normal import heads, singular
 from dcg_torch.names.vocabulary import BUILT_OF, GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -145,3 +146,23 @@ def _few_together(tree: ParseTree) -> ParseTree:
     if number is None or others or tree.children or _CLUSTERS.isdisjoint(phrase.words):
         return tree
     return ParseTree(replace(phrase, words=(f"{TOGETHER}{number}",), plural=True, count=number))
+
+
+def one_pair(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """ "The pair of shoes" is one thing where a recogniser calls one thing "shoes".
+
+    Args:
+        said: the words of the tree.
+    """
+    if _PAIR not in said.words:
+        return tree
+    plural = {singular(last) for type_ in world.classes if (last := type_.lower().split(" ")[-1]) != singular(last)}
+    return _of_pairs(tree, plural) if plural else tree
+
+
+def _of_pairs(tree: ParseTree, plural: Collection[str]) -> ParseTree:
+    phrase = tree.phrase
+    if _PAIR in phrase.words and phrase.noun is not None and singular(phrase.noun) in plural and phrase.count == 2:
+        words = tuple(word for word in phrase.words if word != _PAIR)
+        phrase = replace(phrase, words=words, plural=False, count=None)
+    return ParseTree(phrase, tuple(_of_pairs(child, plural) for child in tree.children))
