@@ -64,7 +64,7 @@ def test_a_landmark_in_the_singular_is_no_group_of_its_kind() -> None:
     percepts = [Percept(f"p{k}", "cube", c, (x, y, z)) for k, (c, x, y, z) in enumerate(things)]
     model = pretrained()
     world = model.world_model(percepts, Pose(0.0, 0.0), None, looked=True, workspace=Workspace(None, 1.0))
-    told = default_parser().parse("pick up the red block on top of the green block and put it on the red tower")
+    told = default_parser().parse("pick up the red block on top of the green block right of the red tower")
     solution = model.ground(told, world)
     (over,) = solution.modifiers
     landmarks = [combo[0].child.grounding.object for combo in over.combos]
