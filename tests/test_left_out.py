@@ -72,6 +72,7 @@ def test_two_things_that_a_place_is_not() -> None:
         "the stool that's not by the rug or next to the crate",
         "the stool that is neither by the rug nor by the crate",
         "the stool that is not near the rug and isn't near the crate",
+        "the stool that is not the one by the rug or near the crate",
     ):
         assert _meant(text, things) == {"apart"}
 
