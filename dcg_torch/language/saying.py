@@ -178,8 +178,7 @@ class NounPhrases:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
         no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
-        no_one = self.denied and predicate.is_a("that_one")
-        if no_one or (no_such and (self.denied or predicate.negative)):
+        if (self.denied and (no_such or predicate.is_a("that_one"))) or (no_such and predicate.negative):
             self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door"
             return
         if self.denied:
