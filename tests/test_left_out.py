@@ -60,6 +60,24 @@ def test_what_is_left_out_by_its_kind_is_not_meant(text: str, meant: set[str]) -
     assert _meant(text) == meant
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("take the cart, not the tea cart", {"cart"}),
+        ("a stool. Not a step stool.", {"stool"}),
+        ("the stool that is not a step stool", {"stool"}),
+    ],
+)
+def test_a_kind_of_it_is_left_out(text: str, meant: set[str]) -> None:
+    things = (
+        ("tea cart", "tea cart", "brown", 1.0, 0.6),
+        ("cart", "cart", "brown", 1.2, -0.4),
+        ("step stool", "step stool", "black", 2.0, 1.0),
+        ("stool", "stool", "black", 2.0, -1.0),
+    )
+    assert _meant(text, things) == meant
+
+
 def test_two_things_that_a_place_is_not() -> None:
     things = (
         ("rug", "rug", "gray", 1.0, 2.0),
@@ -72,6 +90,7 @@ def test_two_things_that_a_place_is_not() -> None:
         "the stool that's not by the rug or next to the crate",
         "the stool that is neither by the rug nor by the crate",
         "the stool that is not near the rug and isn't near the crate",
+        "the stool that is not the one by the rug or near the crate",
     ):
         assert _meant(text, things) == {"apart"}
 

@@ -28,6 +28,8 @@ _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
 _APART = 0.3
 """Metres by which the heights of some things of one name differ at least."""
+_FEW = 100
+"""Things of one name up to which these are looked for on a rack."""
 _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
 _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
@@ -56,17 +58,23 @@ def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
     if len(world.classes) >= _CLASSES or highest - lowest < _APART:
         return highest - lowest >= _APART
-    return any(_holds(o, at) for o in world.objects)
+    return len(at) <= _FEW and _on_a_rack(np.array(at), world)
 
 
-def _holds(thing: Object, at: Iterable[tuple[float, float, float]]) -> bool:
-    """Does a thing, such as a rack, reach over several heights at which things are in it?"""
-    if thing.size is None or thing.position is None or thing.size[2] < _APART:
+def _on_a_rack(at: np.ndarray, world: WorldModel) -> bool:
+    """Does a thing, such as a rack, reach over several of the heights at which others are in it?
+
+    Args:
+        at: (n, 3) the places of the others.
+    """
+    sized = [(o.position, o.size) for o in world.objects if o.position is not None and o.size is not None]
+    tall = [(*place[:2], max(size[:2]) / 2.0) for place, size in sized if size[2] >= _APART]
+    if not tall:
         return False
-    (x, y, _), (wide, deep, _) = thing.position, thing.size
-    reach = max(wide, deep) / 2.0
-    inside = [z for other_x, other_y, z in at if abs(other_x - x) <= reach and abs(other_y - y) <= reach]
-    return len(inside) > 1 and max(inside) - min(inside) >= _APART
+    racks = np.array(tall)
+    inside = (np.abs(racks[:, None, :2] - at[None, :, :2]) <= racks[:, None, 2:]).all(axis=2)
+    high, low = (np.where(inside, at[:, 2], end) for end in (-np.inf, np.inf))
+    return bool((high.max(axis=1) - low.min(axis=1) >= _APART).any())
 
 
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:

@@ -83,8 +83,9 @@ def _is_fragment(after: Sequence[Item]) -> bool:
     first = next((item for item in after if item.kind not in {Kind.COMMA, Kind.NEGATION}), END)
     sentence = itertools.takewhile(lambda item: item.kind is not Kind.STOP, after)
     whole = any(item.kind in {Kind.VERB, Kind.RELATIVE} for item in sentence)
-    # "Blue. Not the dark one."
-    described = first.is_a("color_word") and (after[0].kind is Kind.NEGATION or not first.determined)
+    # "Blue. Not the dark one.", "A table. Not an end table."
+    denied = bool(after) and after[0].kind is Kind.NEGATION
+    described = (denied and first.is_a("kind")) or (first.is_a("color_word") and (denied or not first.determined))
     return not whole and (described or first.kind in {Kind.PREPOSITION, Kind.ADVERB})
 
 

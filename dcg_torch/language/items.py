@@ -154,7 +154,8 @@ def deny(noun: Item, other: Item) -> None:
     if noun.noun is None and other.determined and noun.text.endswith(" one") and not bare:
         noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
     if other.noun not in {None, noun.noun}:
-        noun.children += [other.behind("except")] if noun.is_a("open") and other.is_a("kind") else []
+        out = other.is_a("kind") and (noun.is_a("open") or f" {other.noun}".endswith(f" {noun.noun}"))
+        noun.children += [other.behind("except")] if out else []  # "a table, not an end table"
         return
     of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
     for word in (None if of_one else other.color, *other.words):

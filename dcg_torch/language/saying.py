@@ -178,8 +178,8 @@ class NounPhrases:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
         no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
-        if no_such and (self.denied or predicate.negative):
-            self.exclude(predicate)  # "the red thing that is no cup"
+        if (self.denied and (no_such or predicate.is_a("that_one"))) or (no_such and predicate.negative):
+            self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door"
             return
         if self.denied:
             thing = None if predicate.pronoun else predicate.noun
