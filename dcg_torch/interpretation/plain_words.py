@@ -68,8 +68,8 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     phrase = tree.phrase
     below = tuple(in_plain_words(child, there, flat=flat, upright=upright) for child in tree.children)
     children = tuple(said for child in below for said in _placed(child, there))
-    if (upright or flat) and phrase.kind is PhraseKind.NOUN:
-        children = tuple(said for child in children for said in _over_and_beyond(child, upright=upright))
+    if upright and phrase.kind is PhraseKind.NOUN:
+        children = tuple(said for child in children for said in _over_and_beyond(child))
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if phrase.noun in COMPASS:
@@ -112,14 +112,13 @@ def _in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
 _BESIDE = frozenset({"on", "at", "in", "to", NEAREST})
 
 
-def _over_and_beyond(place: ParseTree, *, upright: bool) -> tuple[ParseTree, ...]:
-    """On a page what is above a thing is behind it, too; where all lies on one level it is behind it alone."""
+def _over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
+    """On a page what is above a thing is behind it, too."""
     name, *others = place.phrase.words or ("",)
     side = {"above": "behind", "under": "in front of"}.get(name)
     if side is None:
         return (place,)
-    beyond = replace(place, phrase=replace(place.phrase, words=(side, *others)))
-    return (place, beyond) if upright else (beyond,)
+    return place, replace(place, phrase=replace(place.phrase, words=(side, *others)))
 
 
 def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
