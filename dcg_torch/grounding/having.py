@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import alike_by, gaps
+from dcg_torch.scene.order import numbered
 from dcg_torch.types import NOT, Phrase
 
 Floats = NDArray[np.float64]
@@ -55,9 +56,18 @@ def of_having(
     own[np.arange(len(mark)), mark] = _NOT_ITS  # nothing is with itself
     best: Floats = np.maximum(np.sort(own, axis=0)[-count:].mean(axis=0), _NOT_ITS)
     if NOT in phrase.words:
-        best = np.maximum(np.log(-np.expm1(np.minimum(best, -1e-4))), _NOT_ITS)
+        best = np.maximum(np.log(-np.expm1(np.minimum(_of_its_kind(best, encoder), -1e-4))), _NOT_ITS)
     found = log_psi.copy()
     found[alike] = np.where(np.isfinite(where.position[:, 0]) & where.solid, best, log_psi[alike])
+    return found
+
+
+def _of_its_kind(best: Floats, encoder: WorldEncoder) -> Floats:
+    """(things,) as before, beside the one of each type that has it most: the chair beside a table is its own."""
+    kind = numbered([o.type for o in encoder.all])
+    most = np.full(kind.max(initial=0) + 1, _NOT_ITS)
+    np.maximum.at(most, kind, best)
+    found: Floats = np.where(most[kind] > _NOT_ITS / 2.0, best - most[kind], best)
     return found
 
 

@@ -161,8 +161,19 @@ def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
     there, (flat, upright), scene, among = setting
     said = from_you(in_whole_line(tree), among=among)
-    found = _described(in_plain_words(said, there, flat=flat or upright, upright=upright))
+    plain = in_plain_words(said, there, flat=flat or upright, upright=upright)
+    found = _described(_beyond(plain) if flat and "speaker" not in scene.split() else plain)
     return _said_in(found, scene) if scene else found
+
+
+_BEYOND = {"above": "behind", "under": "in front of", "not above": "not behind", "not under": "not in front of"}
+
+
+def _beyond(tree: ParseTree) -> ParseTree:
+    """Where all lies on one level what is above a thing is behind it, if nobody sees it from another side."""
+    phrase, children = tree.phrase, tuple(map(_beyond, tree.children))
+    name = _BEYOND.get(phrase.words[0]) if phrase.words and phrase.kind is PhraseKind.PREPOSITION else None
+    return ParseTree(phrase if name is None else replace(phrase, words=(name, *phrase.words[1:])), children)
 
 
 def _said_in(tree: ParseTree, scene: str) -> ParseTree:
