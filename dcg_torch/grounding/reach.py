@@ -244,6 +244,8 @@ def nearer_on_a_side(
 ) -> Floats | None:
     """(combos, things) what the others that stand on a side of a thing lose to the nearest of their kind there.
 
+    What stands aslant loses where another stands straight.
+
     Args:
         compared: (things,) those that are compared; None: those of one type.
 
@@ -254,17 +256,21 @@ def nearer_on_a_side(
         return None
     solid, mark = encoder.layout.solid, list(landmarks)
     gap = encoder.distances(mark) + TOUCHING
-    beside = (_aslant(name, mark, encoder) < STRAIGHT) & solid[mark][:, None] & solid
-    beside[np.arange(len(mark)), mark] = False
+    off = np.where(solid[mark][:, None] & solid, _aslant(name, mark, encoder), np.inf)
+    off[np.arange(len(mark)), mark] = np.inf
+    beside, aslant = off < STRAIGHT, (off >= STRAIGHT) & (off < ASLANT)
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
     of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
     nearest = np.full(of_each.max(initial=0) + 1, np.inf)
     np.minimum.at(nearest, of_each[beside], gap[beside])
     lost = np.zeros(gap.shape)
     lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
+    lost[aslant] = np.where(nearest[of_each[aslant]] < _NOT_FARTHER * gap[aslant], -_LESS_STRAIGHT, 0.0)
     return lost
 
 
+_LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
+"""Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
 _SIDE_FOLD = 0.7
 """Nats for each e-fold by which a thing is farther off than the nearest on that side."""
 TOUCHING = 0.1
