@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from dcg_torch.interpretation.plain_sets import of_its_members
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.clusters import clusters
-from dcg_torch.scene.places import places
+from dcg_torch.scene.places import side_middles
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Phrase, PhraseKind, Pose
 
@@ -104,8 +104,7 @@ def test_the_middle_one_of_many_strewn_about_is_at_the_middle(seed: int) -> None
 def test_the_middle_of_a_side_is_that_of_the_box_around_what_is_there(box: list[float]) -> None:
     near, far = sorted(box[:2])
     right, left = sorted(box[2:])
-    found = places((-5.0, 5.0, -5.0, 5.0), ROBOT, None, (near, far, right, left))
-    at = {tuple(o.attributes): o.position[:2] for o in found if o.type == "middle of a side" and o.position}
+    at = {tuple(o.attributes): o.position[:2] for o in side_middles((near, far, right, left), ROBOT) if o.position}
     middle = ((near + far) / 2.0, (right + left) / 2.0)
     expected = {
         ("near side",): (near, middle[1]),

@@ -27,9 +27,7 @@ from dcg_torch.interpretation.factor_tree import (
     offers_choice,
     path_to_object,
     setting_of,
-    speaks_of_groups,
-    speaks_of_lines,
-    speaks_of_pairs,
+    speaks_of,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.looking import Looks, told_by_looking
@@ -42,8 +40,8 @@ from dcg_torch.interpretation.shelves import by_shelves, with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
 from dcg_torch.names.attributes import OF_KEY
-from dcg_torch.names.vocabulary import PLACE_WORDS, SIDE_MIDDLE
-from dcg_torch.scene.workspace import with_groups, with_places_of_all
+from dcg_torch.names.vocabulary import PLACE_WORDS
+from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
 
 _NEGLIGIBLE = 3.0
@@ -107,7 +105,7 @@ def _in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
     return tree
 
 
-_OF_ALL = frozenset({"corner", "middle", SIDE_MIDDLE})
+_OF_ALL = frozenset({"corner", "middle"})
 """Places of what is there as a whole: sides are the robot's own where there are no edges."""
 
 
@@ -128,6 +126,9 @@ def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
     return reading.log_weight + sum(learned.get(rule, 0.0) for rule in reading.rules)
 
 
+_NOTHING = Beside()
+
+
 class SharedSearch:
     """Grounds several trees in one world: what they have in common is encoded and scored once.
 
@@ -143,10 +144,8 @@ class SharedSearch:
         self._tables = tables
         self._beam = beam
         self._search = Search(encoder, tables, beam)
-        self._others: dict[tuple[tuple[bool, bool] | None, frozenset[str]], Search] = {
-            (None, frozenset()): self._search
-        }
-        self._solved: dict[tuple[ParseTree, bool, bool, frozenset[str]], Solution] = {}
+        self._others: dict[tuple[Beside, frozenset[str]], Search] = {(_NOTHING, frozenset()): self._search}
+        self._solved: dict[tuple[ParseTree, Beside, bool, frozenset[str]], Solution] = {}
 
     @property
     def world(self) -> WorldModel:
@@ -177,22 +176,21 @@ class SharedSearch:
         out = [self._described(one, brief=True).objects for one in exceptions]
         left_out = frozenset(o.id for objects in out for o in objects if not o.hypothetical)
         said = in_setting(kept, self._setting)
-        return self.solve(said, groups=speaks_of_groups(said), brief=brief, left_out=left_out)
+        return self.solve(said, beside=speaks_of(said), brief=brief, left_out=left_out)
 
     def solve(
-        self, tree: ParseTree, *, groups: bool = False, brief: bool = False, left_out: frozenset[str] = frozenset()
+        self, tree: ParseTree, *, beside: Beside = _NOTHING, brief: bool = False, left_out: frozenset[str] = frozenset()
     ) -> Solution:
         """Of a tree of factors.
 
         Args:
-            groups: are the groups that objects form there to be meant?
+            beside: what is spoken of there beside things and the usual places.
             brief: leave out the runner-up.
             left_out: ids of what is there and is not meant.
         """
-        key = (tree, groups, brief, left_out)
+        key = (tree, beside, brief, left_out)
         if key not in self._solved:
-            search = self._search_in((speaks_of_lines(tree), speaks_of_pairs(tree)) if groups else None, left_out)
-            self._solved[key] = search.solve(tree, brief=brief)
+            self._solved[key] = self._search_in(beside, left_out).solve(tree, brief=brief)
         return self._solved[key]
 
     def with_runner_up(self, solution: Solution) -> Solution:
@@ -202,14 +200,14 @@ class SharedSearch:
             return solution
         return replace(solution, runner_up=found[0].runner_up(solution.tree, solution.best))
 
-    def _search_in(self, groups: tuple[bool, bool] | None, left_out: frozenset[str]) -> Search:
-        """The search in the world with its groups, are lines and pairs some of them?, or without if that is None."""
-        if (groups, left_out) not in self._others:
+    def _search_in(self, beside: Beside, left_out: frozenset[str]) -> Search:
+        """The search in the world with what is spoken of, and without what is left out."""
+        if (beside, left_out) not in self._others:
             encoder = self._search.encoder
-            world = encoder.world if groups is None else with_groups(encoder.world, lines=groups[0], pairs=groups[1])
+            world = with_all(encoder.world, beside)
             world = without(world, left_out) if left_out else world
-            self._others[groups, left_out] = Search(encoder.of(world), self._tables, self._beam)
-        return self._others[groups, left_out]
+            self._others[beside, left_out] = Search(encoder.of(world), self._tables, self._beam)
+        return self._others[beside, left_out]
 
 
 def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:

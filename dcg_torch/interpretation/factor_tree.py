@@ -30,6 +30,7 @@ from dcg_torch.names.vocabulary import (
     PLACE_WORDS,
     RANKING,
     READ_FROM,
+    SIDE_MIDDLE,
     SIDED,
     VERTICAL,
     WITHIN,
@@ -38,6 +39,7 @@ from dcg_torch.names.vocabulary import (
 )
 from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright import is_upright
+from dcg_torch.scene.workspace import Beside
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions
 
@@ -49,27 +51,22 @@ _LEVEL = 0.02
 
 
 @functools.lru_cache(maxsize=1024)
-def speaks_of_groups(tree: ParseTree) -> bool:
-    """Does some noun phrase of the command speak of a group of objects?"""
-    return any(in_group(node.phrase) for node in tree.walk())
-
-
-@functools.lru_cache(maxsize=1024)
-def speaks_of_lines(tree: ParseTree) -> bool:
-    """Does a tree of factors count rows or columns through the whole scene?"""
-    return any(node.phrase.noun in READ_FROM for node in tree.walk())
-
-
-@functools.lru_cache(maxsize=1024)
-def speaks_of_pairs(tree: ParseTree) -> bool:
-    """Does a tree of factors speak of two that stand side by side as a group? Stacks of two are groups anyway."""
-    return any(
-        counted(node.phrase.words) == 2
-        and any(
-            "stack" not in GROUP_WORDS.get(word or "", ("stack",)) for word in (node.phrase.noun, *node.phrase.words)
-        )
-        for node in tree.walk()
+def speaks_of(tree: ParseTree) -> Beside:
+    """What a tree of factors speaks of beside things and the usual places."""
+    phrases = [node.phrase for node in tree.walk()]
+    nouns = [phrase.noun or "" for phrase in phrases]
+    return Beside(
+        any(map(in_group, phrases)),
+        any(noun in READ_FROM for noun in nouns),
+        any(map(_is_a_pair, phrases)),
+        any(PLACE_WORDS.get(noun, ("", None))[0] == SIDE_MIDDLE for noun in nouns),
     )
+
+
+def _is_a_pair(phrase: Phrase) -> bool:
+    """Two that stand side by side as a group? Stacks of two are groups anyway."""
+    kinds = [GROUP_WORDS.get(word or "", ("stack",)) for word in (phrase.noun, *phrase.words)]
+    return counted(phrase.words) == 2 and any("stack" not in of for of in kinds)
 
 
 @functools.lru_cache(maxsize=1024)

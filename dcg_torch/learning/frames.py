@@ -7,10 +7,11 @@ from dataclasses import replace
 
 from dcg_torch.grounding.frames import from_the_other_side
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.interpretation.factor_tree import speaks_of
 from dcg_torch.learning.census import FrameCounts
 from dcg_torch.learning.landmarks import Part
 from dcg_torch.scene.frames import seen_by_speaker
-from dcg_torch.scene.workspace import with_groups
+from dcg_torch.scene.workspace import with_all
 from dcg_torch.types import ParseTree, WorldModel
 
 
@@ -31,7 +32,7 @@ def in_likelier_frames(
         if other is None:
             found.append(part)
             continue
-        other = with_groups(other) if part.world.groups else other
+        other = with_all(other, speaks_of(part.noun))
         across = replace(part, noun=from_the_other_side(part.noun), world=other)
         robots, speakers = (_meant(one, solve(one.noun, one.world)) for one in (part, across))
         share = counts.speakers * speakers / (counts.speakers * speakers + (1.0 - counts.speakers) * robots)

@@ -24,16 +24,14 @@ from dcg_torch.grounding.readings import Reading
 from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.interpretation.factor_tree import (
     coordinated,
-    speaks_of_groups,
-    speaks_of_lines,
-    speaks_of_pairs,
+    speaks_of,
     to_factor_tree,
 )
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.learning.evidence import told_by_look
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
-from dcg_torch.scene.workspace import with_groups
+from dcg_torch.scene.workspace import with_all
 from dcg_torch.types import (
     NOT,
     Child,
@@ -120,16 +118,9 @@ def parts_of(lesson: Lesson) -> list[Part]:
     for tree in trees:
         noun = target_of(to_factor_tree(tree, lesson.world))
         if noun is not None:
-            world = _with_groups_of(noun, seen)
+            world = with_all(seen, speaks_of(noun))
             found.append(Part(noun, world, lesson.targets, lesson.weight, len(trees) == 1))
     return found
-
-
-def _with_groups_of(noun: ParseTree, world: WorldModel) -> WorldModel:
-    """A world with the groups that a noun phrase speaks of; as it is where it speaks of none."""
-    if not speaks_of_groups(noun):
-        return world
-    return with_groups(world, lines=speaks_of_lines(noun), pairs=speaks_of_pairs(noun))
 
 
 def said_of_words(

@@ -16,12 +16,16 @@ from dcg_torch.names.vocabulary import (
 )
 from dcg_torch.scene.groups import groups, lines_of_all
 from dcg_torch.scene.layout import LINE_NUMBERS
-from dcg_torch.scene.places import places
+from dcg_torch.scene.places import places, side_middles
 from dcg_torch.types import Correspondence, Example, Object, Phrase, PhraseKind, Pose, Symbol, WorldModel
 
 _AMBIGUOUS = 0.1
 _WEIGHT = 3.0
 """Of the examples of words for places: "you" and "left" are what they are until people say otherwise."""
+
+
+_EDGES = (1.0, 7.0, -3.0, 3.0)
+"""Of a workspace, seen from the robot, metres."""
 
 
 def place_symbols() -> list[Symbol]:
@@ -37,7 +41,7 @@ def group_nouns() -> tuple[str, ...]:
 def place_examples() -> list[Example]:
     """Hand-made examples of what the words for places, for their sides, and for groups mean."""
     robot, speaker = Pose(0.0, 0.0), Pose(4.0, 0.0)
-    things = places((1.0, 7.0, -3.0, 3.0), robot, speaker)
+    things = (*places(_EDGES, robot, speaker), *side_middles(_EDGES, robot))
     cube = Object("cube", "cube", known=True)
     world = WorldModel((cube,), robot, speaker, things)
     phrases: list[tuple[Phrase, set[str], set[str]]] = []

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.names.vocabulary import SIDE_MIDDLE
 from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER
 from dcg_torch.scene.places import places, scene_bounds
 from dcg_torch.types import Object, Pose, WorldModel
@@ -70,7 +69,7 @@ def _bordered_anew(found: tuple[Object, ...], world: WorldModel, viewer: Pose) -
     return (*(place for place in boxed if place.type in _OF_A_BOX), *others)
 
 
-_OF_A_BOX = frozenset({"edge", "corner", "middle", SIDE_MIDDLE})
+_OF_A_BOX = frozenset({"edge", "corner", "middle"})
 """The places that a box around all objects has."""
 
 

@@ -29,24 +29,19 @@ def scene_bounds(positions: Sequence[Sequence[float]], robot: Pose | None) -> Bo
     return float(low[0]), float(high[0]), float(low[1]), float(high[1])
 
 
-def places(
-    bounds: Bounds | None, robot: Pose | None, speaker: Pose | None, box: Bounds | None = None
-) -> tuple[Object, ...]:
+def places(bounds: Bounds | None, robot: Pose | None, speaker: Pose | None) -> tuple[Object, ...]:
     """The places that can be spoken of.
 
     Args:
         bounds: of the workspace; None: it has no edges.
         robot: "you" to the speaker.
         speaker: "me".
-        box: around what is there, in whose middle people see "the top middle"; None: the bounds.
     """
     origin = robot or Pose(0.0, 0.0)
     found: list[Object] = []
 
     def add(kind: str, x: float, y: float, sides: Sequence[str] = (), size: tuple[float, float] = (0.0, 0.0)) -> None:
-        where = (*from_robot_frame(origin, x, y), 0.0)
-        name = " ".join(("place:", *sides, kind))
-        found.append(Object(name, kind, known=True, position=where, size=(*size, 0.0), attributes=frozenset(sides)))
+        found.append(_place(kind, from_robot_frame(origin, x, y), sides, size))
 
     if bounds is not None:
         near, far, right, left = bounds
@@ -58,11 +53,6 @@ def places(
         for y, side in ((right, "right side"), (left, "left side")):
             add("edge", mid_x, y, (side,), (deep, 0.0))
         add("middle", mid_x, mid_y)
-        near, far, right, left = box or bounds
-        for x, ahead in ((near, "near side"), (far, "far side")):
-            add(SIDE_MIDDLE, x, (right + left) / 2, (ahead,))
-        for y, side in ((right, "right side"), (left, "left side")):
-            add(SIDE_MIDDLE, (near + far) / 2, y, (side,))
     add(GROUND, 0.0, 0.0)
     for kind, pose in (("robot", robot), ("speaker", speaker)):
         if pose is not None:
@@ -71,3 +61,22 @@ def places(
             for side in HEADINGS:
                 add(DIRECTION, x, y, (side, f"of {kind}"))
     return tuple(found)
+
+
+def side_middles(box: Bounds, viewer: Pose | None) -> tuple[Object, ...]:
+    """The middles of the sides of a box around what is there, which "the top middle" is one of.
+
+    Args:
+        box: as the viewer sees it.
+        viewer: whose left and right they have.
+    """
+    near, far, right, left = box
+    deep, wide = (near + far) / 2, (right + left) / 2
+    spots = {"near side": (near, wide), "far side": (far, wide), "right side": (deep, right), "left side": (deep, left)}
+    origin = viewer or Pose(0.0, 0.0)
+    return tuple(_place(SIDE_MIDDLE, from_robot_frame(origin, *spot), (side,)) for side, spot in spots.items())
+
+
+def _place(kind: str, at: tuple[float, float], sides: Sequence[str], size: tuple[float, float] = (0.0, 0.0)) -> Object:
+    name = " ".join(("place:", *sides, kind))
+    return Object(name, kind, known=True, position=(*at, 0.0), size=(*size, 0.0), attributes=frozenset(sides))

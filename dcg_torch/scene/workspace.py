@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
 from dcg_torch.scene.groups import groups, lines_of_all
 from dcg_torch.scene.neighbours import Floats, nearest_other
-from dcg_torch.scene.places import Bounds, places, scene_bounds
+from dcg_torch.scene.places import Bounds, places, scene_bounds, side_middles
 from dcg_torch.types import Object, Percept, WorldModel
 from dcg_torch.types.geometry import positions
 
@@ -72,9 +73,9 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
         apart = spacing(world.objects)
         return replace(world, places=found, unit=apart if apart is not None and apart < _CLOSE else 1.0)
     bounds, there = workspace.bounds, [o.position for o in world.objects if o.position is not None]
-    box = scene_bounds(there, world.robot) if there else None
-    found = places(bounds or box, world.robot, world.speaker, box)
-    return replace(world, places=found, unit=workspace.unit)
+    if bounds is None and there:
+        bounds = scene_bounds(there, world.robot)
+    return replace(world, places=places(bounds, world.robot, world.speaker), unit=workspace.unit)
 
 
 def with_places_of_all(world: WorldModel, kinds: Collection[str]) -> WorldModel:
@@ -91,13 +92,30 @@ def with_places_of_all(world: WorldModel, kinds: Collection[str]) -> WorldModel:
     return replace(world, places=(*world.places, *(place for place in found if place.type in missing)))
 
 
-def with_groups(world: WorldModel, *, lines: bool = False, pairs: bool = False) -> WorldModel:
-    """A world with the groups that its objects form.
+class Beside(NamedTuple):
+    """What some commands speak of beside things and the usual places, and all others would only be confused by.
 
-    Args:
-        lines: with the rows and the columns of all of it, too.
-        pairs: with what are two by themselves.
+    Attributes:
+        groups: those that objects form.
+        lines: of these the rows and the columns of all that is there, too.
+        pairs: of these what are two by themselves, too.
+        side_middles: of the box around what is there.
     """
+
+    groups: bool = False
+    lines: bool = False
+    pairs: bool = False
+    side_middles: bool = False
+
+
+def with_all(world: WorldModel, beside: Beside) -> WorldModel:
+    """A world with what is spoken of in it, as its viewer sees it."""
     viewer = world.viewer or world.robot
-    counted = lines_of_all(world.objects, world.unit, viewer) if lines else ()
-    return replace(world, groups=(*groups(world.objects, world.unit, viewer, pairs=pairs), *counted))
+    there = [o.position for o in world.objects if o.position is not None]
+    if beside.groups:
+        counted = lines_of_all(world.objects, world.unit, viewer) if beside.lines else ()
+        found = groups(world.objects, world.unit, viewer, pairs=beside.pairs)
+        world = replace(world, groups=(*found, *counted))
+    if beside.side_middles and there:
+        world = replace(world, places=(*world.places, *side_middles(scene_bounds(there, viewer), viewer)))
+    return world
