@@ -70,8 +70,6 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     if form == "name: generic":
         return (form,)
     kind = "kind: everyday" if form == "name: equal" else _kind(said, named)
-    if (form, kind) == ("name: head", "kind: apart"):  # a kitchen cabinet is a cabinet, and some ministers to WordNet
-        kind = "kind: strange"
     return _solid_head(said, named, kind) or form, kind
 
 
