@@ -90,14 +90,17 @@ def test_the_middle_of_a_side_is_a_place(side: str, text: str) -> None:
     assert meant(text.format(side=side), MIDDLES) == {side}
 
 
-@pytest.mark.parametrize("seed", range(6))
-def test_the_middle_one_of_many_strewn_about_is_at_the_middle(seed: int) -> None:
-    spots = {name: spot for name, spot in scattered(seed).items() if name != "over"}
-    away = {name: math.dist(spot[:2], (5.0, 5.0)) for name, spot in spots.items()}
-    first, second = sorted(away.values())[:2]
-    if second > 1.3 * first:
-        assert meant("take the middle block", spots) == {min(away, key=away.__getitem__)}
-        assert meant("the center block moves to the left", spots) == {min(away, key=away.__getitem__)}
+def test_the_middle_one_of_many_strewn_about_is_at_the_middle() -> None:
+    """Where one is plainly the nearest to the middle of the board."""
+    plain = 0
+    for seed in range(30):
+        spots = {name: spot for name, spot in scattered(seed).items() if name != "over"}
+        away = {name: math.dist(spot[:2], (5.0, 5.0)) for name, spot in spots.items()}
+        first, second = sorted(away.values())[:2]
+        if second > 1.3 * first:
+            plain += 1
+            assert meant("take the middle block", spots) == {min(away, key=away.__getitem__)}, seed
+    assert plain > 10
 
 
 @given(box=st.lists(st.floats(-3.0, 3.0), min_size=4, max_size=4, unique=True))

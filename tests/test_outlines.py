@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from dcg_torch.model.pretrain import pretrained
@@ -186,6 +187,20 @@ def test_the_other_two_are_of_the_kind_of_what_is_meant() -> None:
     room = [*things, percept("clock", "clock", 1.5, 2.0, (0.3, 0.1, 0.3)), percept("post", "post", 5.0, 2.0, SEAT)]
     assert likeliest("the urn in between the other two", room, 1) == {"urn1"}
     assert likeliest("the urn between the two others", room, 1) == {"urn1"}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_the_other_two_are_not_two_of_another_kind(seed: int) -> None:
+    """The first urn stands between two posts, which nobody has named."""
+    rng = np.random.default_rng(seed)
+    urns = [percept(f"urn{k}", "urn", 1.0 + 1.5 * k, 0.0, (0.4, 0.4, 0.6)) for k in range(3)]
+    posts = [percept(f"post{k}", "post", 1.0, y, (0.3, 0.3, 1.0)) for k, y in enumerate((-1.2, 1.2))]
+    spots = zip(
+        ("clock", "sink", "lamp", "bin", "desk", "rug"), rng.uniform((0.0, 1.5), (6.0, 4.0), (6, 2)), strict=True
+    )
+    others = [percept(type_, type_, float(x), float(y), (0.3, 0.3, 0.4)) for type_, (x, y) in spots]
+    found = meant("the urn between the other two", [*urns, *posts, *others])
+    assert max(found, key=found.__getitem__) == "urn1"
 
 
 def test_what_is_nearly_as_near_as_the_nearest_is_as_near() -> None:

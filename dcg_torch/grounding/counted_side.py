@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
-from dcg_torch.interpretation.factor_tree import AT_SIDE
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, SIDED
 from dcg_torch.types import Phrase
 
@@ -57,7 +57,11 @@ def so_many_on_a_side(
 def _side(modifier: ModifierFactor) -> str | None:
     """The side at which a modifier says that a thing is."""
     tree = modifier.tree
-    if tree.phrase.words[0] not in AT_SIDE or len(tree.phrase.words) > 1 or len(tree.children) != 1:
+    if (
+        tree.phrase.words[0] not in listed("on a side of the scene")
+        or len(tree.phrase.words) > 1
+        or len(tree.children) != 1
+    ):
         return None
     place = tree.children[0]
     return place.phrase.noun if place.phrase.noun in SIDED and not (place.children or place.phrase.words) else None

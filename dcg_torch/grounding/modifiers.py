@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dcg_torch.interpretation.plain_words import in_group
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, RANKING, SIDED, WITHIN
 from dcg_torch.types import ParseTree
 
@@ -36,7 +37,7 @@ def is_to_a_place(tree: ParseTree, *, sized: bool = False) -> bool:
     return "to a thing" not in tree.phrase.context or name in OF_OUTLINE or (sized and name in _ON_IT)
 
 
-_ON_IT = frozenset({"on", "on top of", "in", "inside", "under"})
+_ON_IT = listed("on a thing")
 
 
 def counted_landmark(tree: ParseTree) -> int:

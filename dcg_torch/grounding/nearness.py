@@ -1,4 +1,8 @@
-"""Who is near, and who is nearer than others: by degrees, beside what is learned of the nearest."""
+"""Who is near, and who is nearer than others: by degrees, beside what is learned of the nearest.
+
+Of several landmarks that are named alike the nearest pair counts. On a side of a thing the nearest counts, and what
+stands straight before what stands aslant.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import NEARNESS, TOUCHING, by_distance, nearer_on_a_side
-from dcg_torch.scene.order import numbered
+from dcg_torch.grounding.reach import ASLANT, NEARNESS, ON_A_SIDE, STRAIGHT, TOUCHING, alike_by, aslant
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Ints = NDArray[np.int64]
 
 
 def by_nearness(
@@ -31,13 +35,13 @@ def by_nearness(
         landmarks, scores: (combos,) number of each, and its score.
         compared: (things,) those that are compared; None: those of one type.
     """
-    log_psi = nearly_as_near(name, log_psi, landmarks, compared, encoder)
+    log_psi = _nearly_as_near(name, log_psi, landmarks, compared, encoder)
     log_psi = log_psi + by_distance(name, landmarks, scores, compared, encoder)
     nearer = nearer_on_a_side(name, landmarks, compared, encoder)
     return log_psi if nearer is None else log_psi + nearer
 
 
-def nearly_as_near(
+def _nearly_as_near(
     name: str, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
 ) -> Floats:
     """(combos, things) what is nearly as near to a thing as the nearest of its kind is near to it as well.
@@ -54,10 +58,8 @@ def nearly_as_near(
     gap[np.arange(len(landmarks)), landmarks] = np.inf
     gap[:, ~encoder.layout.solid] = np.inf
     gap[~encoder.layout.solid[list(landmarks)]] = np.inf
-    kind = numbered([o.type for o in encoder.all]) if compared is None else compared.astype(np.int64)
-    of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
-    nearest, best = (np.full(of_each.max(initial=0) + 1, end) for end in (np.inf, -np.inf))
-    np.minimum.at(nearest, of_each, gap)
+    of_each, nearest = _nearest_of_a_kind(gap, compared, encoder)
+    best = np.full(len(nearest), -np.inf)
     first = np.isfinite(gap) & (gap <= nearest[of_each])
     np.maximum.at(best, of_each[first], log_psi[first])
     with np.errstate(invalid="ignore"):
@@ -68,3 +70,88 @@ def nearly_as_near(
 
 _NEARLY = 9.0
 """Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind."""
+
+
+def _nearest_of_a_kind(gap: Floats, compared: Bools | None, encoder: WorldEncoder) -> tuple[Ints, Floats]:
+    """(combos, things) a number for each landmark and kind, and by these numbers the gap of the nearest; inf: none."""
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    of_each: Ints = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
+    nearest = np.full(of_each.max(initial=0) + 1, np.inf)
+    np.minimum.at(nearest, of_each, gap)
+    return of_each, nearest
+
+
+def by_distance(
+    name: str, landmarks: Sequence[int], scores: Floats, compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) "the mug closest to a lamp" is the nearest of all mugs to any lamp, not one for each lamp.
+
+    Args:
+        name: of the relation.
+        landmarks: (combos,) number of each.
+        scores: (combos,) of the landmarks; those described alike are weighed against one another, corners and objects
+            each with their like.
+        compared: (things,) those that are compared; None: those of one type.
+
+    Returns:
+        What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
+        or nearer to any landmark than the farthest.
+    """
+    fold = _E_FOLD.get(name, 0.0)
+    if not fold or len(landmarks) < 2:
+        return np.zeros((len(landmarks), len(encoder.all)))
+    solid, best = encoder.layout.solid, landmarks[int(scores.argmax())]
+    same = np.array([solid[j] if solid[best] else encoder.all[j].type == encoder.all[best].type for j in landmarks])
+    alike = np.flatnonzero(alike_by(scores) & same)
+    lost = np.zeros((len(landmarks), len(encoder.all)))
+    if len(alike) < 2:
+        return lost
+    mark = np.array(landmarks)[alike]
+    gap = encoder.distances(mark.tolist()) + TOUCHING
+    gap[~np.isfinite(gap)] = np.inf
+    gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
+    nearest = gap.min(axis=0)
+    there = (np.isfinite(nearest) & encoder.layout.solid).nonzero()[0]
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    away = fold * np.log(gap[:, there] if fold > 0.0 else nearest[None, there])
+    ends = np.full(len(kind) + 1, np.inf)
+    np.minimum.at(ends, kind[there], away.min(axis=0))
+    lost[np.ix_(alike, there)] = np.maximum(_FARTHEST, ends[kind[there]] - away)
+    return lost
+
+
+def nearer_on_a_side(
+    name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+) -> Floats | None:
+    """(combos, things) what the others that stand on a side of a thing lose to the nearest of their kind there.
+
+    What stands aslant loses where another stands straight.
+
+    Args:
+        compared: (things,) those that are compared; None: those of one type.
+
+    Returns:
+        None for what is no side; nothing is lost to what stands to places.
+    """
+    if name not in ON_A_SIDE:
+        return None
+    solid, mark = encoder.layout.solid, list(landmarks)
+    gap = encoder.distances(mark) + TOUCHING
+    off = np.where(solid[mark][:, None] & solid, aslant(name, mark, encoder), np.inf)
+    off[np.arange(len(mark)), mark] = np.inf
+    beside, slanting = off < STRAIGHT, (off >= STRAIGHT) & (off < ASLANT)
+    of_each, nearest = _nearest_of_a_kind(np.where(beside, gap, np.inf), compared, encoder)
+    lost = np.zeros(gap.shape)
+    lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
+    lost[slanting] = np.where(nearest[of_each[slanting]] < _NOT_FARTHER * gap[slanting], -_LESS_STRAIGHT, 0.0)
+    return lost
+
+
+_LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
+"""Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
+_SIDE_FOLD = 0.7
+"""Nats for each e-fold by which a thing is farther off than the nearest on that side."""
+_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
+"""Nats for each e-fold of a distance, by relation."""
+_FARTHEST = -6.0
+"""The most that is lost."""

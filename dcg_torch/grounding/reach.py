@@ -1,7 +1,7 @@
 """What is measured of how things stand to landmarks, beside what is learned of it.
 
-Of several landmarks that are named alike the nearest pair counts, or none. In the plural all that stand so are meant.
-Extents say what is within reach of a thing, and what can be in it.
+In the plural all that stand so are meant. What is denied holds for no landmark that is named alike. Extents say what is
+within reach of a thing, and what can be in it.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ Bools = NDArray[np.bool_]
 
 def means_all(phrase: Phrase) -> bool:
     """Does a modifier in the plural describe all that stand so, and not the nearest of them above all?"""
-    whole = phrase.count is None and (phrase.words[0] in _ON_A_SIDE or phrase.words[0] in OF_TWO)
+    whole = phrase.count is None and (phrase.words[0] in ON_A_SIDE or phrase.words[0] in OF_TWO)
     around = phrase.words[0] in _AROUND and phrase.text.split(" ")[0] not in DEFINITE  # no place told before
     return phrase.plural and (whole or around)
 
@@ -38,7 +38,7 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
     counted = to_you and any(ranks_from(c) for c in noun.children if c is not modifier)  # "the second chair behind you"
     ranks = (ranks or counted) and not noun.phrase.plural
-    sided = phrase.words[0] in _ON_A_SIDE and ("to a thing" in phrase.context or to_you)
+    sided = phrase.words[0] in ON_A_SIDE and ("to a thing" in phrase.context or to_you)
     if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
         return modifier
     return ParseTree(replace(phrase, plural=True, count=None), modifier.children)
@@ -51,7 +51,7 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
         return log_psi
     if name in _AROUND:
         return _within_reach(log_psi, [of[0] for of in landmarks], encoder)
-    if name in _ON_A_SIDE:
+    if name in ON_A_SIDE:
         return _on_the_side(name, log_psi, [of[0] for of in landmarks], encoder)
     return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
 
@@ -134,26 +134,26 @@ def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: 
     """(combos, things) "the chairs left of the table" are all on that side of it, not the nearest of them above all.
 
     Args:
-        name: one of `_ON_A_SIDE`.
+        name: one of `ON_A_SIDE`.
         log_psi: what is known of the one that is meant.
         landmarks: numbers of things.
     """
-    aslant = _aslant(name, landmarks, encoder)
-    found = np.where(np.isfinite(aslant), -np.logaddexp(0.0, (np.nan_to_num(aslant) - ASLANT) / UNSURE), log_psi)
+    off = aslant(name, landmarks, encoder)
+    found = np.where(np.isfinite(off), -np.logaddexp(0.0, (np.nan_to_num(off) - ASLANT) / UNSURE), log_psi)
     found[np.arange(len(landmarks)), landmarks] = log_psi[np.arange(len(landmarks)), landmarks]
     return found
 
 
-def _aslant(name: str, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def aslant(name: str, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) radians by which a thing is off a side of each landmark; NaN for what is nowhere."""
-    where, way = encoder.layout, _ways(_ON_A_SIDE[name], landmarks, encoder)
+    where, way = encoder.layout, _ways(ON_A_SIDE[name], landmarks, encoder)
     offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
     half = where.half[landmarks][:, None]
     offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
     ahead = (offset * way).sum(axis=2)
     aside = np.abs((offset[..., ::-1] * way * (1.0, -1.0)).sum(axis=2))
-    aslant: Floats = np.arctan2(aside, ahead)
-    return aslant
+    found: Floats = np.arctan2(aside, ahead)
+    return found
 
 
 def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
@@ -163,8 +163,10 @@ def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEnc
     return np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], axis=1)[:, None]
 
 
-_ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
+ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
 """Preposition -> the direction in which what is so stands, as who looks sees it."""
+TOUCHING = 0.1
+"""Units of a gap below which distances are alike."""
 ASLANT, UNSURE = math.radians(65.0), math.radians(6.0)
 """Angle off that direction up to which a thing is on that side, and how vague that is."""
 STRAIGHT = math.radians(35.0)
@@ -198,87 +200,6 @@ def alike_by(scores: Floats) -> Bools:
     """(combos,) the landmarks that are named as well as the best."""
     alike: Bools = scores >= scores.max() - _ALIKE
     return alike
-
-
-def by_distance(
-    name: str, landmarks: Sequence[int], scores: Floats, compared: Bools | None, encoder: WorldEncoder
-) -> Floats:
-    """(combos, things) "the mug closest to a lamp" is the nearest of all mugs to any lamp, not one for each lamp.
-
-    Args:
-        name: of the relation.
-        landmarks: (combos,) number of each.
-        scores: (combos,) of the landmarks; those described alike are weighed against one another, corners and objects
-            each with their like.
-        compared: (things,) those that are compared; None: those of one type.
-
-    Returns:
-        What is lost for each e-fold by which a thing is farther from its landmark than the nearest thing is from one;
-        or nearer to any landmark than the farthest.
-    """
-    fold = _E_FOLD.get(name, 0.0)
-    if not fold or len(landmarks) < 2:
-        return np.zeros((len(landmarks), len(encoder.all)))
-    solid, best = encoder.layout.solid, landmarks[int(scores.argmax())]
-    same = np.array([solid[j] if solid[best] else encoder.all[j].type == encoder.all[best].type for j in landmarks])
-    alike = np.flatnonzero((scores >= scores.max() - _ALIKE) & same)
-    lost = np.zeros((len(landmarks), len(encoder.all)))
-    if len(alike) < 2:
-        return lost
-    mark = np.array(landmarks)[alike]
-    gap = encoder.distances(mark.tolist()) + TOUCHING
-    gap[~np.isfinite(gap)] = np.inf
-    gap[np.arange(len(mark)), mark] = np.inf  # nothing is near itself
-    nearest = gap.min(axis=0)
-    there = (np.isfinite(nearest) & encoder.layout.solid).nonzero()[0]
-    kind = encoder.type_number if compared is None else compared.astype(np.int64)
-    away = fold * np.log(gap[:, there] if fold > 0.0 else nearest[None, there])
-    ends = np.full(len(kind) + 1, np.inf)
-    np.minimum.at(ends, kind[there], away.min(axis=0))
-    lost[np.ix_(alike, there)] = np.maximum(_FARTHEST, ends[kind[there]] - away)
-    return lost
-
-
-def nearer_on_a_side(
-    name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
-) -> Floats | None:
-    """(combos, things) what the others that stand on a side of a thing lose to the nearest of their kind there.
-
-    What stands aslant loses where another stands straight.
-
-    Args:
-        compared: (things,) those that are compared; None: those of one type.
-
-    Returns:
-        None for what is no side; nothing is lost to what stands to places.
-    """
-    if name not in _ON_A_SIDE:
-        return None
-    solid, mark = encoder.layout.solid, list(landmarks)
-    gap = encoder.distances(mark) + TOUCHING
-    off = np.where(solid[mark][:, None] & solid, _aslant(name, mark, encoder), np.inf)
-    off[np.arange(len(mark)), mark] = np.inf
-    beside, aslant = off < STRAIGHT, (off >= STRAIGHT) & (off < ASLANT)
-    kind = encoder.type_number if compared is None else compared.astype(np.int64)
-    of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
-    nearest = np.full(of_each.max(initial=0) + 1, np.inf)
-    np.minimum.at(nearest, of_each[beside], gap[beside])
-    lost = np.zeros(gap.shape)
-    lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
-    lost[aslant] = np.where(nearest[of_each[aslant]] < _NOT_FARTHER * gap[aslant], -_LESS_STRAIGHT, 0.0)
-    return lost
-
-
-_LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
-"""Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
-_SIDE_FOLD = 0.7
-"""Nats for each e-fold by which a thing is farther off than the nearest on that side."""
-TOUCHING = 0.1
-"""Units of a gap below which distances are alike."""
-_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
-"""Nats for each e-fold of a distance, by relation."""
-_FARTHEST = -6.0
-"""The most that is lost."""
 
 
 def inside_of(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats | None:

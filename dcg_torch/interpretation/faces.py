@@ -12,20 +12,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, PLACE_WORDS, TOWARDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import NOT, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
-_ENDS = frozenset({"end", "head", "foot"})
+_ENDS = listed("ends of a thing")
 _END_OF = re.compile(r"\b(?:end|ends|head|foot) of$")
 _AN_END = re.compile(r"^(?:the |its |one |either )?(?:end|head|foot) of ")
 _SAID = re.compile(r"\b(?:ends?|head|foot|side) of\b")
 _SIDE_OF = re.compile(r"\bside of$")
 _SIDE = " side"
-_AT = frozenset({"on", "at", "by", "in", "near", "along", "next to", "from", "to"})
-_BESIDE = frozenset({"closest to", "near", "next to", "close to", "by", "facing", "towards", "toward", "beside"})
-_ACROSS = frozenset({"other", "opposite", "far", "farthest"})
-_SAYING = frozenset({"end", "side", "head", "foot"})
+_AT = listed("at an end of a thing")
+_BESIDE = listed("on the side towards")
+_ACROSS = listed("across")
+_SAYING = _ENDS | {"side"}
 
 
 def by_faces(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:

@@ -43,7 +43,7 @@ from dcg_torch.scene.workspace import Beside
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions
 
-AT_SIDE = listed("on a side of the scene")
+_AT = listed("on a side of the scene")
 """Prepositions that say at which side of the scene a thing is."""
 
 _LEVEL = 0.02
@@ -279,7 +279,7 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
 
 def _is_a_side(place: ParseTree) -> bool:
     landmark = place.children[0]
-    return place.phrase.words[0] in AT_SIDE and landmark.phrase.noun in SIDED and not landmark.children
+    return place.phrase.words[0] in _AT and landmark.phrase.noun in SIDED and not landmark.children
 
 
 def _within(place: ParseTree) -> ParseTree:

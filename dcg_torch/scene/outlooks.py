@@ -7,15 +7,10 @@ what else stands at no wall, from the middle of the room.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 
 from dcg_torch.scene.bodies import Bodies
-from dcg_torch.scene.order import TIE, Bools, Floats, Ints
-
-if TYPE_CHECKING:
-    from dcg_torch.scene.layout import Layout
+from dcg_torch.scene.order import TIE, Bools, Floats
 
 _AT_WALL = 0.4
 """Metres from a wall up to which a thing stands at it."""
@@ -71,26 +66,3 @@ def _from_edges(at: Floats, bodies: Bodies) -> tuple[Floats, Bools]:
     nearest = room == room.min(axis=1, keepdims=True)
     inward: Floats = np.where(nearest, -own, 0.0)
     return inward, np.logical_and(on.any(axis=0), inward.any(axis=1))
-
-
-def views(where: Layout, first: Ints, sided: Bools) -> tuple[Floats, Bools]:
-    """How c landmarks are looked at, in up to three frames: the robot's, its own as it faces them, the speaker's.
-
-    Args:
-        sided: (c, n) which things stand on a side of which landmark.
-
-    Returns:
-        (frames, c) angles, and (frames, c, n) which things stand on a side.
-    """
-    mark = where.position[first, :2]
-    if where.outlook is not None:
-        seen = where.outlook[first]
-        return np.array([seen, seen]), np.array([sided, sided])
-    away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
-    found, kept = [np.zeros(len(first)), np.arctan2(mark[:, 1], mark[:, 0])], [sided, sided & away]
-    if where.speaker is not None:
-        view = mark - where.speaker
-        near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
-        view[near] = where.middle - where.speaker
-        found, kept = [*found, np.arctan2(view[:, 1], view[:, 0])], [*kept, sided]
-    return np.array(found), np.array(kept)

@@ -16,7 +16,7 @@ from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
-from dcg_torch.scene.outlooks import views
+from dcg_torch.scene.views import views
 
 DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
 """The bounds of the distance features, in units of the world."""
