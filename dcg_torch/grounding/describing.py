@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
+from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.counted_side import so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
@@ -167,7 +168,7 @@ def comparison_set(
     They compare with all of the phrase's name where places leave one size alone ("the large one at the top"), or sizes
     that differ by little beside those of all of its kind ("the tiny black specks").
     """
-    phrase = tree.phrase
+    phrase = without_colors(tree.phrase)
     close = counted(phrase.words, TOGETHER)
     several = close or picked_from(phrase)
     shades = comparing_words(phrase.look) if several else ()  # they compare those, not all in view
@@ -182,7 +183,7 @@ def comparison_set(
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    again = of_contradictions(told, encoder)
+    again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied

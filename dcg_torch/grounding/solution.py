@@ -21,7 +21,9 @@ _AS_WELL = 0.5
 _LIKELY = 0.2
 """Share of the best object's probability from which another is one of several: what all fit well, this tells apart."""
 _EXCLUDED = 1e-3
-"""An object so much less probable than the best is no further one of a number: it has another name."""
+"""An object so much less probable than the best is no further one of a number: it has another look."""
+_EXCLUDED_OF_ANOTHER_TYPE = 0.1
+"""The same of another type: a count never takes what the noun excludes, however little a noun that is new excludes."""
 
 
 _MISCOUNTED = 0.4
@@ -84,10 +86,9 @@ class Solution:
         if self.object.hypothetical or (not noun.plural and (noun.count or 1) == 1):
             return (self.object,)
         if noun.count is not None:
-            ranked = self._ranked
-            least = _EXCLUDED * self.probabilities[ranked[0].id]
+            best, *_ = ranked = self._ranked
             counted = ranked[: noun.count]  # what is not there is likelier than what is called otherwise
-            return tuple(o for o in counted if self.probabilities[o.id] >= least and not o.hypothetical)
+            return tuple(o for o in counted if not o.hypothetical and not self._is_excluded(o, best))
         found = self._described
         if HALF in noun.words:
             return found[: (len(found) + 1) // 2]
@@ -97,6 +98,11 @@ class Solution:
     def _ranked(self) -> list[Object]:
         """All that may be there, the likeliest first."""
         return sorted(self.world.objects, key=lambda o: -self.probabilities[o.id])
+
+    def _is_excluded(self, other: Object, best: Object) -> bool:
+        """Is it too unlikely beside the best to be a further one of a number?  What is of its type may be less so."""
+        least = _EXCLUDED if other.type == best.type else _EXCLUDED_OF_ANOTHER_TYPE
+        return self.probabilities[other.id] < least * self.probabilities[best.id]
 
     @property
     def _described(self) -> tuple[Object, ...]:

@@ -31,8 +31,8 @@ _STEP = 2.0
 """Neighbours in an even row are at most so many times as far apart as the nearest ones."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
-_MOST = 12
-"""Groups of one kind that are kept: the largest."""
+_MOST = {"row": 12, "stack": 48, "cluster": 12}
+"""Groups of each kind that are kept: the largest."""
 _ASIDE = 0.2
 """How far from its line a member of a row may stand, as a share of half the row's length."""
 _FEW = 40
@@ -73,7 +73,7 @@ def groups(
     return tuple(
         _group(kind, [there[j] for j in members], [place[j] for j in members])
         for kind, of_kind in found.items()
-        for members in sorted(of_kind, key=lambda m: (-len(m), m))[:_MOST]
+        for members in sorted(of_kind, key=lambda m: (-len(m), m))[: _MOST[kind]]
     )
 
 
