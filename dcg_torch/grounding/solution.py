@@ -87,8 +87,8 @@ class Solution:
             return (self.object,)
         if noun.count is not None:
             best, *_ = ranked = self._ranked
-            counted = ranked[: noun.count]  # what is not there is likelier than what is called otherwise
-            return tuple(o for o in counted if not o.hypothetical and not self._is_excluded(o, best))
+            counted = [o for o in ranked if not self._is_excluded(o, best)][: noun.count]
+            return tuple(o for o in counted if not o.hypothetical)  # what is not there may be likelier than what is
         found = self._described
         if HALF in noun.words:
             return found[: (len(found) + 1) // 2]

@@ -49,8 +49,8 @@ def groups(
     """The groups that objects form.
 
     They are looked for among all objects, among those of one type, and among those of one type and colour. A group
-    has the type and the colour that its members share, and says what it is, how many they are, and how a row lies, in
-    its attributes.
+    has the type and the colour that its members share, a stack the type of those under its top, and says what it is,
+    how many they are, and how a row lies, in its attributes.
 
     Args:
         objects: those without a position are in no group.
@@ -145,6 +145,8 @@ def _seen(objects: Sequence[Object], unit: float, robot: Pose | None) -> Floats:
 def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[float]]) -> Object:
     ids = tuple([o.id for o in members])
     types, colors = {o.type for o in members}, {o.color for o in members}
+    if kind == STACK and len(types) > 1:
+        types = _types_under_the_top(members, position)
     one_type = next(iter(types)) if len(types) == 1 else None
     attributes = {kind, f"of {len(members)}"}
     if kind == ROW:
@@ -153,12 +155,19 @@ def _group(kind: str, members: Sequence[Object], position: Sequence[Sequence[flo
     return Object(
         id=f"{kind}: {' '.join(ids)}",
         type=one_type,
-        known=one_type is not None and False not in {o.known for o in members},
+        known=one_type is not None and all(o.known for o in members if o.type == one_type),
         color=next(iter(colors)) if len(colors) == 1 else None,
         position=members[0].position,
         attributes=frozenset(attributes),
         members=ids,
     )
+
+
+def _types_under_the_top(members: Sequence[Object], position: Sequence[Sequence[float]]) -> set[str | None]:
+    """Of a stack: the ball on a stack of cubes is none of these; of a ball on one cube neither is a stack."""
+    heights = [z for _, _, z in position]
+    top = heights.index(max(heights)) if len(members) > 2 else -1
+    return {o.type for k, o in enumerate(members) if k != top}
 
 
 def _extent(values: Sequence[float]) -> float:
