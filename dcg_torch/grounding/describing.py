@@ -25,6 +25,7 @@ from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.nearness import by_nearness
+from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
@@ -122,7 +123,7 @@ def _log_psi(
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
     if denied:
         return log_psi
-    log_psi = by_outline(name, log_psi, landmarks, encoder)
+    log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
