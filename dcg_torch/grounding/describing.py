@@ -29,6 +29,7 @@ from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
+from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
@@ -124,6 +125,7 @@ def _log_psi(
     if denied:
         return log_psi
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = by_levels_of_stacks(name, log_psi, landmarks, encoder)
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:

@@ -30,7 +30,7 @@ def is_of_all(place: ParseTree) -> bool:
 
 def side_with_a_middle(words: Sequence[str]) -> str | None:
     """The side in whose middle "the top middle cube" is; None where words speak of none, or of more."""
-    side = _one_side(words, MIDDLES)
+    side = one_side(words, MIDDLES)
     return side if side is not None and not MIDDLES.isdisjoint(words) else None
 
 
@@ -42,10 +42,11 @@ def picks_by_place(word: str) -> bool:
 def side_itself(place: Phrase) -> str | None:
     """The side that "the right", "the right side" and "the top edge" are; None of all else."""
     edges = {word for word, (kind, side) in PLACE_WORDS.items() if kind == "edge" and side is None}
-    return _one_side([place.noun or "", *place.words], edges)
+    return one_side([place.noun or "", *place.words], edges)
 
 
-def _one_side(words: Sequence[str], beside: Iterable[str]) -> str | None:
+def one_side(words: Sequence[str], beside: Iterable[str]) -> str | None:
+    """The side of which words speak, if they say no other, and nothing else but degrees and some words beside it."""
     sides = [word for word in words if word in SIDED]
     return sides[0] if len(sides) == 1 and {*words} - {*sides} - DEGREES <= {*beside} else None
 

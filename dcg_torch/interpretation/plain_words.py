@@ -15,6 +15,7 @@ from dcg_torch.interpretation.plain_places import (
     near_side,
     over_and_beyond,
     picks_by_place,
+    one_side,
     side_itself,
     side_with_a_middle,
     told_sides,
@@ -289,6 +290,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             name, phrase = NEAREST, replace(phrase, noun="corner", words=(end, side))
         elif end not in tree.phrase.text:  # "below the upper left corner"
             name = beyond
+    if phrase.noun == "end" and not landmark.children and inside and (side := one_side(phrase.words, ())) is not None:
+        name, phrase = NEAREST, replace(phrase, noun=side, words=())  # "the mug at the left end" is the leftmost
     if phrase.noun in SIDED:
         sides = tuple(word for word in phrase.words if word not in DEGREES)
         corner = told_sides((*sides, phrase.noun), ())

@@ -1,0 +1,86 @@
+"""What lies straight over and under one another: "the box on the red box" is the next one up, not the top of the stack.
+
+That is measured, not learned: in most of what teaches "on top of" one thing lies on another, and no third.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.names.relations import listed
+from dcg_torch.scene.layout import Layout
+from dcg_torch.scene.neighbours import SAME_SPOT
+
+Floats = NDArray[np.float64]
+Bools = NDArray[np.bool_]
+
+_OVER, _UNDER = listed("straight over"), listed("straight under")
+_BETWEEN = "between"
+_FARTHER = -2.0
+"""Nats that a thing loses for each other that lies between it and the landmark, up to two."""
+_MANY = 2
+_AMONG, _ELSEWHERE = -0.1, -5.0
+"""Log Psi of what lies between two things of its stack, and the least that all else loses."""
+_LEVEL = 0.01
+"""Units by which one thing is higher than another at least."""
+
+
+def by_levels_of_stacks(
+    name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) how well things stand over, under and between the things of stacks.
+
+    Args:
+        name: of the relation.
+        log_psi: what is learned; it stays for other relations, and where nothing is straight over or under a landmark.
+    """
+    up = 1.0 if name in _OVER else -1.0 if name in _UNDER else 0.0
+    if up == 0.0 and name != _BETWEEN:
+        return log_psi
+    where, found = encoder.layout, log_psi
+    for k, of in enumerate(landmarks):
+        if not where.solid[list(of)].all():
+            continue
+        if up != 0.0 and len(of) == 1:
+            lost = _levels_off(of[0], up, where)
+            if lost is not None:
+                found = found.copy() if found is log_psi else found
+                found[k] += lost
+        elif up == 0.0 and len(of) == 2:
+            inside = _inside(of[0], of[1], where)
+            if inside.any():
+                found = found.copy() if found is log_psi else found
+                found[k] = np.where(inside, _AMONG, np.minimum(log_psi[k], _ELSEWHERE))
+    return found
+
+
+def _straight(landmark: int, where: Layout) -> Bools:
+    """(things,) what is on a landmark's spot, seen from above."""
+    aside: Floats = np.hypot(*(where.position[:, :2] - where.position[landmark, :2]).T)
+    found: Bools = where.solid & (aside < SAME_SPOT)
+    return found
+
+
+def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
+    """(things,) what those lose that lie beyond the next one; None where fewer than two lie that way."""
+    lifted = up * (where.position[:, 2] - where.position[landmark, 2])
+    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL))
+    if len(that_way) < 2:
+        return None
+    heights = lifted[that_way]
+    nearer = (heights[None] < heights[:, None] - _LEVEL).sum(axis=1)
+    lost = np.zeros(len(lifted))
+    lost[that_way] = _FARTHER * np.minimum(nearer, _MANY)
+    return lost
+
+
+def _inside(one: int, other: int, where: Layout) -> Bools:
+    """(things,) what lies between two things of one stack; nothing where they are of two."""
+    height, straight = where.position[:, 2], _straight(one, where)
+    low, high = sorted((height[one], height[other]))
+    found: Bools = straight & straight[other] & (height > low + _LEVEL) & (height < high - _LEVEL)
+    return found
