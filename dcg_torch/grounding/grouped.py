@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.vocabulary import GROUP_WORDS, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, OWNERS, counted
 from dcg_torch.scene.groups import CLUSTER, ROW
 from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
 from dcg_torch.types import Phrase
@@ -27,21 +27,24 @@ _WIDE, _BENT = 4.0, 8.0
 """Nats that a row loses for each e-fold by which its steps are wider, and for each step by which one stands aside."""
 _LOOSE = 3.0
 """Nats that a cluster loses for each e-fold by which its things stand farther from one another."""
+_NOT_THERE = -3.0
+"""Nats that a group loses that is not the one farthest to the side that is said."""
 _FAR = -8.0
 """The most that a group loses for these."""
 _INSIDE = -0.05
 """The most that a thing loses that is in the group in which it is said to be."""
 _OUTSIDE = -6.0
 """Nats that a thing loses that is none of a row of so many in which it is said to be."""
+_ASIDE = -2.5
+"""The same of a row of which nobody says how many are in it."""
 _ROWS = frozenset(word for word, kinds in GROUP_WORDS.items() if "row" in kinds)
 _CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == (CLUSTER,))
 
 
 def log_of_group(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """(things,) what groups lose to the one that a phrase names; 0 of all else."""
-    return (
-        _of_so_many(phrase, encoder) + _of_a_whole(phrase, encoder) + _tidy(phrase, encoder) + _close(phrase, encoder)
-    )
+    told = (_of_kind, _of_so_many, _of_a_whole, _tidy, _close, _to_a_side)
+    return np.sum([log_of(phrase, encoder) for log_of in told], axis=0)
 
 
 def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
@@ -55,11 +58,24 @@ def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *,
         inside = encoder.layout.members.get(j)
         if inside is None:
             continue
-        if row and ROW in encoder.all[j].attributes:
-            outside = [i for i, o in enumerate(encoder.all) if not o.members and i not in inside]
-            found[k, outside] = np.minimum(found[k, outside], _OUTSIDE)
+        if ROW in encoder.all[j].attributes:
+            outside = encoder.layout.solid.copy()
+            outside[inside] = False
+            found[k, outside] = np.minimum(found[k, outside], _OUTSIDE if row else _ASIDE)
         found[k, inside] = np.maximum(found[k, inside], _INSIDE)
     return found
+
+
+def _kinds(phrase: Phrase) -> frozenset[str]:
+    """What kinds of groups a phrase speaks of."""
+    return frozenset(kind for word in (phrase.noun, *phrase.words) for kind in GROUP_WORDS.get(word or "", ()))
+
+
+def _of_kind(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what groups of another kind, and places, lose to "the row", where there is one."""
+    kinds, where = _kinds(phrase), encoder.layout
+    of_kind = np.array([not kinds.isdisjoint(o.attributes) for o in encoder.all]) & where.group
+    return np.where(of_kind.any() & ~of_kind & ~where.solid, -_OTHER, 0.0)
 
 
 def _of_so_many(phrase: Phrase, encoder: WorldEncoder) -> Floats:
@@ -120,6 +136,33 @@ def _close(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     steps = [nearest_other(where.position[where.members[j]]).mean() for j in some]
     loss = -_LOOSE * np.log(np.maximum(steps, SAME_SPOT / 2.0))
     lost[some] = np.maximum(_FAR, loss - loss.max())
+    return lost
+
+
+def _to_a_side(phrase: Phrase, encoder: WorldEncoder) -> Floats:
+    """(things,) what groups lose to "the left row" that are not the one farthest to that side.
+
+    Groups of one kind are compared, of so many as are said, without those that are a part of another, unless that
+    is several of them together.
+    """
+    lost = np.zeros(len(encoder.all))
+    sides, kinds = LATERAL.intersection(phrase.words), _kinds(phrase)
+    if len(sides) != 1 or not OWNERS.keys().isdisjoint(phrase.words):
+        return lost
+    number, where = counted(phrase.words), encoder.layout
+    some = [j for j in where.members if not kinds.isdisjoint(encoder.all[j].attributes)]
+    some = [j for j in some if number in (None, len(where.members[j]))]
+    inside = [frozenset(where.members[j].tolist()) for j in some]
+    inside = [of for of in inside if not any(a < of and b < of and a.isdisjoint(b) for a in inside for b in inside)]
+    whole = [
+        j
+        for j in some
+        if (own := frozenset(where.members[j].tolist())) in inside and not any(own < of for of in inside)
+    ]
+    if len(whole) < 2:
+        return lost
+    left = np.array([where.position[j, 1] for j in whole]) * (1.0 if sides == {"left"} else -1.0)
+    lost[whole] = np.where(left < left.max() - SAME_SPOT / 2.0, _NOT_THERE, 0.0)
     return lost
 
 

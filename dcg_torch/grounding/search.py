@@ -256,11 +256,12 @@ class Search:
         scores = found.scores[:, :meanable]
         odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))
         code, noun = found.code, target_of(tree)
-        single = noun is not None and not noun.phrase.plural and not in_group(noun.phrase)
-        if world.meant is not None or (single and world.groups):
-            out = np.array(
-                [bool(o.members and single) or not (world.meant is None or o.id in world.meant) for o in world.meanable]
-            )
+        things = noun is not None and not in_group(noun.phrase)
+        single = noun is not None and things and not noun.phrase.plural
+        number = noun.phrase.count if noun is not None and things else None
+        if world.meant is not None or ((single or number) and world.groups):
+            none = [bool(o.members) and (single or number not in (None, len(o.members))) for o in world.meanable]
+            out = np.array(none) | [not (world.meant is None or o.id in world.meant) for o in world.meanable]
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
             code = None

@@ -27,6 +27,8 @@ ACROSS, ALONG = "lies across", "lies along"
 """How a row lies for the robot: from its left to its right, or away from it."""
 _UNEVEN = 0.6
 """How far the next of an even row may stand from where it is due, as a share of the step."""
+_HALFWAY = 0.25
+"""How near to the middle of a step another thing stands that the step would leave out, as a share of the step."""
 _STEP = 2.0
 """Neighbours in an even row are at most so many times as far apart as the nearest ones."""
 _LEAST = 3
@@ -190,8 +192,10 @@ def _even_rows(points: Floats, code: Ints) -> Iterable[list[int]]:
 def _next_steps(points: Floats, code: Ints) -> dict[tuple[int, int], int]:
     """Which thing stands one more step on, of each step (i, j) between two that are next to each other on a level."""
     i, j = _steps(points, code)
-    due = 2.0 * points[j] - points[i]
     length = np.hypot(*(points[j] - points[i])[:, :2].T)
+    _, inside = _nearest_to(points, (points[i] + points[j]) / 2.0, code, code[i])
+    i, j, length = (of[inside > _HALFWAY * length] for of in (i, j, length))  # a row leaves out none of its own
+    due = 2.0 * points[j] - points[i]
     best, miss = _nearest_to(points, due, code, code[i])
     kept = miss < _UNEVEN * length
     pairs = zip(i[kept].tolist(), j[kept].tolist(), strict=True)
