@@ -14,7 +14,7 @@ from dcg_torch.grounding.contrary import of_missing_marks
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.hypotheses import Beam, Combos, Hypothesis, ModifierFactor
+from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
@@ -145,7 +145,7 @@ class Search:
         if kept is not None:
             return kept
         below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
-        combos = Combos([self._beam_of(child, landmark=False) for child in below])
+        combos = Combos([self._beam_of(child, landmark=False) for child in below]) if below else NOTHING_BELOW
         is_noun = tree.phrase.kind is PhraseKind.NOUN
         scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
         if landmark:

@@ -48,6 +48,7 @@ class Tables:
         self._version = _version(weight)
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
+        self._related: dict[Phrase, Floats] = {}
         self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
         self._spread: dict[tuple[Phrase, int], dict[object, Floats]] = {}
 
@@ -107,7 +108,9 @@ class Tables:
             table = self._log_psi(phrase, bag.reshape(-1, bag.shape[2]))
             return table.reshape(len(table), len(landmarks), n)
         side = self._side(phrase)
-        own = side[:, self.features.relation_of]
+        own = self._related.get(phrase)
+        if own is None:
+            own = self._related[phrase] = side[:, self.features.relation_of]
         first = list(dict.fromkeys([of[0] for of in landmarks]))
         out = np.empty((len(side), len(first), n))
         step = max(1, _ENTRIES // (n * 16))
@@ -115,7 +118,7 @@ class Tables:
             part = [(j,) for j in first[start : start + step]]
             flat = encoder.relations(part, counted, members).reshape(-1, len(part) * n)
             flat = flat[flat.max(axis=1, initial=-1) >= 0].astype(np.int64)  # to most things half of them tell nothing
-            total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
+            total = side[:, self.features.placed_column, None].repeat(flat.shape[1], axis=1)
             _add(total, own, flat)
             out[:, start : start + step] = total.reshape(len(side), -1, n)
         if landmarks and len(landmarks[0]) > 1:
