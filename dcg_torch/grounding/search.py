@@ -168,8 +168,10 @@ class Search:
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
         own = [ranked_among(tree, c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        if not own:
+            return []
         several = counted(tree.phrase.words) is not None
-        kind = self._beside_what_is_faced(tree) if own else None
+        kind = self._beside_what_is_faced(tree)
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         sized = self.encoder.layout.bodies is not None
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
