@@ -64,9 +64,15 @@ class Tables:
         Args:
             members: (things,) those among which it ranks; None: all.
         """
-        coded = encoder.noun(phrase, members)
+        ranks = bool(phrase.words) and self._weighs_ranks(phrase)
+        coded = encoder.noun(phrase, members) if ranks else encoder.unranked(phrase)
         table = self._log_psi(phrase, coded.bag)
         return table if coded.code is None else table[:, coded.code]
+
+    def _weighs_ranks(self, phrase: Phrase) -> bool:
+        """Is there a weight between a word of a phrase and some rank? Without one it matters not which ranks fire."""
+        ranks = self.features.rank_of
+        return self._weight is None or bool(self._side(phrase)[:, ranks[ranks >= 0]].any())
 
     def unranked(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         """(P, things) of a noun phrase as if it ranked nothing."""

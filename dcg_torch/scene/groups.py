@@ -29,6 +29,8 @@ _UNEVEN = 0.6
 """How far the next of an even row may stand from where it is due, as a share of the step."""
 _STEP = 2.0
 """Neighbours in an even row are at most so many times as far apart as the nearest ones."""
+_RAISED = 0.01
+"""Units by which one thing is higher than another at least that is over it."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
 _MOST = 12
@@ -269,6 +271,9 @@ def _uncovered(position: Floats) -> Ints:
 
 def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
     """Things over one another."""
+    height = position[:, 2].tolist()
+    if _extent(height) <= _RAISED:
+        return ()
     stack = {j: {j} for j in range(len(position))}
     for i, j in zip(*(numbers.tolist() for numbers in _over(position)), strict=True):
         if stack[i] is not stack[j]:
@@ -280,7 +285,7 @@ def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
 def _over(position: Floats) -> tuple[Ints, Ints]:
     """The pairs of things of which one is over the other, the lower number first, in the order of their numbers."""
     i, j = _close_pairs(position[:, :2], SAME_SPOT)
-    apart = np.abs(position[i, 2] - position[j, 2]) > 0.01
+    apart = np.abs(position[i, 2] - position[j, 2]) > _RAISED
     return i[apart], j[apart]
 
 
