@@ -198,13 +198,11 @@ class Search:
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + combos.log_scores)[:, None]
-        placed = np.zeros(len(active)) if picks is None else picks.log_size
-        unmarked = of_missing_marks(phrase.words, self.encoder)
-        placed = placed if unmarked is None else placed + unmarked
-        base = base + placed
-        for modifier in modifiers:
-            base = base + modifier.log_psi
-            placed = placed + modifier.log_psi
+        placed: Floats | float = 0.0
+        further = (None if picks is None else picks.log_size, of_missing_marks(phrase.words, self.encoder))
+        for own in (*further, *[modifier.log_psi for modifier in modifiers]):
+            if own is not None:
+                base, placed = base + own, placed + own
         return Scored(
             tree,
             combos,

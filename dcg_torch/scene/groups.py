@@ -220,9 +220,10 @@ def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tup
         distance, number = cKDTree(points).query(places)
         return number, distance
     found, missed = [], []
+    axes = points.T if np.ptp(points[:, 2]) > 0.0 else points.T[:2]
     for start in range(0, len(places) or 1, _CHUNK):
         part = slice(start, start + _CHUNK)
-        square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(points.T, places[part].T, strict=True))
+        square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(axes, places[part].T, strict=False))
         square[code[None, :] != wanted[part, None]] = np.inf
         found.append(square.argmin(axis=1))
         missed.append(np.sqrt(square[np.arange(len(square)), found[-1]]))

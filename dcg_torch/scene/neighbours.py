@@ -76,6 +76,8 @@ def neighbours(
             offset = np.abs(position[i, :2] - position[j, :2])
             with np.errstate(invalid="ignore"):
                 spot &= ~(offset >= half[i] + half[j]).any(axis=1)
+        if not spot.any():
+            continue
         i, j = i[spot], j[spot]
         stacked[i] = True
         up = position[i, 2] - position[j, 2]

@@ -62,18 +62,12 @@ class Alike:
         return [(self.code == k).nonzero()[0] for k in range(int(self.code.max(initial=-1)) + 1)]
 
     @cached_property
-    def slots(self) -> Ints:
-        """(classes, most) the numbers of the things of each class, filled up with n."""
-        inside: defaultdict[int, list[int]] = defaultdict(list)
-        for j, k in enumerate(self.code.tolist()):
-            if k >= 0:
-                inside[k].append(j)
-        rows = list(itertools.zip_longest(*inside.values(), fillvalue=len(self.code)))
-        return np.array(rows, dtype=np.int64).T
-
-    @cached_property
     def table(self) -> Bools:
-        """(n, n) is j one of those that i is compared with, of members that are given? For few things."""
+        """(n, n) is j one of those that i is compared with? For few things."""
+        if self.given is None:
+            same: Bools = self.code[:, None] == self.code
+            same &= (self.code >= 0)[:, None]
+            return same
         inside = np.zeros((len(self.members) + 1, len(self.code)), dtype=np.bool_)
         for own, members in zip(inside, self.members, strict=False):  # the last is of what has no class
             own[members] = True
@@ -115,33 +109,16 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
         (r, n); 0 for what is in no class. A count of `most` or more means as many or more.
     """
     if values.shape[1] <= _FEW:
-        return _among_few(values, alike)
-    with np.errstate(invalid="ignore"):
-        bound = values - TIE
-        if most > _SORTED:
-            return _searched(values, bound, alike)
-        return _counted_to(list(_lowest(values, alike, most)), bound, alike.code)
-
-
-def _among_few(values: Floats, alike: Alike) -> Ints:
-    """As `before`: each is held against each of its class."""
-    count, n = values.shape
-    if alike.given is not None:
         with np.errstate(invalid="ignore"):
             less = values[:, None, :] < (values - TIE)[:, :, None]
         less &= alike.table
         few: Ints = np.einsum("rij->ri", less.view(np.int8)).astype(np.int64)  # far faster than a sum of truth values
         return few
-    out = np.zeros((count, n + 1), dtype=np.int64)
-    slots = alike.slots
-    if slots.size:
-        filled = np.full((count, n + 1), np.nan)
-        filled[:, :-1] = values
-        own = filled.take(slots, axis=1)
-        with np.errstate(invalid="ignore"):
-            less = own[:, :, None, :] < (own - TIE)[:, :, :, None]
-        out[:, slots] = np.einsum("rkij->rki", less.view(np.int8))
-    return out[:, :-1]
+    with np.errstate(invalid="ignore"):
+        bound = values - TIE
+        if most > _SORTED:
+            return _searched(values, bound, alike)
+        return _counted_to(list(_lowest(values, alike, most)), bound, alike.code)
 
 
 def _counted_to(lowest: Sequence[Floats], bound: Floats, code: Ints) -> Ints:
