@@ -179,7 +179,7 @@ class Statistics:
             return False
         if phrase.kind is not PhraseKind.NOUN:
             return True
-        if phrase.look or any(o.members for o in world.things):
+        if phrase.look or world.groups:
             return False
         nowhere = not world.places and all(o.position is None for o in world.objects) and ranking(phrase) is None
         return nowhere or Group.RELATION not in self._groups
