@@ -31,7 +31,7 @@ def test_rows_are_found_once_and_come_as_they_are_asked_for(count: int) -> None:
     assert sorted(asked) == [2, 4, 5, 7]
 
 
-def test_of_a_few_all_are_found_once_several_are_asked_for_again() -> None:
+def test_only_what_is_new_is_found_and_what_was_joined_is_kept() -> None:
     asked: list[list[int]] = []
 
     def find(numbers: np.ndarray) -> Arrays:
@@ -41,7 +41,8 @@ def test_of_a_few_all_are_found_once_several_are_asked_for_again() -> None:
     rows = KeptRows(find, 9)
     for numbers in ([4, 2], [2, 7], [1, 0, 8, 3, 4], [6, 5, 7, 2]):
         assert rows.of(numbers)[0].ravel().tolist() == [10 * j for j in numbers]
-    assert asked == [[4, 2], [7], list(range(9))]
+    assert asked == [[4, 2], [7], [1, 0, 8, 3], [6, 5]]
+    assert rows.of([6, 5, 7, 2])[0] is rows.of([6, 5, 7, 2])[0]
 
 
 def test_a_tree_of_another_process_is_found_among_equal_ones() -> None:

@@ -7,12 +7,16 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 import torch
-from making import command_tree, saw
+from making import command_tree, noun_phrase, saw
 
-from dcg_torch.grounding.features import padded
+from dcg_torch import scene
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.features import PAPER, Group, padded
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.model import GroundingModel
+from dcg_torch.learning.learner import TrainingSet
+from dcg_torch.model import GroundingModel, Variant
+from dcg_torch.scene.ranks import RANKS
 from dcg_torch.types import Child, Correspondence, Grounding, GroundingKind, Object
 
 TREE = command_tree("cube", "red")
@@ -23,6 +27,32 @@ def test_what_is_kept_of_phrases_changes_no_answer(pupil: Callable[[], Grounding
     worlds = [saw(model, "red cube", "blue cube"), saw(model, "green sphere", "red cube"), saw(model, "red drill")]
     alone = [pupil().ground(TREE, world).probabilities for world in worlds]
     assert [model.ground(TREE, world).probabilities for world in worlds] == alone
+
+
+def test_a_plain_command_asks_for_no_layout_of_the_scene(
+    pupil: Callable[[], GroundingModel], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = pupil()
+    world = saw(model, "red cube", "blue cube")
+    monkeypatch.setattr(scene, "layout", None)
+    found = model.ground(TREE, world).object
+    assert found is not None
+    assert (found.type, found.color) == ("cube", "red")
+
+
+@pytest.mark.parametrize("weighed", [False, True])
+def test_only_ranks_that_a_word_weighs_are_worked_out(training: TrainingSet, weighed: bool) -> None:
+    model = GroundingModel.trained(training, Variant(groups=PAPER | {Group.RELATION}, hypothetical=False))
+    features, said = model.features, noun_phrase("cube", words=("left",))
+    with torch.no_grad():
+        own = model.factor.weight[:, features.language["word: left"]]
+        own[:, [features.grounding[name] for name in RANKS]] = 0.0
+        own[0, features.grounding["rank: left 1"]] = float(weighed)
+    encoder = WorldEncoder(features, saw(model, "red cube", "blue cube"))
+    tables = Tables(features, model.factor)
+    table = tables.noun(encoder, said)
+    assert np.array_equal(table, tables.unranked(encoder, said)) is not weighed
+    assert bool(encoder._ranked) is weighed
 
 
 def test_weights_that_are_changed_in_place_are_noticed(pupil: Callable[[], GroundingModel]) -> None:

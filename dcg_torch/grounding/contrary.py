@@ -48,8 +48,10 @@ def of_missing_marks(words: Sequence[str], encoder: WorldEncoder) -> Floats | No
     A room without a number is not the one whose number is said. None where no such mark is said or borne.
     """
     marks = [word for word in words if OF_KEY in word and not word.removeprefix(NOT_).startswith((NOT_, *WORKED_OUT))]
+    if not marks or len(marks) > len({word.partition(OF_KEY)[0] for word in marks}):
+        return None
     found = np.zeros(len(encoder.all))
-    for word in marks if len(marks) == len({word.partition(OF_KEY)[0] for word in marks}) else ():
+    for word in marks:
         facts = [attribute_evidence((word,), o.attributes) for o in encoder.world.objects]
         if ("attribute: equal",) in facts and not word.startswith(NOT_):
             found[: len(facts)] -= [_NO_MARK if fact == ("attribute: silent",) else 0.0 for fact in facts]

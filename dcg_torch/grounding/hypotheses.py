@@ -95,6 +95,10 @@ class Combos:
         return map(self.__getitem__, range(len(self)))
 
 
+NOTHING_BELOW = Combos(())
+"""The one choice that there is without children."""
+
+
 class Highest(NamedTuple):
     """The best configurations of a phrase, the best first.
 

@@ -22,6 +22,7 @@ from dcg_torch.types import NOT, ParseTree, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
+Column = Floats | float
 
 
 def means_all(phrase: Phrase) -> bool:
@@ -146,21 +147,24 @@ def _on_the_side(name: str, log_psi: Floats, landmarks: Sequence[int], encoder: 
 
 def aslant(name: str, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) radians by which a thing is off a side of each landmark; NaN for what is nowhere."""
-    where, way = encoder.layout, _ways(ON_A_SIDE[name], landmarks, encoder)
-    offset = where.position[None, :, :2] - where.position[landmarks][:, None, :2]
-    half = where.half[landmarks][:, None]
-    offset = np.sign(offset) * np.maximum(np.abs(offset) - half, 0.0)
-    ahead = (offset * way).sum(axis=2)
-    aside = np.abs((offset[..., ::-1] * way * (1.0, -1.0)).sum(axis=2))
-    found: Floats = np.arctan2(aside, ahead)
+    where, (along, across) = encoder.layout, _ways(ON_A_SIDE[name], landmarks, encoder)
+    at, mark = where.position.T[:2], where.position[landmarks, :2].T
+    x, y = at[:, None, :] - mark[:, :, None]
+    if where.wide is not None:
+        half = where.half[landmarks].T[:, :, None]
+        x, y = (np.sign(v) * np.maximum(np.abs(v) - out, 0.0) for v, out in zip((x, y), half, strict=True))
+    ahead = x * along + y * across + 0.0  # no zero below zero, which would be a half turn off
+    found: Floats = np.arctan2(np.abs(y * along - x * across), ahead)
     return found
 
 
-def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
-    """(combos, 1, 2) where a side of each landmark is, as it is looked at."""
-    angle = np.zeros(1) if encoder.layout.outlook is None else encoder.layout.outlook[list(landmarks)]
+def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Column, Column]:
+    """Where a side of each landmark is, as it is looked at: x and y, (combos, 1) each, or of all alike."""
     x, y = side
-    return np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], axis=1)[:, None]
+    if encoder.layout.outlook is None:
+        return x, y
+    angle = encoder.layout.outlook[list(landmarks)][:, None]
+    return x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)
 
 
 ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}

@@ -14,7 +14,7 @@ from dcg_torch.grounding.contrary import of_missing_marks
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
-from dcg_torch.grounding.hypotheses import Beam, Combos, Hypothesis, ModifierFactor
+from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
 from dcg_torch.grounding.patterns import Spread
@@ -145,7 +145,7 @@ class Search:
         if kept is not None:
             return kept
         below = [c for c in tree.children if c.phrase.kind is not PhraseKind.MODIFIER]
-        combos = Combos([self._beam_of(child, landmark=False) for child in below])
+        combos = Combos([self._beam_of(child, landmark=False) for child in below]) if below else NOTHING_BELOW
         is_noun = tree.phrase.kind is PhraseKind.NOUN
         scored = self._noun(tree, combos) if is_noun else self._above(tree, combos)
         if landmark:
@@ -168,8 +168,10 @@ class Search:
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
         own = [ranked_among(tree, c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        if not own:
+            return []
         several = counted(tree.phrase.words) is not None
-        kind = self._beside_what_is_faced(tree) if own else None
+        kind = self._beside_what_is_faced(tree)
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         sized = self.encoder.layout.bodies is not None
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
@@ -196,13 +198,11 @@ class Search:
         inactive, active = (table[correspondences.index(c)] for c in (Correspondence.INACTIVE, Correspondence.ACTIVE))
         # Summed exactly, so that the order of the objects changes no bit and equal things keep equal scores.
         base = (math.fsum(inactive.tolist()) + combos.log_scores)[:, None]
-        placed = np.zeros(len(active)) if picks is None else picks.log_size
-        unmarked = of_missing_marks(phrase.words, self.encoder)
-        placed = placed if unmarked is None else placed + unmarked
-        base = base + placed
-        for modifier in modifiers:
-            base = base + modifier.log_psi
-            placed = placed + modifier.log_psi
+        placed: Floats | float = 0.0
+        further = (None if picks is None else picks.log_size, of_missing_marks(phrase.words, self.encoder))
+        for own in (*further, *[modifier.log_psi for modifier in modifiers]):
+            if own is not None:
+                base, placed = base + own, placed + own
         return Scored(
             tree,
             combos,

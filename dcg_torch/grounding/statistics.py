@@ -68,6 +68,7 @@ class Statistics:
         self._kept: dict[int, _Kept] = {}
         self._objects: dict[Object, int] = {}
         self._of_phrase: dict[int, Ints] = {}
+        self._related: dict[tuple[Hashable, ...], dict[tuple[bool, ...], int]] = {}
         self._came: dict[int, tuple[Any, int]] = {}
         self._sorted: tuple[list[Example], list[_Kept], list[Example]] = [], [], []
         self._joined: tuple[Sequence[_Kept], Ints, Floats] = ((), np.zeros(0, dtype=np.int64), np.zeros(0))
@@ -178,7 +179,7 @@ class Statistics:
             return False
         if phrase.kind is not PhraseKind.NOUN:
             return True
-        if phrase.look or any(o.members for o in world.things):
+        if phrase.look or world.groups:
             return False
         nowhere = not world.places and all(o.position is None for o in world.objects) and ranking(phrase) is None
         return nowhere or Group.RELATION not in self._groups
@@ -205,7 +206,8 @@ class Statistics:
     def _of_children(self, example: Example, kind: GroundingKind, numbers: Sequence[int]) -> list[int]:
         """What is seen of some groundings of a verb or a preposition: is each about the same object as a child's?"""
         about = [c.grounding.object.id for c in example.children]
-        found: dict[tuple[bool, ...], int] = {}  # nearly all are about the object of none
+        such = (kind._value_, *[(c.grounding.kind._value_, c.correspondence._value_) for c in example.children])
+        found = self._related.setdefault(such, {})
         things, seen = example.world.meanable, []
         for j in numbers:
             id_ = things[j].id

@@ -48,6 +48,7 @@ class Tables:
         self._version = _version(weight)
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
+        self._related: dict[Phrase, Floats] = {}
         self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
         self._spread: dict[tuple[Phrase, int], dict[object, Floats]] = {}
 
@@ -63,9 +64,15 @@ class Tables:
         Args:
             members: (things,) those among which it ranks; None: all.
         """
-        coded = encoder.noun(phrase, members)
+        ranks = bool(phrase.words) and self._weighs_ranks(phrase)
+        coded = encoder.noun(phrase, members) if ranks else encoder.unranked(phrase)
         table = self._log_psi(phrase, coded.bag)
         return table if coded.code is None else table[:, coded.code]
+
+    def _weighs_ranks(self, phrase: Phrase) -> bool:
+        """Is there a weight between a word of a phrase and some rank? Without one it matters not which ranks fire."""
+        ranks = self.features.rank_of
+        return self._weight is None or bool(self._side(phrase)[:, ranks[ranks >= 0]].any())
 
     def unranked(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         """(P, things) of a noun phrase as if it ranked nothing."""
@@ -107,15 +114,19 @@ class Tables:
             table = self._log_psi(phrase, bag.reshape(-1, bag.shape[2]))
             return table.reshape(len(table), len(landmarks), n)
         side = self._side(phrase)
-        own = side[:, self.features.relation_of]
+        own = self._related.get(phrase)
+        if own is None:
+            own = self._related[phrase] = side[:, self.features.relation_of]
         first = list(dict.fromkeys([of[0] for of in landmarks]))
+        alone = side[:, self.features.placed_column, None]
         out = np.empty((len(side), len(first), n))
+        out[:] = alone[..., None]
         step = max(1, _ENTRIES // (n * 16))
-        for start in range(0, len(first), step):
+        for start in range(0, len(first), step) if own.any() else ():  # "facing" is measured alone
             part = [(j,) for j in first[start : start + step]]
             flat = encoder.relations(part, counted, members).reshape(-1, len(part) * n)
             flat = flat[flat.max(axis=1, initial=-1) >= 0].astype(np.int64)  # to most things half of them tell nothing
-            total = np.zeros((len(side), flat.shape[1])) + side[:, self.features.placed_column, None]
+            total = alone.repeat(flat.shape[1], axis=1)
             _add(total, own, flat)
             out[:, start : start + step] = total.reshape(len(side), -1, n)
         if landmarks and len(landmarks[0]) > 1:

@@ -7,6 +7,7 @@ window together. How things stand so is measured (`grounding.outlines`).
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -36,11 +37,16 @@ def by_faces(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
         said: the words of the tree.
     """
     sides = not said.nouns.isdisjoint(_SAYING) or any(noun.endswith(_SIDE) for noun in said.nouns)
-    if not sides and not any(_SAID.search(node.phrase.text) for node in tree.walk()):
+    if not sides and not _speaks_of_ends(tree):
         return tree
     sized = frozenset({o.type for o in world.objects if o.type and o.size is not None})
     types = frozenset(type_ for type_ in sized if not type_.startswith(OPAQUE))
     return _faced(tree, types) if types else tree
+
+
+@functools.lru_cache(maxsize=1024)
+def _speaks_of_ends(tree: ParseTree) -> bool:
+    return any(_SAID.search(node.phrase.text) for node in tree.walk())
 
 
 def _faced(tree: ParseTree, types: frozenset[str]) -> ParseTree:

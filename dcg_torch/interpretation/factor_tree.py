@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
-import numpy as np
-
 from dcg_torch.interpretation.from_you import from_you
 from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
@@ -145,12 +143,19 @@ _NOWHERE = Setting(frozenset(), (False, False), "")
 def setting_of(world: WorldModel) -> Setting:
     """Of a world."""
     at = positions([o for o in world.objects if o.position is not None])
-    flat = len(at) > 0 and float(np.ptp(at[:, 2])) < _LEVEL
+    heights = at[:, 2].tolist()
+    flat = len(at) > 0 and max(heights) - min(heights) < _LEVEL
     upright = not flat and is_upright(world.objects, world.viewer or world.robot)
     kind = scene_kind(world)
-    flat = flat or (not upright and is_board(kind) and float(np.mean(at[:, 2] < at[:, 2].min() + _LEVEL)) > 0.5)
+    flat = flat or (not upright and is_board(kind) and _low(heights) > 0.5)
     among = world.robot is not None and stands_among(at[:, :2] - (world.robot.x, world.robot.y))
     return Setting(heads(world.classes), (flat, upright), kind, among)
+
+
+def _low(heights: Sequence[float]) -> float:
+    """The share of things that stand on the level of the lowest one."""
+    bound = min(heights) + _LEVEL
+    return sum([height < bound for height in heights]) / len(heights)
 
 
 @functools.lru_cache(maxsize=1024)

@@ -47,4 +47,7 @@ def stands_among(seen: NDArray[np.float64]) -> bool:
     Args:
         seen: (n, 2) where things are, from the robot; all finite.
     """
-    return len(seen) > 0 and bool((seen.min(axis=0) <= 0.0).all() and (seen.max(axis=0) >= 0.0).all())
+    if not len(seen):
+        return False
+    least, most = float(seen.min(axis=0).max()), float(seen.max(axis=0).min())
+    return least <= 0.0 <= most

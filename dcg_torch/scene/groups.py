@@ -31,6 +31,8 @@ _HALFWAY = 0.25
 """How near to the middle of a step another thing stands that the step would leave out, as a share of the step."""
 _STEP = 2.0
 """Neighbours in an even row are at most so many times as far apart as the nearest ones."""
+_RAISED = 0.01
+"""Units by which one thing is higher than another at least that is over it."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
 _MOST = {"row": 12, "stack": 48, "cluster": 12}
@@ -231,9 +233,10 @@ def _nearest_to(points: Floats, places: Floats, code: Ints, wanted: Ints) -> tup
         distance, number = cKDTree(points).query(places)
         return number, distance
     found, missed = [], []
+    axes = points.T if np.ptp(points[:, 2]) > 0.0 else points.T[:2]
     for start in range(0, len(places) or 1, _CHUNK):
         part = slice(start, start + _CHUNK)
-        square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(points.T, places[part].T, strict=True))
+        square = sum((own[None, :] - due[:, None]) ** 2 for own, due in zip(axes, places[part].T, strict=False))
         square[code[None, :] != wanted[part, None]] = np.inf
         found.append(square.argmin(axis=1))
         missed.append(np.sqrt(square[np.arange(len(square)), found[-1]]))
@@ -282,6 +285,9 @@ def _uncovered(position: Floats) -> Ints:
 
 def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
     """Things over one another."""
+    height = position[:, 2].tolist()
+    if _extent(height) <= _RAISED:
+        return ()
     stack = {j: {j} for j in range(len(position))}
     for i, j in zip(*(numbers.tolist() for numbers in _over(position)), strict=True):
         if stack[i] is not stack[j]:
@@ -293,7 +299,7 @@ def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
 def _over(position: Floats) -> tuple[Ints, Ints]:
     """The pairs of things of which one is over the other, the lower number first, in the order of their numbers."""
     i, j = _close_pairs(position[:, :2], SAME_SPOT)
-    apart = np.abs(position[i, 2] - position[j, 2]) > 0.01
+    apart = np.abs(position[i, 2] - position[j, 2]) > _RAISED
     return i[apart], j[apart]
 
 

@@ -10,8 +10,6 @@ from numpy.typing import NDArray
 
 Arrays = tuple[NDArray[Any], ...]
 
-_SOME, _FEW = 3, 40
-"""New numbers up to which no more than those are found, and numbers all of which are found about as fast as several."""
 _MANY = 1024
 """Numbers from which one is found after the other: what is worked out of many takes room."""
 
@@ -21,7 +19,7 @@ class KeptRows:
 
     Args:
         find: the arrays of some numbers, a row for each.
-        count: of all numbers. Of a few all are found once several are asked for again.
+        count: of all numbers.
     """
 
     def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], count: int) -> None:
@@ -37,8 +35,6 @@ class KeptRows:
 
     def _looked_up(self, numbers: Sequence[int]) -> Arrays:
         new = [j for j in dict.fromkeys(numbers) if j not in self._kept]
-        if len(new) > _SOME and self._kept and self._count <= _FEW:
-            new = list(range(self._count))  # one block, of which all further rows are taken
         step = len(new) or 1 if self._count <= _MANY else 1
         for start in range(0, len(new), step):
             part = new[start : start + step]
@@ -47,9 +43,17 @@ class KeptRows:
             self._kept |= {j: (found, row) for row, j in enumerate(part)}
         if len(new) == len(numbers) and (whole := self._together.get(tuple(numbers))) is not None:
             return whole  # as is usual
-        kept = [self._kept[j] for j in numbers]
+        whole = self._joined([self._kept[j] for j in numbers])
+        if self._count <= _MANY:
+            self._together[tuple(numbers)] = whole  # the same are mostly asked for several times in a row
+        return whole
+
+    @staticmethod
+    def _joined(kept: Sequence[tuple[Arrays, int]]) -> Arrays:
+        """The rows of some blocks as one block."""
         block = kept[0][0]
         if all(one is block for one, _ in kept):
-            return tuple([one.take([row for _, row in kept], axis=-2) for one in block])
+            rows = [row for _, row in kept]
+            return tuple([one.take(rows, axis=-2) for one in block])
         slices = [[one[..., row : row + 1, :] for one in found] for found, row in kept]
         return tuple([np.concatenate(parts, axis=-2) for parts in zip(*slices, strict=True)])

@@ -76,6 +76,8 @@ def neighbours(
             offset = np.abs(position[i, :2] - position[j, :2])
             with np.errstate(invalid="ignore"):
                 spot &= ~(offset >= half[i] + half[j]).any(axis=1)
+        if not spot.any():
+            continue
         i, j = i[spot], j[spot]
         stacked[i] = True
         up = position[i, 2] - position[j, 2]
@@ -88,7 +90,8 @@ def neighbours(
         colored = color[j] >= 0
         found.append(i[colored] * most + color[j[colored]])
     colors: dict[int, tuple[int, ...]] = {}
-    for code in np.unique(np.concatenate(found)).tolist() if found else ():
+    codes = np.concatenate(found) if found else np.zeros(0, dtype=np.int64)
+    for code in sorted(set(codes.tolist())) if len(codes) <= _FEW else np.unique(codes).tolist():
         k, c = divmod(code, most)
         colors[k] = (*colors.get(k, ()), c)
     return Neighbours(covered, resting, beside, stacked, colors)

@@ -81,10 +81,6 @@ class Alike:
         bounds = np.searchsorted(self.code[order], np.arange(len(self.members) + 1))
         return [order[a:b] for a, b in itertools.pairwise(bounds.tolist())]
 
-    def among(self, kept: Bools) -> Alike:
-        """Of those that are kept alone: others are in no class."""
-        return Alike(np.where(kept, self.code, -1), [m[kept[m]] for m in self.members])
-
 
 def numbered(values: Iterable[Hashable]) -> Ints:
     """Equal values get equal numbers, from 0, in the order in which they come first."""

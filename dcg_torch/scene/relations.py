@@ -232,26 +232,28 @@ def _orders(
 
 def _ahead(where: Layout, first: Ints) -> Floats:
     """(c, n) how far a thing is in the direction of each place that has one."""
-    x, y = (_offset(where, first) * where.heading[first][:, None, :]).transpose(2, 0, 1)
-    ahead: Floats = x + y
+    (x, y), (along, across) = _offset(where, first), where.heading[first].T[:, :, None]
+    ahead: Floats = x * along + y * across
     return ahead
 
 
 def _offset(where: Layout, first: Ints) -> Floats:
-    """(c, n, 2) from each landmark to every thing."""
-    return where.position[None, :, :2] - where.position[first][:, None, :2]
+    """(2, c, n) from each landmark to every thing, along x and y."""
+    position = where.position[:, :2]
+    offset: Floats = position.T[:, None, :] - position[first].T[:, :, None]
+    return offset
 
 
 def _headed(where: Layout, first: Ints, exists: Bools) -> dict[str, Ints]:
     """To places that have a side: how far that way a thing is, and whether it is in that part of the scene."""
     found = {family: np.full(exists.shape, -1, dtype=np.int64) for family in ("direction", "part")}
-    row = np.flatnonzero(np.isfinite(where.heading[first]).all(axis=1))
+    row = np.isfinite(where.heading[first, 0]).nonzero()[0]
     direction = where.direction[first]
     towards, sided = row[direction[row]], row[~direction[row]]
     if len(towards):
-        offset = _offset(where, first[towards])
+        x, y = _offset(where, first[towards])
         with np.errstate(invalid="ignore"):
-            cosine = _ahead(where, first[towards]) / np.maximum(np.hypot(offset[..., 0], offset[..., 1]), TIE)
+            cosine = _ahead(where, first[towards]) / np.maximum(np.hypot(x, y), TIE)
             slant = _SLANTS.searchsorted(np.arccos(np.minimum(np.maximum(cosine, -1.0), 1.0)))
         found["direction"][towards] = np.where(exists[towards], slant, -1)
     if len(sided):

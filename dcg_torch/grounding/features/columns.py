@@ -277,7 +277,7 @@ class FeatureSet:
         Args:
             members: (things,) those that all the rest of the phrase describes; None: all that there are.
         """
-        return self._ranks[scene.ranks(where, members, ordinal=ranking.ordinal, count=ranking.count)]
+        return self.rank_of[scene.ranks(where, members, ordinal=ranking.ordinal, count=ranking.count)]
 
     def _columns(self, names: Iterable[str]) -> list[int]:
         """Each once, in the order of the columns."""
@@ -295,7 +295,7 @@ class FeatureSet:
         return self.grounding[f"kind: {GroundingKind.PLACED}"]
 
     @cached_property
-    def _ranks(self) -> NDArray[np.int64]:
+    def rank_of(self) -> NDArray[np.int64]:
         """Index into `scene.RANKS` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RANKS), -1])
 
