@@ -5,10 +5,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.language.clauses import Clause
+from dcg_torch.language.clauses import BEFORE_VERB, Clause
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
@@ -22,6 +23,8 @@ def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause
     for item, after in zip(items, (*items[1:], END), strict=True):
         builder.step(item, after)
     clause, start = builder.clause, items[0].start
+    lead = itertools.takewhile(lambda item: item.kind in BEFORE_VERB, items)
+    clause.apart = any(item.kind is Kind.COMMA or item.text in SETS["sequels"] for item in lead)
     settle(clause, builder.pending, supplied, decisions)
     for noun, before in builder.ruled_out:
         if noun.pronoun and not (clause.objects or builder.pending):  # what is not purple is a thing without a name

@@ -48,7 +48,7 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
     verb, told = clause.action, references.exists(clause)
     if clause.acting or (verb and not (told or clause.statement)):
         does = (name for name in CHOICES["target_verbs"].split() if verb in VERBS[name])
-        return TARGETS["acting" if clause.acting else next(does, "other")]
+        return TARGETS["acting" if clause.acting else next(does, "handled" if target.is_a("named") else "other")]
     again = references.named_again(clause, clauses) is not None
     if target.definite and not target.plural and (target.noun or any(m.noun.plural for m in found)) and not again:
         # "Until you see the window, then it is the plant next to it", or "Is the oven off? The stove by the sink."
@@ -110,11 +110,15 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     first = top[0] if best >= TARGETS["take"] else top[-1]
     options = {f"likeliest {first}": 0.0}
     for k, choice in enumerate(found):
+        earlier = [other.clause for other in found[:k]]
         if k != first and not choice.noun.pronoun:
             name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            # Not "go to the table and take the cup on it", nor "enter the hall, go to the desk and take the cup".
-            others = (other.clause is choice.clause or _relation(other, found[first]) == name for other in found[:k])
-            if name == "earlier_goal" and not (references.about_it(found[first].noun) or any(others)):
+            # Not "go to the table and take the cup on it", "go to the table, then take the cup", "enter the hall, go
+            # to the desk and take the cup".
+            ways = [other for other in found if other.clause is not choice.clause]
+            others = any(_relation(other, found[first]) == name for other in ways) or choice.clause in earlier
+            apart = found[first].clause.apart or references.about_it(found[first].noun)
+            if name == "earlier_goal" and not (apart or others):
                 weight = CHOICES["first_order"]
             options[f"{name} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
