@@ -38,7 +38,12 @@ class Clause:
     @property
     def tells(self) -> bool:
         """Whether it orders nothing: no verb, or "there is"."""
-        return self.verb is None or (self.action in SETS["be"] and not self.statement)
+        return self.verb is None or self.action in SETS["be"]
+
+    @property
+    def nodes(self) -> list[Item]:
+        """All that is said of things."""
+        return [node for top in (*self.objects, *self.places) for node in top.walk()]
 
 
 def main_object(clause: Clause) -> Item | None:
@@ -96,8 +101,7 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if items[k].name != "be" or any(verb.name != "be" for verb in verbs):
         return False
     if verbs:  # "it is on the left and is touching the cone"
-        first = clause[: clause.index(verbs[0])]
-        return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
+        return items[k - 1].kind is Kind.AND
     after, one = (*items[k + 1 :], END)[0], next((item for item in clause if item.kind is Kind.NOUN), END)
     state = one.pronoun and " " in one.text and is_state(after)  # "the middle one is sick"
     named = after.noun is not None and not state
@@ -115,8 +119,7 @@ def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
 def _subject(items: Sequence[Item], k: int) -> bool:
     """The "you" of "the block you are holding", the "it" of "the ball it is on the cube"."""
     before, item, after = (END, *items, END)[k : k + 3]
-    person = item.is_a("someone") and before.noun not in SETS["robot"]
-    acts = after.name == "be" if item.text in SETS["stands_for"] else person
+    acts = after.name == "be" if item.text in SETS["stands_for"] else item.is_a("someone")
     return acts and before.kind is Kind.NOUN and after.kind is Kind.VERB and before.stop == item.start
 
 
@@ -140,8 +143,7 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     item = items[k]
     second, before = (END, END, *items[:k])[-2:]
     lemma = item.name.split()[0]
-    goes_on = before.kind in BEFORE_VERB and _goes_on(item, before, clause)
-    if goes_on or _is_statement(clause, items, k) or _is_inverted(clause, item):
+    if _goes_on(item, before, clause) or _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
     passive = item.participle and before.name == "be" and second.kind is Kind.NOUN
     if passive and second.text not in SETS["people"]:

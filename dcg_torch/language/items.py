@@ -72,7 +72,7 @@ class Item:
                 self.words, self.children = (), [self.copy().behind("in")]
             self.plural, self.count = False, 1
         self.color = self.color or more.color
-        self.words += tuple(word for word in more.words if word not in self.words)
+        self.words += more.words
         self.children += [child for child in more.children if child not in self.children]
 
     def behind(self, preposition: str) -> Item:
@@ -208,7 +208,7 @@ def _settle_row(noun: Item) -> None:
     for place in noun.children:
         row = place.children[0]
         alone = place.words == ("in",) and noun.plural and len(place.children) == 1
-        if alone and row.is_a("group") and not row.text.startswith("the ") and not noun.is_a("grouped"):
+        if alone and row.is_a("group") and not row.text.startswith("the "):
             noun.words += (str(row.noun), *((f"of {noun.count}",) if noun.count else ()))
             noun.count = None
             noun.children.remove(place)

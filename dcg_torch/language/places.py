@@ -40,7 +40,7 @@ def settle(clause: Clause, pending: list[Item], supplied: bool, decisions: Decis
                 owner = last
             elif not _belongs_to_verb(place, clause, target, full):
                 owner = _nearest(place, decisions)
-        if owner is None and clause.verb is None and not place.before and place.name not in PLACING["frames"]:
+        if clause.verb is None and not place.before and place.name not in PLACING["frames"]:
             owner = target  # "in the top row the red one"
         if owner is None:
             clause.places.append(place)

@@ -226,9 +226,8 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
 
 
 def _mentions(clauses: Sequence[Clause]) -> list[Item]:
-    """The noun phrases of clauses, without those that are places or persons."""
-    tops = [top for clause in clauses for top in (*clause.objects, *clause.places)]
-    return [node for top in tops for node in top.walk() if node.kind is Kind.NOUN]
+    """The noun phrases of clauses."""
+    return [node for clause in clauses for node in clause.nodes if node.kind is Kind.NOUN]
 
 
 def _names_again(node: Item) -> bool:

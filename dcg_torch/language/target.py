@@ -109,18 +109,15 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
     options = {f"likeliest {first}": 0.0}
+    goals = [choice for choice in found if _relation(choice, found[first]) == "earlier_goal"]
+    # "Go to the table and take the cup on it", "go to the table, then take the cup", "enter the hall, go to the ..."
+    parted = references.about_it(found[first].noun) or found[first].clause.apart
+    leads = not parted and all(goal.clause is goals[0].clause for goal in goals)
     for k, choice in enumerate(found):
-        earlier = [other.clause for other in found[:k]]
         if k != first and not choice.noun.pronoun:
-            name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            # Not "go to the table and take the cup on it", "go to the table, then take the cup", "enter the hall, go
-            # to the desk and take the cup".
-            ways = [other for other in found if other.clause is not choice.clause]
-            others = any(_relation(other, found[first]) == name for other in ways) or choice.clause in earlier
-            apart = found[first].clause.apart or references.about_it(found[first].noun)
-            if name == "earlier_goal" and not (apart or others):
-                weight = CHOICES["first_order"]
-            options[f"{name} {k}"] = weight
+            step = CHOICES["target_step"] * (choice.score - best - 1.0)
+            weight = CHOICES["first_order"] if leads and choice in goals[:1] else step
+            options[f"{_relation(choice, found[first])} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
 
 
