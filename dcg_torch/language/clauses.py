@@ -40,11 +40,6 @@ class Clause:
         """Whether it orders nothing: no verb, or "there is"."""
         return self.verb is None or self.action in SETS["be"]
 
-    @property
-    def nodes(self) -> list[Item]:
-        """All that is said of things."""
-        return [node for top in (*self.objects, *self.places) for node in top.walk()]
-
 
 def main_object(clause: Clause) -> Item | None:
     """The direct object that is a thing: not the robot itself, a person spoken to, a measure or a direction."""

@@ -162,7 +162,7 @@ def _unread(words: Sequence[str], said: Sequence[Item], clauses: Sequence[Clause
     """The content words that are in no phrase."""
     nodes = [item for item in said if item.said or item.kind not in {Kind.ADVERB, Kind.NOUN, Kind.VERB}]
     for clause in clauses:
-        nodes += [clause.verb or END, *clause.nodes]
+        nodes += [node for top in (clause.verb or END, *clause.objects, *clause.places) for node in top.walk()]
     used = {i for node in nodes for i in range(node.start, node.stop)}
     return tuple(word for i, word in enumerate(words) if i not in used and is_content(word))
 

@@ -88,9 +88,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
         chosen.noun.children += _listed(chosen)
-    others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
     # "Facing the bed, take the lamp on your left".
-    children += [place for place in others if place.name in PLACING["frames"] and place not in children]
+    others = (place for clause in clauses for place in clause.places if place.name in PLACING["frames"])
+    children += [place for place in others if place not in children]
     for node in chosen.noun.walk():
         if "mentioned" in node.words:
             references.by_mention(node, clauses)
@@ -146,7 +146,7 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
-        if handled and chosen.place is None and not (fronted or (beside and handled[-1].score < TARGETS["take"])):
+        if handled and chosen.place is None and not (fronted or beside):
             return handled[-1]
         if beside:
             return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."
