@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from dcg_torch.language import parse_command
+from dcg_torch.language import parse_command, target_phrase
 
 
 @pytest.mark.parametrize(
@@ -42,6 +42,13 @@ def test_a_verb_is_followed_by_what_it_handles(text: str, noun: str) -> None:
 @pytest.mark.parametrize("text", ["follow me to the kitchen", "come with me to the car", "please follow me"])
 def test_to_follow_is_no_order_about_a_thing(text: str) -> None:
     assert parse_command(text).refused is not None
+
+
+def test_the_row_is_closest_and_not_what_is_in_it() -> None:
+    tree = parse_command("the mug in the row closest to you").tree
+    assert tree is not None
+    (row,) = target_phrase(tree).children
+    assert [below.phrase.words for below in row.children[0].children] == [("closest to",)]
 
 
 def test_whom_to_follow_is_one() -> None:
