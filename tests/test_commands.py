@@ -44,6 +44,8 @@ def test_help_on_a_command_is_its_help(capsys: pytest.CaptureFixture[str]) -> No
 WRONG = [
     ("help evalute", "did you mean evaluate?"),
     ("help no_such_thing", "there is no such command; take run, evaluate"),
+    ("evalute test=x.jsonl", "evalute: there is no such command; did you mean evaluate?"),
+    ("no-such", "there is no such command; take run, evaluate"),
     ("convert", "KIND, PATH, --out"),
     ("convert nonsense x --out y", "invalid choice: 'nonsense'"),
     ("convert h2sl no_such_file", "--out"),

@@ -284,6 +284,8 @@ class TestWrongArguments:
     def test_what_is_no_command_is_said(self, model: GroundingModel, world: WorldModel, command: object) -> None:
         with pytest.raises(TypeError, match="a command is text, a parse tree or what a parser made of it"):
             model.ground(command, world)  # type: ignore[arg-type]
+        with pytest.raises(TypeError, match="an outcome is what ground"):
+            model.learn(None)  # type: ignore[arg-type]
 
     def test_no_word_is_settled_on_nothing(self, model: GroundingModel) -> None:
         with pytest.raises(ValueError, match="not empty"):

@@ -20,7 +20,7 @@ from dcg_torch.report.paper import follows_paper
 from dcg_torch.report.runs import find_runs, load_run, load_runs, read_rows
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.show import print_several
-from dcg_torch.report.summary import read_summary, write_summary
+from dcg_torch.report.summary import ReportError, read_summary, write_summary
 from dcg_torch.report.tables import print_errors, print_iterations, print_measures
 from dcg_torch.storage.records import Iteration
 
@@ -86,6 +86,16 @@ def test_runs_are_found_by_size_of_their_numbers(tmp_path: Path) -> None:
         write_run(tmp_path / "sweep" / f"seed={seed}", [row()], seed=seed)
     assert [p.name for p in find_runs(tmp_path)] == ["seed=1", "seed=9", "seed=10"]
     assert [r.seed for r in load_runs([tmp_path, tmp_path / "sweep"])] == [1, 9, 10]
+
+
+def test_an_evaluation_beside_runs_is_no_run(tmp_path: Path) -> None:
+    (tmp_path / "evaluate").mkdir()
+    for name in ("summary.json", "predictions.jsonl"):
+        (tmp_path / "evaluate" / name).write_text("{}")
+    with pytest.raises(ReportError, match="evaluations are in it and no run"):
+        find_runs(tmp_path)
+    write_run(tmp_path / "run", [row()])
+    assert find_runs(tmp_path) == [tmp_path / "run"]
 
 
 LINE = row().model_dump_json()

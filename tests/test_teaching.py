@@ -20,3 +20,18 @@ def test_what_a_thing_is_names_it(text: str) -> None:
     said = read_teaching(text)
     assert said is not None
     assert (said.name, said.subject) == ("lamp", None)
+
+
+@pytest.mark.parametrize(
+    "said", ["wrong", "good", "great", "fine", "enough", "very good", "too far", "broken", "mine", "why", "on fire"]
+)
+@pytest.mark.parametrize("subject", ["that is", "that's", "no, it was"])
+def test_how_a_thing_is_names_nothing(subject: str, said: str) -> None:
+    assert read_teaching(f"{subject} {said}") is None
+
+
+@pytest.mark.parametrize("name", ["pallet", "wug", "sand", "drill", "metal", "desk lamp", "cold drink", "white board"])
+def test_a_name_may_come_without_an_article(name: str) -> None:
+    said = read_teaching(f"this is {name}")
+    assert said is not None
+    assert name.endswith(said.name)

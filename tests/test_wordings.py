@@ -131,3 +131,26 @@ def test_rows_of_blocks_are_no_lines() -> None:
     (place,) = phrase.children
     assert place.children[0].phrase.noun == "block"
     assert set(place.children[0].phrase.words) >= {"row", "of 5"}
+
+
+@pytest.mark.parametrize(
+    ("text", "noun", "words"),
+    [
+        ("the box that is open", "box", {"open"}),
+        ("move the block that is parallel to me", "block", {"parallel"}),
+        ("the second from the left blue block", "block", {"second", "from the left"}),
+        ("the secondmost right green block", "block", {"second", "from the right"}),
+        ("the third most left chair", "chair", {"third", "from the left"}),
+    ],
+)
+def test_states_and_ranks_in_other_places(text: str, noun: str, words: set[str]) -> None:
+    tree = parse_command(text).tree
+    assert tree is not None
+    phrase = target_phrase(tree).phrase
+    assert (phrase.noun, set(phrase.words)) == (noun, words)
+
+
+def test_those_that_stand_together_are_next_to_each_other() -> None:
+    tree = parse_command("the two sheep standing together").tree
+    assert tree is not None
+    assert [child.phrase.words for child in target_phrase(tree).children] == [("next to",)]

@@ -60,6 +60,8 @@ def main(commands: Mapping[str, Command] = COMMANDS) -> int:
     if name == "help" or (Path(program).name.startswith("dcg-torch") and name in ("", "-h", "--help")):
         print(usage(commands))
         return 0
+    if re.fullmatch(r"\w[\w-]*", name) and name not in commands:  # what is no override either
+        return _refuse(name, name, commands)
     if name not in commands:
         return _main_of("run", commands["run"])
     return start(name, [f"{program} {name}", *arguments[1:]], commands)
@@ -69,11 +71,16 @@ def _help_on(name: str, program: str, commands: Mapping[str, Command]) -> int:
     """Say more of one command; the exit status."""
     if name in commands:
         return start(name, [f"{program} {name}", "--help"], commands)
+    return _refuse(f"help {name}", name, commands)
+
+
+def _refuse(typed: str, name: str, commands: Mapping[str, Command]) -> int:
+    """Say that there is no such command, and which is like it; the exit status."""
     from dcg_torch.storage.foreign import misspelt, plain  # here: Ctrl-C while it loads is to be one line as well
 
     near = misspelt(name, tuple(commands))
     hint = f"did you mean {near}?" if near else f"take {', '.join(commands)}"
-    print(f"dcg_torch: help {plain(name)}: there is no such command; {hint}", file=sys.stderr)
+    print(f"dcg_torch: {plain(typed)}: there is no such command; {hint}", file=sys.stderr)
     return 2
 
 

@@ -37,12 +37,13 @@ from dcg_torch.grounding.explanation import Reason, explain, rivalry
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
+from dcg_torch.report.runs import PREDICTIONS
 from dcg_torch.settings import EvaluateSettings, SettingsError
 from dcg_torch.storage.claim import claim
 from dcg_torch.storage.resources import resource
 from dcg_torch.storage.whole import write_whole, write_whole_folder
 
-PREDICTIONS, SUMMARY, MODEL = "predictions.jsonl", "summary.json", "model"
+SUMMARY, MODEL = "summary.json", "model"
 MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")
 _REASONS = 8  # shown for each phrase
 

@@ -112,7 +112,7 @@ def _move(s: Situation, motion: Motion) -> Done:
     else:
         goal = beside(here, motion.angle, motion.metres)
         side = min(_SIDES, key=lambda name: abs(math.remainder(motion.angle - _SIDES[name], math.tau)))
-        said = f"I drive {motion.metres:.3g} m {side}."
+        said = f"I drive {round(motion.metres, 2):,.15g} m {side}."
     s.emit(Understood("motion", said))
     back, s.before = s.before, here
     result = s.robot.go_to(*goal, s.seen)

@@ -5,10 +5,11 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.language.clauses import Clause
+from dcg_torch.language.clauses import BEFORE_VERB, Clause
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
@@ -22,6 +23,8 @@ def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause
     for item, after in zip(items, (*items[1:], END), strict=True):
         builder.step(item, after)
     clause, start = builder.clause, items[0].start
+    lead = itertools.takewhile(lambda item: item.kind in BEFORE_VERB, items)
+    clause.apart = any(item.kind is Kind.COMMA or item.text in SETS["sequels"] for item in lead)
     settle(clause, builder.pending, supplied, decisions)
     for noun, before in builder.ruled_out:
         if noun.pronoun and not (clause.objects or builder.pending):  # what is not purple is a thing without a name
@@ -45,7 +48,7 @@ class _Builder(NounPhrases):
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
             self.relative = self.forced = True
-        elif item.text == "but" and after.kind is Kind.NOUN and any(noun.is_a("all") for noun in self.nouns):
+        elif item.text == "but" and any(noun.is_a("all") for noun in self.nouns):
             # "Anything (on the table) but the cone".
             self.place(replace(item, kind=Kind.PREPOSITION, words=("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
@@ -91,7 +94,7 @@ class _Builder(NounPhrases):
         alike = [place for place in self.pending if place.forced] if item.forced and not self.relative else []
         if self.joined and alike and self.clause.action not in VERBS["put"]:
             item.before = list(alike[-1].before)  # "that is on the desk by the door and is not near the lamp"
-        elif self.joined and self.denied and self.pending and len(self.nouns) > 1:
+        elif self.joined and self.denied and len(self.nouns) > 1:
             item.before.pop()  # "on the sofa and not on the bed"
         if self.denied:
             item.words, self.denied, self.was_denied = (f"not {item.name}",), False, True
@@ -104,7 +107,7 @@ class _Builder(NounPhrases):
         name = item.name
         if not self.nouns or (self.preposition is not None and self.preposition.name != "except"):
             return
-        ranks = item.is_a("ordered") and after.kind is Kind.PREPOSITION and after.name in PLACING["ranks"]
+        ranks = item.is_a("ordered") and after.name in PLACING["ranks"]
         if ranks and self.joined and self.last.is_a("place"):  # "top row, second from the left"
             self.noun(replace(item, kind=Kind.NOUN, pronoun=True))
             return
@@ -124,7 +127,7 @@ class _Builder(NounPhrases):
         acts = after.kind is Kind.VERB
         it = item.text in SETS["stands_for"] and bool(self.nouns) and acts
         if not it and item.noun not in SETS["someone"]:  # "the block that the arm is holding"
-            return item.noun in SETS["holders"] and self.relative and self.forced and acts
+            return item.noun in SETS["holders"] and self.relative
         begins = after.name == "be" if it else bool(self.nouns) and not self.joined and acts
         self.relative = self.relative or begins
         return self.relative

@@ -7,6 +7,7 @@ nothing else in the language of commands is a surer noun.
 from __future__ import annotations
 
 import functools
+import re
 from typing import Final
 
 from dcg_torch.english.dictionary import irregular
@@ -22,7 +23,7 @@ _ASKED: Final = SETS.keys() & {*GRAMMAR["seldom_nouns"], *(name.lstrip("-") for 
 _CLOSED: Final = listed(GRAMMAR["lists"].keys() - GRAMMAR["open_lists"].split())
 _FIXED: Final = listed(GRAMMAR["fixed_lists"].split())
 _EMPTY: Final = listed(GRAMMAR["empty_lists"].split())
-_LONGEST, _SHORT = 40, 4
+_SHAPES: Final = {name: re.compile(pattern) for name, pattern in GRAMMAR["shapes"].items()}
 
 
 @functools.lru_cache(8192)
@@ -43,17 +44,22 @@ def _features(word: str) -> dict[str, float]:
     if base != word and ("n" in parts(base) or (stem == word and not known)):
         known["n"] = max(known.get("n", 0), parts(base).get("n", 0))
     told = {part: GRAMMAR["step"] * (max(known.values()) - often) for part, often in known.items()}
-    color, plain = normal_color(word), word.replace("'", "").isalnum() and word.isascii() and len(word) <= _LONGEST
+    color, shapes = normal_color(word), {name for name, pattern in _SHAPES.items() if pattern.fullmatch(word)}
     asked = {
-        "digits": word.isdecimal(), "letter": len(word) == 1 and word.isalpha(), "normal": word in NORMAL,
-        "color": color in SINGLE_COLORS, "basic_color": color in SETS["basic_colors"], "long": len(word) > _SHORT,
-        "open": plain and not (word.isdecimal() or is_fixed(word)), "compared": is_compared(word),
-        "unknown": not known and stem == word, "plural": base != word, "derived": stem != word,
-        "form": stem != word or (word, "v") in irregular(), "closed": word in _CLOSED,
-        "command": base in SETS["commands"],
-        **{ending: word.endswith(ending) for ending in ("ing", "ed", "ly", "s")},
+        **dict.fromkeys(shapes, True),
         **{name: word in SETS[name] for name in _ASKED},
-    }  # fmt: skip
+        "normal": word in NORMAL,
+        "color": color in SINGLE_COLORS,
+        "basic_color": color in SETS["basic_colors"],
+        "open": "plain" in shapes and not is_fixed(word),
+        "compared": is_compared(word),
+        "unknown": not known and stem == word,
+        "plural": base != word,
+        "derived": stem != word,
+        "form": stem != word or (word, "v") in irregular(),
+        "closed": word in _CLOSED,
+        "command": base in SETS["commands"],
+    }
     told |= dict.fromkeys((name for name, holds in asked.items() if holds), 0.0)
     if "n" in told:
         told["n"] += next((less for name, less in GRAMMAR["seldom_nouns"].items() if name in told), 0.0)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from dcg_torch.language.items import END, Item, Kind, is_state
 from dcg_torch.language.lexicon import RELATION_VERBS, SETS
 
-_BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
+BEFORE_VERB = frozenset({Kind.NEGATION, Kind.AND, Kind.COMMA, Kind.ADVERB})
 _JOINTS = frozenset({Kind.AND, Kind.COMMA})
 
 
@@ -26,6 +26,7 @@ class Clause:
     places: list[Item] = field(default_factory=list)  # prepositional phrases that belong to the verb
     statement: Item | None = None  # its copula, if it says something of a noun phrase
     acting: bool = False  # the object does what is ordered: "the top box moves left"
+    apart: bool = False  # a comma or "then" stands before it: no mere end of the order before
     refused: str | None = None
     sentence: int = 0
 
@@ -37,7 +38,7 @@ class Clause:
     @property
     def tells(self) -> bool:
         """Whether it orders nothing: no verb, or "there is"."""
-        return self.verb is None or (self.action in SETS["be"] and not self.statement)
+        return self.verb is None or self.action in SETS["be"]
 
 
 def main_object(clause: Clause) -> Item | None:
@@ -66,10 +67,10 @@ def split(items: Sequence[Item], talk: Sequence[tuple[int, int, str]] = ()) -> l
             tail: list[Item] = []
             # A negation, and a subject ("can you", "the robot should"), go with the verb that they precede.
             # Not so the "leftmost" of "the one that is leftmost and put it ...".
-            goes = _BEFORE_VERB
+            goes = BEFORE_VERB
             while clauses[-1] and clauses[-1][-1].kind in goes:
                 tail.insert(0, clauses[-1].pop())
-                goes = _JOINTS if tail[0].kind in _JOINTS else _BEFORE_VERB
+                goes = _JOINTS if tail[0].kind in _JOINTS else BEFORE_VERB
             clauses.append([*tail, item])
             continue
         elif item.kind is Kind.NOUN and _subject(items, k):
@@ -95,8 +96,7 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if items[k].name != "be" or any(verb.name != "be" for verb in verbs):
         return False
     if verbs:  # "it is on the left and is touching the cone"
-        first = clause[: clause.index(verbs[0])]
-        return items[k - 1].kind is Kind.AND and _is_statement(first, items, items.index(verbs[0]))
+        return items[k - 1].kind is Kind.AND
     after, one = (*items[k + 1 :], END)[0], next((item for item in clause if item.kind is Kind.NOUN), END)
     state = one.pronoun and " " in one.text and is_state(after)  # "the middle one is sick"
     named = after.noun is not None and not state
@@ -114,8 +114,7 @@ def _is_inverted(clause: Sequence[Item], verb: Item) -> bool:
 def _subject(items: Sequence[Item], k: int) -> bool:
     """The "you" of "the block you are holding", the "it" of "the ball it is on the cube"."""
     before, item, after = (END, *items, END)[k : k + 3]
-    person = item.is_a("someone") and before.noun not in SETS["robot"]
-    acts = after.name == "be" if item.text in SETS["stands_for"] else person
+    acts = after.name == "be" if item.text in SETS["stands_for"] else item.is_a("someone")
     return acts and before.kind is Kind.NOUN and after.kind is Kind.VERB and before.stop == item.start
 
 
@@ -139,15 +138,14 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     item = items[k]
     second, before = (END, END, *items[:k])[-2:]
     lemma = item.name.split()[0]
-    goes_on = before.kind in _BEFORE_VERB and _goes_on(item, before, clause)
-    if goes_on or _is_statement(clause, items, k) or _is_inverted(clause, item):
+    if _goes_on(item, before, clause) or _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
     passive = item.participle and before.name == "be" and second.kind is Kind.NOUN
     if passive and second.text not in SETS["people"]:
         return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
-        joined = before.kind in _BEFORE_VERB - {Kind.NEGATION}
+        joined = before.kind in BEFORE_VERB - {Kind.NEGATION}
         return joined and not item.participle and lemma in SETS["commands"]
     before = second if before.kind is Kind.ADVERB else before
     after_noun = before.kind is Kind.NOUN and not before.is_a("someone")

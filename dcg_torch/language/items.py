@@ -11,9 +11,6 @@ from typing import Final
 from dcg_torch.english.forms import parts
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 
-_MOST: Final = "most"
-
-
 Kind = enum.Enum("Kind", "VERB PREPOSITION NOUN RELATIVE NEGATION AND COMMA STOP ADVERB")
 """What an item of a command is; RELATIVE is "which", "that" or "who"."""
 
@@ -72,7 +69,7 @@ class Item:
                 self.words, self.children = (), [self.copy().behind("in")]
             self.plural, self.count = False, 1
         self.color = self.color or more.color
-        self.words += tuple(word for word in more.words if word not in self.words)
+        self.words += more.words
         self.children += [child for child in more.children if child not in self.children]
 
     def behind(self, preposition: str) -> Item:
@@ -124,8 +121,8 @@ def normal_words(words: Sequence[str]) -> tuple[str, ...]:
     out: list[str] = []
     for word in words:
         normal = NORMAL.get(word, word)
-        side = normal.removesuffix(_MOST)
-        if out and out[-1] in SETS["ordinals"] and normal.endswith(_MOST) and side in SETS["sides"]:
+        side = normal.removesuffix("most")
+        if out and out[-1] in SETS["ordinals"] and normal.endswith("most") and side in SETS["sides"]:
             normal = f"from the {side}"
         out.append(normal)
     return tuple(dict.fromkeys(out))
@@ -133,7 +130,7 @@ def normal_words(words: Sequence[str]) -> tuple[str, ...]:
 
 def is_superlative(word: str) -> bool:
     """Whether a word names an end: "leftmost", "biggest"."""
-    return word.endswith(("est", _MOST)) and word not in SETS["ordinals"]
+    return word.endswith(("est", "most")) and word not in SETS["ordinals"]
 
 
 def share_noun(first: Item, second: Item) -> None:
@@ -159,7 +156,7 @@ def deny(noun: Item, other: Item) -> None:
         return
     of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"
     for word in (None if of_one else other.color, *other.words):
-        side = (word or "").removesuffix(_MOST)
+        side = (word or "").removesuffix("most")
         if side in SETS["left_right"] and all(place.children[0].noun != side for place in noun.children):
             noun.children.append(Item(noun.kind, other.start, other.stop, side, noun=side).behind("not on"))
         elif word and word not in (noun.color, *noun.words):
@@ -208,7 +205,7 @@ def _settle_row(noun: Item) -> None:
     for place in noun.children:
         row = place.children[0]
         alone = place.words == ("in",) and noun.plural and len(place.children) == 1
-        if alone and row.is_a("group") and not row.text.startswith("the ") and not noun.is_a("grouped"):
+        if alone and row.is_a("group") and not row.text.startswith("the "):
             noun.words += (str(row.noun), *((f"of {noun.count}",) if noun.count else ()))
             noun.count = None
             noun.children.remove(place)

@@ -84,7 +84,6 @@ WORD: Final = re.compile(_PATTERNS["word"])
 REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
 TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"] if len(row) > 2)
 """Those of the refusals that hold for a clause after another as well."""
-MEETING: Final = (re.compile(_PATTERNS["meeting"][0]), str(_PATTERNS["meeting"][1]))
 
 
 def _first_of(rows: list[list[Any]]) -> re.Pattern[str]:

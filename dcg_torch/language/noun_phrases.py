@@ -152,8 +152,7 @@ class NounPhrase:
     def _group_of(self) -> int:
         if not self.headed or self.tokens[self.at + 1].tag not in _STARTS:
             return 0
-        last = self.nouns[-1].text
-        unit = last if last in SETS["groups"] | SETS["carriers"] else singular(last)
+        unit = singular(self.nouns[-1].text)
         crossing = any(token.text in SETS["lines"] for token in self.tokens[self.at + 2 : self.at + 4])
         if unit not in SETS["groups"] | SETS["carriers"] or (crossing and unit in SETS["lines"]):
             return 0  # "the second column of the third row" is no group of rows
@@ -200,10 +199,10 @@ class NounPhrase:
 
     def _them(self, token: Token) -> int:
         """ "All of them"."""
-        if not self.picked or self.nouns or token.text not in SETS["group_pronouns"]:
+        if not self.picked or token.text not in SETS["group_pronouns"]:
             return 0
         self.item.pronoun = self.closed = True
-        self.item.plural = self.item.plural or self.item.count != 1
+        self.item.plural = self.item.count != 1
         return 1
 
     def _settle(self) -> None:

@@ -117,7 +117,7 @@ class Parser:
             if isinstance(read, Reading):
                 found.setdefault(_shape(read.tree), read)
             elif nothing == -math.inf:
-                nothing, reason = decisions.log_weight, read
+                nothing, reason = decisions.log_weight + CHOICES["no_thing"] * (read == NO_THING), read
             if len(found) == k:
                 break
         if max((reading.log_weight for reading in found.values()), default=-math.inf) <= nothing:

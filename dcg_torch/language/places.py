@@ -40,7 +40,7 @@ def settle(clause: Clause, pending: list[Item], supplied: bool, decisions: Decis
                 owner = last
             elif not _belongs_to_verb(place, clause, target, full):
                 owner = _nearest(place, decisions)
-        if owner is None and clause.verb is None and not place.before and place.name not in PLACING["frames"]:
+        if clause.verb is None and not place.before and place.name not in PLACING["frames"]:
             owner = target  # "in the top row the red one"
         if owner is None:
             clause.places.append(place)
@@ -126,9 +126,8 @@ def _unnamed(clause: Clause) -> None:
     places += [side.behind("in" if side.is_a("middle") else "on") for side in told]
     places += [spot.behind("in") for spot in clause.objects if spot.is_a("spot") and not spot.is_a("side")]
     if places:
-        first = places[0]
         clause.places = [place for place in clause.places if place not in places]
-        clause.objects = [Item(Kind.NOUN, first.start, first.start, "", pronoun=True, children=places)]
+        clause.objects = [Item(Kind.NOUN, places[0].start, places[0].start, "", pronoun=True, children=places)]
 
 
 def _about_noun(place: Item) -> bool:
@@ -159,7 +158,8 @@ def _nearest(place: Item, decisions: Decisions) -> Item:
         return next((noun for noun in reversed(candidates) if noun.is_a("all") or noun.plural), last)
     solid = [noun for noun in candidates if not noun.is_a("not_solid")] or candidates
     if last.noun in SETS["groups"] and last is not solid[-1]:  # "the cube above the tower on the left"
-        return last if decisions.choose("group_owner", CHOICES["group_owner"]) == "group" else solid[-1]
+        rule = "group_extreme" if place.name in PLACING["extremes"] else "group_owner"
+        return last if decisions.choose(rule, CHOICES[rule]) == "group" else solid[-1]
     far = len(solid) > 1 and solid[0].children + solid[-1].children != []
     return solid[0] if far and decisions.choose("owner", CHOICES["owner"]) == "far" else solid[-1]
 

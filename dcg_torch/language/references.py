@@ -62,14 +62,12 @@ def list_places(clauses: Sequence[Clause]) -> None:
 def hang_fragments(clauses: Sequence[Clause]) -> None:
     """ "The red car... is there one? Yes, by the bridge.": a place by itself is where what was named before it is."""
     for k, (before, clause) in enumerate(itertools.pairwise(clauses)):
-        if not before.refused or clause.refused or clause.verb or clause.objects or not clause.places:
-            continue
-        named = [main_object(other) for other in clauses[:k] if other.refused is None and other.verb is None]
-        if named and (noun := named[-1]) is not None and noun.noun is not None:
-            noun.children += clause.places
-            clause.places = []
-        elif (asked := main_object(before)) is not None and asked.noun is not None:  # "Where is it? There."
-            clause.objects, clause.places = [replace(asked, children=clause.places)], []
+        if before.refused and clause.places and not (clause.refused or clause.verb or clause.objects):
+            told = (main_object(other) for other in clauses[: k + 1] if other is before or other.verb is None)
+            named = [noun for noun in told if noun is not None and noun.noun is not None]
+            if named:  # also of a question: "Where is the cup? On the table."
+                more = replace(named[-1], children=[*named[-1].children, *clause.places])
+                clause.objects, clause.places = [more], []
 
 
 def tells_of_neighbour(clause: Clause) -> bool:
@@ -226,7 +224,7 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
 
 
 def _mentions(clauses: Sequence[Clause]) -> list[Item]:
-    """The noun phrases of clauses, without those that are places or persons."""
+    """The noun phrases of clauses."""
     tops = [top for clause in clauses for top in (*clause.objects, *clause.places)]
     return [node for top in tops for node in top.walk() if node.kind is Kind.NOUN]
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from dcg_torch.language.clauses import Clause
 from dcg_torch.language.items import Item, Kind
-from dcg_torch.language.lexicon import MEETING, REFUSALS, SETS, TALK, VERBS
+from dcg_torch.language.lexicon import REFUSALS, SETS, TALK, VERBS
 
 _BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
 NO_THING = "it names no thing"
@@ -23,7 +23,7 @@ def talk(words: Sequence[str]) -> list[tuple[int, int, str]]:
         # An address ("robot, ...") and politeness are no part of a sentence.
         said = [k for k in range(before + 1, stop) if words[k] not in SETS["before_sentences"]]
         text = " ".join(words[said[0] : said[-1] + 1]) if said else ""
-        reason = next((reason for pattern, reason in (MEETING, *REFUSALS) if pattern.search(text)), None)
+        reason = next((reason for pattern, reason in REFUSALS if pattern.search(text)), None)
         if said and reason is not None:
             out.append((said[0], said[-1] + 1, reason))
     return out
@@ -39,8 +39,8 @@ def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int
     for start, stop, reason in parts:
         if start <= first.start < stop:
             acts = own and clause.verb is not None and not clause.verb.participle
-            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"] and reason is not MEETING[1]
+            ordered = acts and clause.action in SETS["commands"] - VERBS["lesson"]
             clause.refused = None if ordered and first.start > start else reason
-    if clause.verb is first and clause.refused is None and own:
+    if clause.refused is None and own:
         said = " ".join(words[first.start : items[-1].stop])
         clause.refused = next((reason for pattern, reason in TALK if pattern.search(said)), None)

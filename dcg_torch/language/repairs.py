@@ -38,8 +38,6 @@ def repair(items: Sequence[Item]) -> list[Item]:
 
 def _taken_back(said: Sequence[Item], new: Item) -> int:
     """Where in a sentence begins what a phrase takes the place of: all of it, the object or the last of its kind."""
-    if new.kind is Kind.VERB:
-        return 0
     fits = [k for k, item in enumerate(said) if item.kind is new.kind and not item.is_a("someone")]
     objects = [k for k in fits if new.kind is Kind.NOUN and (k == 0 or said[k - 1].kind is not Kind.PREPOSITION)]
     landmark = said[fits[-1]].noun if objects and fits[-1] not in objects else None

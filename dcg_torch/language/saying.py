@@ -56,8 +56,8 @@ class NounPhrases:
             counts = item.pronoun and item.is_a("ordered")
             one = self.last.plural and item.text.endswith(" one") and not item.plural  # "by the two cups, the big one"
             self.merge(last_thing(self.nouns) if counts else self.nouns[0] if one else self.last, item)
-        elif self.nouns and item.is_a("side") and not (self.conjunction and self.joined and self.last.is_a("side")):
-            self.side(item)  # but "on the left and right"
+        elif self.nouns and item.is_a("side"):
+            self.side(item)
         elif self.nouns and self.is_bare(item):
             last_thing(self.nouns).children.append(item.behind("with" if item.noun in SETS["parts"] else "in"))
             self.nouns.append(item)
@@ -83,8 +83,6 @@ class NounPhrases:
         apart = self.preposition is not None and self.preposition.name not in PLACING["within"]
         if apart or not line.is_a("line") or not (both or (alone and end.is_a("side"))):
             return False
-        if self.preposition is not None:
-            self.drop_preposition()
         if both:
             end.children.append(item.behind("in"))
         if alone:
@@ -114,7 +112,7 @@ class NounPhrases:
 
     def is_bare(self, item: Item) -> bool:
         """ "(blue fan,) top row", "(screwdriver,) red handle": where the thing is or what it has, no preposition."""
-        where = item.is_a("bare_place") and (self.clause.verb is None or (self.joined and item.is_a("line")))
+        where = item.is_a("bare_place") and (self.clause.verb is None or self.joined)
         return not self.conjunction and (where or (self.joined and item.is_a("bare_part")))
 
     def is_about_color(self, item: Item) -> bool:
@@ -169,7 +167,7 @@ class NounPhrases:
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
         if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
             return False
-        if last.is_a("place") or last.noun in SETS["robot"] or (last.pronoun and not ordered):
+        if last.is_a("place") or last.noun in SETS["robot"] or last.pronoun:
             return False
         one = item.determined and item.text.endswith(" one")
         return (one or item.is_a("color_word")) and not (item.determined and self.conjunction)
@@ -182,12 +180,11 @@ class NounPhrases:
             self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door"
             return
         if self.denied:
-            thing = None if predicate.pronoun else predicate.noun
-            self.say(noun, tuple(word for word in (predicate.color, *predicate.words, thing) if word is not None))
+            self.say(noun, tuple(filter(None, (predicate.color, *predicate.words, predicate.noun))))
             return
         noun.take_up(predicate)
         self.was_denied = False
-        if noun.noun is None and is_state(predicate):
+        if is_state(predicate):  # "the box that is open"
             self.say(noun, (str(predicate.noun),))
         elif noun.noun in {None, *SETS["anything"]} and predicate.noun is not None:
             noun.noun, noun.pronoun = predicate.noun, False

@@ -91,6 +91,8 @@ class _Lattice:
         """The tokens that begin at a word, with their log-weights."""
         word = self.words[i]
         out = [(Token(i, i + 1, tag, word, self._value(tag, word)), weight) for tag, weight in candidates(word)]
+        if (".", *self.words)[i] in lx.SETS["before_orders"] and (*self.words, ".", ".")[i + 1] in lx.SETS["articles"]:
+            out = [(token, weight + lx.GRAMMAR["first_verb"] * (token.tag == "V")) for token, weight in out]
         doubtful = all(token.tag != "N" or weight < _DOUBTFUL for token, weight in out)
         if doubtful and not self.known.isdisjoint((word, singular(word))) and is_plain_noun(word):
             out.append((Token(i, i + 1, "N", word, self._value("N", word)), lx.GRAMMAR["known_noun"]))

@@ -48,7 +48,7 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
     verb, told = clause.action, references.exists(clause)
     if clause.acting or (verb and not (told or clause.statement)):
         does = (name for name in CHOICES["target_verbs"].split() if verb in VERBS[name])
-        return TARGETS["acting" if clause.acting else next(does, "other")]
+        return TARGETS["acting" if clause.acting else next(does, "handled" if target.is_a("named") else "other")]
     again = references.named_again(clause, clauses) is not None
     if target.definite and not target.plural and (target.noun or any(m.noun.plural for m in found)) and not again:
         # "Until you see the window, then it is the plant next to it", or "Is the oven off? The stove by the sink."
@@ -88,9 +88,9 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     else:
         children = [chosen.noun, *_beside(chosen), *(places or _later_destination(chosen, clauses))]
         chosen.noun.children += _listed(chosen)
-    others = [place for clause in clauses if not clause.refused and clause.verb is None for place in clause.places]
     # "Facing the bed, take the lamp on your left".
-    children += [place for place in others if place.name in PLACING["frames"] and place not in children]
+    others = (place for clause in clauses for place in clause.places if place.name in PLACING["frames"])
+    children += [place for place in others if place not in children]
     for node in chosen.noun.walk():
         if "mentioned" in node.words:
             references.by_mention(node, clauses)
@@ -109,14 +109,15 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     top = [k for k, choice in enumerate(found) if choice.score == best]
     first = top[0] if best >= TARGETS["take"] else top[-1]
     options = {f"likeliest {first}": 0.0}
+    goals = [choice for choice in found if _relation(choice, found[first]) == "earlier_goal"]
+    # "Go to the table and take the cup on it", "go to the table, then take the cup", "enter the hall, go to the ..."
+    parted = references.about_it(found[first].noun) or found[first].clause.apart
+    leads = not parted and all(goal.clause is goals[0].clause for goal in goals)
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
-            name, weight = _relation(choice, found[first]), CHOICES["target_step"] * (choice.score - best - 1.0)
-            # Not "go to the table and take the cup on it", nor "enter the hall, go to the desk and take the cup".
-            others = (other.clause is choice.clause or _relation(other, found[first]) == name for other in found[:k])
-            if name == "earlier_goal" and not (references.about_it(found[first].noun) or any(others)):
-                weight = CHOICES["first_order"]
-            options[f"{name} {k}"] = weight
+            step = CHOICES["target_step"] * (choice.score - best - 1.0)
+            weight = CHOICES["first_order"] if leads and choice in goals[:1] else step
+            options[f"{_relation(choice, found[first])} {k}"] = weight
     return found[int(decisions.choose("target", options).split()[1])]
 
 
@@ -145,7 +146,7 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
         beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
-        if handled and chosen.place is None and not (fronted or (beside and handled[-1].score < TARGETS["take"])):
+        if handled and chosen.place is None and not (fronted or beside):
             return handled[-1]
         if beside:
             return earlier[-1]  # "Go to the shelf. On it there is a statue. Bring it."

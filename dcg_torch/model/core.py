@@ -202,6 +202,8 @@ class GroundingModel:
         """
         if not self.variant.learns:
             return Learned(reason="this variant does not learn")
+        if not isinstance(solution, Solution):
+            raise TypeError(f"an outcome is what ground() returns, not {solution!r:.60}")
         if solution.best is None:
             return Learned(reason=solution.problem or "the command was not grounded to an object")
         looked = all(LOOKED_ROUND in o.attributes for o in solution.world.objects if o.hypothetical)

@@ -22,6 +22,7 @@ from dcg_torch.storage.foreign import pipe_in, read_yaml
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
+PREDICTIONS = "predictions.jsonl"  # what lies in the folder of `evaluate`, beside a summary of its own
 Record = TypeVar("Record", bound=BaseModel)
 
 
@@ -84,7 +85,8 @@ def load_run(directory: Path) -> Run:
 def find_runs(directory: Path) -> list[Path]:
     """The run folders at or below `directory`, in the order of their paths, numbers by size.
 
-    A run folder holds a `summary.json`; those of runs that did not finish hold their rows.
+    A run folder holds a `summary.json`; those of runs that did not finish hold their rows. What `evaluate` left beside
+    them is no run.
 
     Raises:
         ReportError: if `directory` is not a folder, or has no run in it.
@@ -94,7 +96,10 @@ def find_runs(directory: Path) -> list[Path]:
     found = {path.parent for name in (SUMMARY, ROWS) for path in directory.rglob(name)}
     if not found:
         raise ReportError(f"{directory}: no run in it; give the folder of a run or of a sweep")
-    return sorted(found, key=_natural)
+    evaluated = {folder for folder in found if (folder / PREDICTIONS).exists() and not (folder / ROWS).exists()}
+    if found == evaluated:
+        raise ReportError(f"{directory}: evaluations are in it and no run; the figures of one are in its {SUMMARY}")
+    return sorted(found - evaluated, key=_natural)
 
 
 def load_runs(directories: Sequence[Path]) -> list[Run]:

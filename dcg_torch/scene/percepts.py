@@ -20,8 +20,8 @@ def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
     ids: set[str] = set()
     for percept in percepts:
         id_ = percept.id
-        if not isinstance(id_, str):
-            raise ValueError(f"percept {id_!r:.80}: an id is a text")
+        if not isinstance(id_, str) or not id_:
+            raise ValueError(f"percept {id_!r:.80}: an id is a text, and not an empty one")
         if id_ in ids:
             raise ValueError(f"percept {id_!r:.80}: two objects have this id; give each its own")
         ids.add(id_)
@@ -52,9 +52,9 @@ def _checked(percept: Percept) -> Percept:
             raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not a text")
     if not percept.type.strip():
         raise ValueError(f"percept {percept.id!r:.80}: type is empty; say what it was recognised as")
-    position = _three(percept, "position", percept.position)
-    size = None if percept.size is None else _three(percept, "size", percept.size, least=0.0)
-    rgb = None if percept.rgb is None else _three(percept, "rgb", percept.rgb, least=0.0, most=255.0)
+    position = _three(percept, "position", percept.position, "", -_FARTHEST, _FARTHEST)
+    size = None if percept.size is None else _three(percept, "size", percept.size, " of at least 0", 0.0, _FARTHEST)
+    rgb = None if percept.rgb is None else _three(percept, "rgb", percept.rgb, " from 0 to 255", 0.0, 255.0)
     attributes = _attributes(percept)
     if position is percept.position and size is percept.size and rgb is percept.rgb:
         return percept if attributes is percept.attributes else replace(percept, attributes=attributes)
@@ -76,10 +76,14 @@ def _attributes(percept: Percept) -> frozenset[str]:
     return given if isinstance(given, frozenset) else frozenset(listed)
 
 
+_FARTHEST = 1e12
+"""Metres: what is farther is a mistake, and the squares of distances are to be numbers."""
+
+
 def _three(
-    percept: Percept, name: str, given: Any, *, least: float = -math.inf, most: float = math.inf
+    percept: Percept, name: str, given: Any, bounds: str, least: float, most: float
 ) -> tuple[float, float, float]:
-    """Three finite numbers within bounds.
+    """Three finite numbers within bounds, which `bounds` names.
 
     Raises:
         ValueError: it is something else.
@@ -87,10 +91,9 @@ def _three(
     listed: tuple[Any, ...] = ()
     try:
         listed = tuple(given)
-        good = len(listed) == 3 and all(math.isfinite(v) and least <= v <= most for v in listed)
+        good = len(listed) == 3 and all(least <= v <= most for v in listed)
     except (TypeError, ValueError, OverflowError):
         good = False
     if not good:
-        bounds = "" if least == -math.inf else f" of at least {least:g}" if most == math.inf else " from 0 to 255"
         raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not three finite numbers{bounds}")
     return given if isinstance(given, tuple) else (listed[0], listed[1], listed[2])

@@ -6,7 +6,7 @@ import functools
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from typing import Any
 
@@ -116,6 +116,7 @@ def _plain(text: str, fillers: list[str]) -> str:
 
 
 _STUCK = re.compile(r"(\d)([a-zA-Z]+)\b")  # "2m"
+_MINUS = re.compile(r"(?<!\S)-(?=\d)")
 _CLASSES = ("turn", "drive", "reverse", "come", "origin", "directions", "angles", "lengths", "parts")
 
 
@@ -136,7 +137,15 @@ def read_motion(text: str) -> Motion | None:
     if len(numbers) > 1 or len(slots["lengths"]) > 1:
         return None
     numbers += [data["parts"][word] for word in slots["parts"]]
-    return _motion(slots, numbers[0] if numbers else None, data)
+    motion = _motion(slots, numbers[0] if numbers else None, data)
+    return motion if motion is None or _MINUS.search(text) is None else _turned(motion)
+
+
+def _turned(motion: Motion) -> Motion:
+    """The other way: "drive -2 metres", "turn -90 degrees"."""
+    if motion.kind == "drive":
+        return replace(motion, angle=math.remainder(motion.angle + math.pi, math.tau))
+    return replace(motion, angle=-motion.angle)
 
 
 def _motion(slots: Mapping[str, list[str]], amount: float | None, data: Mapping[str, Any]) -> Motion | None:

@@ -9,6 +9,7 @@ from importlib.resources import files
 
 import yaml
 
+from dcg_torch.english.dictionary import english
 from dcg_torch.language.parser import parse_command
 
 
@@ -61,10 +62,20 @@ def read_teaching(text: str) -> Teaching | None:
         found = pattern.fullmatch(said)
         if found is not None and found["name"].split(" ")[0] in patterns.denying:
             return None  # "this is not a lamp" tells no name
+        if found is not None and "article" in pattern.groupindex and not found["article"] and _tells_how(found["name"]):
+            return None  # "that is wrong"
         if found is not None and (name := _noun(found["name"])) is not None:
             subject = found["subject"]
             return Teaching(name, None if subject in patterns.pointing else subject)
     return None
+
+
+def _tells_how(phrase: str) -> bool:
+    """Whether words without an article say how or where a thing is: the last is an adjective or adverb sooner than a
+    noun ("wrong", "too far"), or the first an adverb ("on fire")."""
+    first, *_, last = [dict(english().get(word, {})) for word in (phrase.split() * 2)]
+    noun = last.get("n", -1)
+    return max(last.get("a", -1), last.get("r", -1)) > noun or first.get("r", -1) > max(first.get("n", -1), 0)
 
 
 def _noun(phrase: str) -> str | None:
