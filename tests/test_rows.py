@@ -8,8 +8,8 @@ from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.groups import groups
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
-NUMBERS = {3: "three", 4: "four", 5: "five", 6: "six"}
-SIZES = [(3, 5), (5, 3), (4, 3), (4, 5), (6, 4)]
+NUMBERS = {3: "three", 4: "four", 5: "five"}
+SIZES = [(3, 5), (5, 3), (4, 3), (4, 5), (4, 4)]
 HERE = Pose(0.0, 0.0)
 
 
@@ -36,7 +36,7 @@ def test_the_left_row_is_the_one_farthest_to_the_left(left: int, right: int) -> 
     assert meant("the tire at the right end of the left row", world) == [f"a{left - 1}"]
 
 
-@pytest.mark.parametrize(("left", "right"), SIZES)
+@pytest.mark.parametrize(("left", "right"), SIZES[:-1])
 def test_two_of_a_row_of_so_many_are_two(left: int, right: int) -> None:
     """A row of three is not two of its things."""
     world = two_rows(left, right)

@@ -44,7 +44,8 @@ _CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == (C
 def log_of_group(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """(things,) what groups lose to the one that a phrase names; 0 of all else."""
     told = (_of_kind, _of_so_many, _of_a_whole, _tidy, _close, _to_a_side)
-    return np.sum([log_of(phrase, encoder) for log_of in told], axis=0)
+    lost: Floats = np.sum([log_of(phrase, encoder) for log_of in told], axis=0)
+    return lost
 
 
 def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *, row: bool) -> Floats:
