@@ -26,6 +26,7 @@ from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
+from dcg_torch.grounding.overhead import by_height
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
@@ -121,7 +122,7 @@ def _log_psi(
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
     if denied:
         return log_psi
-    log_psi = by_outline(name, log_psi, landmarks, encoder)
+    log_psi = by_height(name, by_outline(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:

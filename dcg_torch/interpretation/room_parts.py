@@ -15,7 +15,7 @@ from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
+from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT, TIERS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -56,7 +56,7 @@ def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
         return False
     at = [o.position for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
     lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
-    if len(world.classes) >= _CLASSES or highest - lowest < _APART:
+    if noun in TIERS or len(world.classes) >= _CLASSES or highest - lowest < _APART:
         return highest - lowest >= _APART
     return len(at) <= _FEW and _on_a_rack(np.array(at), world)
 

@@ -33,6 +33,7 @@ class Everyday:
         generic, purposeful: names of whatever there is, and those that stand behind what a thing is for.
         purposes: verb -> names of what is for that.
         kinds: name of a kind -> names of what people count as it.
+        packages: last words of the names of what is called by what it holds as well.
         beside: first word of a compound -> the name of what such a thing stands beside.
     """
 
@@ -41,6 +42,7 @@ class Everyday:
     purposeful: frozenset[str]
     purposes: dict[str, list[str]]
     kinds: dict[str, frozenset[str]]
+    packages: frozenset[str]
     beside: dict[str, str]
 
 
@@ -58,11 +60,12 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    generic, purposeful = (frozenset(map(str, data[name])) for name in ("generic", "purposeful"))
+    lists = ("generic", "purposeful", "packages")
+    generic, purposeful, packages = (frozenset(map(str, data[name])) for name in lists)
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, data["beside"])
+    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, data["beside"])
 
 
 @functools.cache
