@@ -21,7 +21,7 @@ from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, World
 
 _ALL = listed("whole of a room")
 _CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
-_WITHIN = listed("in a corner")
+_WITHIN, _WALLS = listed("in a corner"), listed("wall of a room")
 _CLASSES, _THINGS, _WIDE = 4, 10, 2.0
 """Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1
@@ -77,6 +77,29 @@ def _on_a_rack(at: np.ndarray, world: WorldModel) -> bool:
     return bool((high.max(axis=1) - low.min(axis=1) >= _APART).any())
 
 
+def by_walls(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which "the left wall", that is no thing, is the left side.
+
+    Args:
+        said: the words of the tree.
+    """
+    if said.nouns.isdisjoint(_WALLS) or any(names_one_of(noun, _named(world)) for noun in said.nouns & _WALLS):
+        return tree
+    return _of_sides(tree)
+
+
+def _of_sides(tree: ParseTree) -> ParseTree:
+    phrase, children = tree.phrase, tuple(map(_of_sides, tree.children))
+    sides = [word for word in phrase.words if word in PLACE_WORDS] if phrase.noun in _WALLS else []
+    if len(sides) == 1:
+        phrase = replace(phrase, noun=sides[0], words=tuple(word for word in phrase.words if word != sides[0]))
+    return ParseTree(phrase, children)
+
+
+def _named(world: WorldModel) -> list[str]:
+    return [t for t in world.classes if not t.startswith(OPAQUE)]
+
+
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """A tree in which "in the corner" of a room, whichever it is, is a word of what is there.
 
@@ -85,7 +108,7 @@ def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     if not any("corner" in noun for noun in said.nouns) or _walls(world) is None:
         return tree
-    return _told(tree, [t for t in world.classes if not t.startswith(OPAQUE)])
+    return _told(tree, _named(world))
 
 
 def _told(tree: ParseTree, types: list[str]) -> ParseTree:

@@ -34,6 +34,7 @@ class Everyday:
         purposes: verb -> names of what is for that.
         kinds: name of a kind -> names of what people count as it.
         packages: last words of the names of what is called by what it holds as well.
+        fillings: names of whatever is in a thing.
         beside: first word of a compound -> the name of what such a thing stands beside.
     """
 
@@ -43,6 +44,7 @@ class Everyday:
     purposes: dict[str, list[str]]
     kinds: dict[str, frozenset[str]]
     packages: frozenset[str]
+    fillings: frozenset[str]
     beside: dict[str, str]
 
 
@@ -60,12 +62,12 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    lists = ("generic", "purposeful", "packages")
-    generic, purposeful, packages = (frozenset(map(str, data[name])) for name in lists)
+    lists = ("generic", "purposeful", "packages", "fillings")
+    generic, purposeful, packages, fillings = (frozenset(map(str, data[name])) for name in lists)
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, data["beside"])
+    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, data["beside"])
 
 
 @functools.cache
