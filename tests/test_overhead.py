@@ -50,6 +50,17 @@ PASSAGE = [  # a passage along x: niches on both sides, vials in colours on a ca
     put("right bell", "bell", (1.5, -1.1, 1.5), (0.2, 0.2, 0.2)),
     *(put(f"{c} vial", "vial", (3.0 + 0.3 * k, 0.0, 0.9), (0.1, 0.1, 0.2), c) for k, c in enumerate(("green", "blue"))),
 ]
+PILE = [  # trays on a trolley, two of them on one another, and bowls in two rows on a page before the viewer
+    put("under", "tray", (1.0, 0.5, 0.81), (0.4, 0.3, 0.02)),
+    put("upper", "tray", (1.02, 0.48, 0.835), (0.3, 0.3, 0.03)),
+    put("alone", "tray", (1.3, -0.4, 0.81), (0.4, 0.3, 0.02)),
+    put("trolley", "trolley", (1.2, 0.0, 0.4), (1.0, 1.6, 0.8)),
+]
+BOWLS = [
+    *(put(f"front{k}", "bowl", (2.0, 0.9 - 0.6 * k, 0.4), (0.05, 0.4, 0.3)) for k in range(4)),
+    *(put(f"rear{k}", "bowl", (2.0, 0.6 - 0.6 * k, 1.0), (0.05, 0.3, 0.2)) for k in range(3)),
+    put("kettle", "kettle", (2.0, -1.2, 1.2), (0.05, 0.3, 0.5)),
+]
 JUGS = [put(f"jug{k}", "jug", (2.0, 1.2 - 0.6 * k, 0.1), (0.1, 0.1, 0.2)) for k in range(5)]
 
 
@@ -72,6 +83,8 @@ def meant(text: str, things: list[Percept]) -> tuple[list[str], float | None]:
         ("the bell on the right hand wall", PASSAGE, ["right bell"]),
         ("the vial with the blue liquid", PASSAGE, ["blue vial"]),
         ("the vial filled with green syrup", PASSAGE, ["green vial"]),
+        ("the tray on top", PILE, ["upper"]),
+        ("the top tray", PILE, ["upper"]),
         ("the garage fan", STUDIO, ["fan2"]),
         ("the jug next to the last one on the right", [*JUGS, *WALL], ["jug3"]),
     ],
@@ -80,6 +93,12 @@ def test_what_is_meant(text: str, things: list[Percept], ids: list[str]) -> None
     found, probability = meant(text, things)
     assert found == ids
     assert (probability or 0.0) > 0.4
+
+
+@pytest.mark.parametrize("words", ["in the back", "at the back", "at the top"])
+def test_so_many_in_the_back_are_those_farthest_back(words: str) -> None:
+    found, _ = meant(f"the three bowls {words}", BOWLS)
+    assert sorted(found) == ["rear0", "rear1", "rear2"]
 
 
 def test_what_is_on_one_board_is_not_on_the_next() -> None:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.contrary import of_contradictions
-from dcg_torch.grounding.counted_side import so_many_on_a_side
+from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
@@ -123,7 +123,7 @@ def _log_psi(
     if denied:
         return log_psi
     log_psi = by_height(name, by_outline(name, log_psi, landmarks, encoder), landmarks, encoder)
-    log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
+    log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
         row = counted(tree.children[0].phrase.words) is not None
