@@ -51,6 +51,9 @@ _ABSENT = 3.0
 """Further down are those kept that name what is there, where the best one does not."""
 _TO_A_ROOM = 2.0
 """How much less likely a reading is that means a room by which others only say where the thing is."""
+_FIRST_GOAL, _ON_THE_WAY = "target=earlier_goal", 2.0
+"""The choice to mean where the first of two orders leads, "go to the hall and take the cup", and how much less likely
+it is for a robot that stands somewhere: for it that is a way, and the thing at its end is meant."""
 _SENSELESS = math.log(1e-6)
 
 
@@ -70,7 +73,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         world: what may be told by looking is added to their trees.
         learned: "rule=option" -> what is added to the log-weight of readings that took the option.
     """
-    weighed = [(r, log_weight(r, learned)) for r in command.readings]
+    on_the_way = _ON_THE_WAY if world.robot is not None else 0.0
+    weighed = [(r, log_weight(r, learned) - (on_the_way if _FIRST_GOAL in r.rules else 0.0)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
     strange = [speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
