@@ -9,7 +9,7 @@ from dcg_torch.types import Percept, Pose
 
 THINGS = [
     Percept("bench", "bench", None, (4.0, 2.0, 0.4)),
-    Percept("pantry", "pantry", None, (6.0, -3.0, 1.0)),
+    Percept("garage", "garage", None, (6.0, -3.0, 1.0)),
     Percept("rake", "rake", None, (4.1, 2.1, 0.9)),
     Percept("other rake", "rake", None, (1.0, -4.0, 0.5)),
     Percept("kettle", "kettle", None, (6.2, -3.1, 1.0)),
@@ -26,7 +26,7 @@ def likeliest(text: str, robot: Pose | None) -> str:
     ("text", "thing", "goal"),
     [
         ("walk to the bench and grab the rake", "rake", "bench"),
-        ("go to the pantry and bring me the kettle", "kettle", "pantry"),
+        ("go to the garage, then bring me the kettle", "kettle", "garage"),
         ("drive over to the bench and take the rake", "rake", "bench"),
     ],
 )
@@ -37,3 +37,7 @@ def test_what_is_done_at_the_goal_is_meant_where_somebody_stands(text: str, thin
 
 def test_a_single_goal_is_meant() -> None:
     assert likeliest("walk over to the bench", Pose(0.0, 0.0)) == "bench"
+
+
+def test_a_room_is_meant_where_both_orders_are_said_in_one_breath() -> None:
+    assert likeliest("go to the garage and bring me the kettle", Pose(0.0, 0.0)) == "garage"

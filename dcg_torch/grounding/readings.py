@@ -36,7 +36,13 @@ from dcg_torch.interpretation.others import by_others
 from dcg_torch.interpretation.paired import by_pairs
 from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls, with_corners
-from dcg_torch.interpretation.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
+from dcg_torch.interpretation.rooms import (
+    by_rooms,
+    leads_to_a_room,
+    led_into_rooms,
+    speaks_of_what_is_not_there,
+    with_rooms,
+)
 from dcg_torch.interpretation.shelves import by_shelves, with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
@@ -73,8 +79,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         world: what may be told by looking is added to their trees.
         learned: "rule=option" -> what is added to the log-weight of readings that took the option.
     """
-    on_the_way = _ON_THE_WAY if world.robot is not None else 0.0
-    weighed = [(r, log_weight(r, learned) - (on_the_way if _FIRST_GOAL in r.rules else 0.0)) for r in command.readings]
+    stands = world.robot is not None
+    weighed = [(r, log_weight(r, learned) - stands * _on_the_way(r, command.text)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
     strange = [speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
@@ -91,6 +97,15 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         Reading(tree, weight - (_TO_A_ROOM if leads else 0.0), tuple(r.rules))
         for tree, (_, leads), (r, weight) in zip(by_cells(told, world), led, kept, strict=True)
     ]
+
+
+def _on_the_way(reading: WeightedReading, text: str) -> float:
+    """What a reading loses that means where the first of two orders leads.
+
+    Unless that is a room, and both are said in one breath: such an order is to be in that room.
+    """
+    first = _FIRST_GOAL in reading.rules and ("," in text or not leads_to_a_room(reading.tree))
+    return _ON_THE_WAY if first else 0.0
 
 
 _REWRITES = (

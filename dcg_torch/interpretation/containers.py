@@ -17,6 +17,7 @@ from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _INSIDE = listed("inside")
+_NOTHING_IN, _EMPTY = "nothing in", "empty"
 _OWN = listed("own")
 """First words of what the speaker has and the scene need not."""
 
@@ -84,11 +85,17 @@ def _colored(tree: ParseTree, types: Collection[str]) -> ParseTree:
 
 
 def _filled(tree: ParseTree, types: Collection[str]) -> ParseTree:
-    """A tree in which a thing has the colour of what it is said to have, where no such thing is there."""
+    """A tree in which a thing has the colour of what it is said to have, where that is not there, and is empty where
+    nothing is in it.
+    """
     phrase, children = tree.phrase, tuple(_filled(child, types) for child in tree.children)
+    if phrase.kind is not PhraseKind.NOUN:
+        return ParseTree(phrase, children)
+    if _NOTHING_IN in phrase.words:
+        phrase = replace(phrase, words=tuple(_EMPTY if word == _NOTHING_IN else word for word in phrase.words))
     with_color = [c for c in children if c.phrase.words[:1] == ("with",) and len(c.children) == 1]
     fill = with_color[0].children[0].phrase if len(with_color) == 1 else phrase
-    if phrase.kind is not PhraseKind.NOUN or phrase.color or not (fill.color and fill.noun) or fill is phrase:
+    if phrase.color or not (fill.color and fill.noun) or fill is phrase:
         return ParseTree(phrase, children)
     if names_one_of(fill.noun, types) and fill.noun not in everyday().fillings:
         return ParseTree(phrase, children)

@@ -99,7 +99,12 @@ def _as_held(said: Name, named: Name) -> tuple[str, ...] | None:
     A "glass bottle" holds no glass, so there are two words before the package at least.
     """
     holds = named.words[:-1]
-    if len(holds) < 2 or named.head not in everyday().packages or said.head not in holds:
+    if not holds or named.head not in everyday().packages:
+        return None
+    if said.head not in holds:  # "soda" for a Fanta bottle
+        of = _relation(said.text, " ".join(holds)) if named.text not in everyday().groups else "apart"
+        return ("name: none", "kind: head everyday") if of == "everyday" else None
+    if len(holds) < 2:
         return None
     form, *kind = evidence(said.text, " ".join(holds))
     if form not in {"name: equal", "name: head"} or _kind(said, named) == "kind: everyday":
