@@ -57,3 +57,9 @@ def test_what_is_meant(text: str, things: list[Percept], id_: str) -> None:
 def test_a_package_is_of_the_kind_of_what_it_holds() -> None:
     assert log_odds("soda", "Pepsi bottle") > 1.0
     assert log_odds("soda", "ink bottle") < 0.0
+
+
+@pytest.mark.parametrize(("noun", "name"), [("cake wedge", "cake"), ("melon slice", "melon"), ("sunshade", "umbrella")])
+def test_a_portion_of_a_thing_is_called_by_it(noun: str, name: str) -> None:
+    assert log_odds(noun, name) > 3.0
+    assert log_odds(noun, "lamp") < 0.0

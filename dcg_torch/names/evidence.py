@@ -80,8 +80,9 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     lists = everyday()
     if len(said.words) < 2 or said.head in named.words:
         return None
-    if said.words[: len(named.words)] == named.words and _says_kind(said.words[len(named.words) :], named):
-        return "name: class is head", "kind: same"  # "marker pen"
+    rest = said.words[len(named.words) :] if said.words[: len(named.words)] == named.words else ()
+    if rest and (lists.portions.issuperset(rest) or _says_kind(rest, named)):
+        return "name: class is head", "kind: same"  # "marker pen", "pizza slice"
     if said.head not in lists.purposeful:
         return None
     *_, word = before = said.words[:-1]
