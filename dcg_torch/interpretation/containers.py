@@ -31,13 +31,14 @@ def in_what_holds_it(trees: Sequence[ParseTree], world: WorldModel) -> list[Pars
     types = frozenset([o.type for o in world.objects if o.type is not None and not o.hypothetical])
     if not types or any(type_.startswith(OPAQUE) for type_ in types):
         return list(trees)
-    return [_in_what_holds_it(tree, types) for tree in trees]
+    colors = frozenset([o.color for o in world.objects if o.color is not None and not o.hypothetical])
+    return [_in_what_holds_it(tree, types, colors) for tree in trees]
 
 
 @functools.lru_cache(maxsize=1024)
-def _in_what_holds_it(tree: ParseTree, types: frozenset[str]) -> ParseTree:
+def _in_what_holds_it(tree: ParseTree, types: frozenset[str], colors: frozenset[str]) -> ParseTree:
     """The same, from what it depends on of a world: one command is grounded in many worlds with the same classes."""
-    return _holder(_filled(_colored(tree, types), types), types)
+    return _holder(_filled(_colored(tree, types), types, colors), types)
 
 
 def _holder(tree: ParseTree, types: Collection[str]) -> ParseTree:
@@ -84,18 +85,21 @@ def _colored(tree: ParseTree, types: Collection[str]) -> ParseTree:
     return ParseTree(phrase, children)
 
 
-def _filled(tree: ParseTree, types: Collection[str]) -> ParseTree:
+def _filled(tree: ParseTree, types: Collection[str], colors: Collection[str]) -> ParseTree:
     """A tree in which a thing has the colour of what it is said to have, where that is not there, and is empty where
     nothing is in it.
+
+    Args:
+        colors: of what is there; of no others is it said ("the man with the grey beard").
     """
-    phrase, children = tree.phrase, tuple(_filled(child, types) for child in tree.children)
+    phrase, children = tree.phrase, tuple(_filled(child, types, colors) for child in tree.children)
     if phrase.kind is not PhraseKind.NOUN:
         return ParseTree(phrase, children)
     if _NOTHING_IN in phrase.words:
         phrase = replace(phrase, words=tuple(_EMPTY if word == _NOTHING_IN else word for word in phrase.words))
     with_color = [c for c in children if c.phrase.words[:1] == ("with",) and len(c.children) == 1]
     fill = with_color[0].children[0].phrase if len(with_color) == 1 else phrase
-    if phrase.color or not (fill.color and fill.noun) or fill is phrase:
+    if phrase.color or not (fill.color in colors and fill.noun) or fill is phrase:
         return ParseTree(phrase, children)
     if names_one_of(fill.noun, types) and fill.noun not in everyday().fillings:
         return ParseTree(phrase, children)
