@@ -27,7 +27,7 @@ def by_pairs(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     types = [type_ for type_ in world.classes if not type_.startswith(OPAQUE)]
     plural = [type_ for type_ in types if _is_plural(type_)]
-    if not any(names_one_of(noun, plural) for noun in said.nouns):
+    if not plural or not any(names_one_of(noun, plural) for noun in said.nouns):
         return tree
     return _of_one(tree, plural, [type_ for type_ in types if type_ not in plural])
 
