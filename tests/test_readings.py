@@ -33,7 +33,7 @@ def model() -> GroundingModel:
 
 @pytest.fixture(scope="module")
 def world(model: GroundingModel) -> WorldModel:
-    return model.world_model(KITCHEN, robot=Pose(0.0, 0.0), looked=True)
+    return model.world_model(KITCHEN, robot=None, looked=True)
 
 
 def lessons(model: GroundingModel, world: WorldModel, meant: Sequence[str]) -> list[Lesson]:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import LATERAL, ORDINALS, SIDED
-from dcg_torch.types import Phrase
+from dcg_torch.names.vocabulary import LATERAL, ORDINALS, PLACE_WORDS, SIDED, VERTICAL
+from dcg_torch.types import ParseTree, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -37,7 +37,7 @@ def so_many_on_a_side(
     """
     ordinal = max((ORDINALS[word] for word in phrase.words if word in ORDINALS), default=0)
     number = max(2, ordinal) if ordinal else 0  # the first is one of several, too
-    sides = [(m, side) for m in modifiers if (side := _side(m)) is not None]
+    sides = [(m, side) for m in modifiers if (side := _side(m.tree)) is not None]
     if described.sum() >= number or not sides:
         return described
     rest = fit - np.sum([m.log_psi for m, _ in sides], axis=0)
@@ -54,9 +54,33 @@ def so_many_on_a_side(
     return described
 
 
-def _side(modifier: ModifierFactor) -> str | None:
+def so_many_deep(tree: ParseTree, log_psi: Floats, encoder: WorldEncoder) -> Floats:
+    """(combos, things) of a modifier: "the three cubes in the back" are the three of their kind that are farthest back.
+
+    Args:
+        tree: of the modifier; its phrase has the count of what it is said of.
+        log_psi: what is learned; it stays for all else.
+    """
+    several, side = tree.phrase.count or 1, _side(tree)
+    if several < 2 or side not in VERTICAL:
+        return log_psi
+    kind, along = encoder.type_number, encoder.layout.position[:, 0]
+    along = along if PLACE_WORDS[side][1] == "far side" else -along
+    things = np.flatnonzero(encoder.layout.solid & np.isfinite(along) & encoder.perceived)
+    found = log_psi.copy()
+    for own in (things[kind[things] == number] for number in np.unique(kind[things])):
+        if len(own) > several:
+            first = along[own] >= np.sort(along[own])[-several] - 1e-9
+            found[:, own] = np.where(first, log_psi[:, own].max(), np.minimum(log_psi[:, own], -_NOT_FIRST))
+    return found
+
+
+_NOT_FIRST = 4.0
+"""Log Psi at most of what is not among the so many that are farthest on a side."""
+
+
+def _side(tree: ParseTree) -> str | None:
     """The side at which a modifier says that a thing is."""
-    tree = modifier.tree
     if (
         tree.phrase.words[0] not in listed("on a side of the scene")
         or len(tree.phrase.words) > 1

@@ -14,7 +14,7 @@ from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.contrary import of_contradictions
-from dcg_torch.grounding.counted_side import so_many_on_a_side
+from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
@@ -28,6 +28,7 @@ from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
+from dcg_torch.grounding.overhead import by_height
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
@@ -125,8 +126,8 @@ def _log_psi(
     if denied:
         return log_psi
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
-    log_psi = by_levels_of_stacks(name, log_psi, landmarks, encoder)
-    log_psi = of_all(tree.phrase, log_psi, landmarks, encoder)
+    log_psi = by_levels_of_stacks(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
         row = counted(tree.children[0].phrase.words) is not None

@@ -33,9 +33,17 @@ from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.looking import Looks, told_by_looking
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.others import by_others
+from dcg_torch.interpretation.paired import by_pairs
+from dcg_torch.interpretation.passages import by_passages
 from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
-from dcg_torch.interpretation.room_parts import by_corners, by_heights, with_corners
-from dcg_torch.interpretation.rooms import by_rooms, led_into_rooms, speaks_of_what_is_not_there, with_rooms
+from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls, with_corners
+from dcg_torch.interpretation.rooms import (
+    by_rooms,
+    leads_to_a_room,
+    led_into_rooms,
+    speaks_of_what_is_not_there,
+    with_rooms,
+)
 from dcg_torch.interpretation.shelves import by_shelves, with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import by_levels, with_levels
@@ -50,6 +58,9 @@ _ABSENT = 3.0
 """Further down are those kept that name what is there, where the best one does not."""
 _TO_A_ROOM = 2.0
 """How much less likely a reading is that means a room by which others only say where the thing is."""
+_FIRST_GOAL, _ON_THE_WAY = "target=earlier_goal", 2.0
+"""The choice to mean where the first of two orders leads, "go to the hall and take the cup", and how much less likely
+it is for a robot that stands somewhere: for it that is a way, and the thing at its end is meant."""
 _SENSELESS = math.log(1e-6)
 
 
@@ -69,7 +80,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         world: what may be told by looking is added to their trees.
         learned: "rule=option" -> what is added to the log-weight of readings that took the option.
     """
-    weighed = [(r, log_weight(r, learned)) for r in command.readings]
+    stands = world.robot is not None
+    weighed = [(r, log_weight(r, learned) - stands * _on_the_way(r, command.text)) for r in command.readings]
     weighed.sort(key=lambda one: -one[1])
     types = frozenset([t for t in world.classes if not t.startswith(OPAQUE)])
     strange = [speaks_of_what_is_not_there(r.tree, types) for r, _ in weighed]
@@ -88,8 +100,17 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     ]
 
 
+def _on_the_way(reading: WeightedReading, text: str) -> float:
+    """What a reading loses that means where the first of two orders leads.
+
+    Unless that is a room, and both are said in one breath: such an order is to be in that room.
+    """
+    first = _FIRST_GOAL in reading.rules and ("," in text or not leads_to_a_room(reading.tree))
+    return _ON_THE_WAY if first else 0.0
+
+
 _REWRITES = (
-    *(by_members, by_others, by_rooms, by_compounds, by_faces, by_corners),
+    *(by_passages, by_pairs, by_members, by_others, by_rooms, by_compounds, by_faces, by_corners, by_walls),
     *(by_heights, by_levels, by_shelves, by_middles, one_pair, few_together),
 )
 """What turns words into others that say the same in a scene."""

@@ -1,7 +1,7 @@
 """Compounds of two things that are there: "the desk lamp" is the lamp on the desk, "the bedside lamp" one by the bed.
 
 So it is where a class of that name is not there, and where some of the things named by the last word stand on what the
-first words name, and others do not.
+first words name, and others do not. "The bedroom lamp" is one in the bedroom, where the bedroom is there as a thing.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from dataclasses import replace
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.everyday import everyday
 from dcg_torch.names.normal import normalise
+from dcg_torch.names.rooms import room_named
 from dcg_torch.names.weights import log_odds
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -50,10 +51,11 @@ def _split(tree: ParseTree, world: WorldModel) -> ParseTree:
     place = beside or first
     marks = [o for o in things if log_odds(place, o.type or "") > _NAMED and o not in heads]
     over = [any(_is_over(o, mark, world.unit) for mark in marks) for o in heads]
-    if not marks or (beside is None and (all(over) or not any(over))):
+    name = "next to" if beside else "on" if room_named(place) is None else "in"
+    if not marks or (name == "on" and (all(over) or not any(over))):
         return ParseTree(phrase, children)
     where = ParseTree(Phrase(PhraseKind.NOUN, place, noun=place))
-    preposition = Phrase(PhraseKind.PREPOSITION, "next to" if beside else "on", ("next to" if beside else "on",))
+    preposition = Phrase(PhraseKind.PREPOSITION, name, (name,))
     return ParseTree(replace(phrase, noun=head), (*children, ParseTree(preposition, (where,))))
 
 

@@ -1,4 +1,7 @@
-"""What holds a thing is meant where the thing itself is not in the scene: "my keys are in the top drawer"."""
+"""What holds a thing is meant where the thing itself is not in the scene: "my keys are in the top drawer".
+
+Nor is what fills a thing or is a part of it: "the bottle with the red liquid" is a red one.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import functools
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
+from dcg_torch.names.everyday import everyday
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.palette import region
 from dcg_torch.names.relations import listed
@@ -13,6 +17,7 @@ from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _INSIDE = listed("inside")
+_NOTHING_IN, _EMPTY = "nothing in", "empty"
 _OWN = listed("own")
 """First words of what the speaker has and the scene need not."""
 
@@ -26,13 +31,14 @@ def in_what_holds_it(trees: Sequence[ParseTree], world: WorldModel) -> list[Pars
     types = frozenset([o.type for o in world.objects if o.type is not None and not o.hypothetical])
     if not types or any(type_.startswith(OPAQUE) for type_ in types):
         return list(trees)
-    return [_in_what_holds_it(tree, types) for tree in trees]
+    colors = frozenset([o.color for o in world.objects if o.color is not None and not o.hypothetical])
+    return [_in_what_holds_it(tree, types, colors) for tree in trees]
 
 
 @functools.lru_cache(maxsize=1024)
-def _in_what_holds_it(tree: ParseTree, types: frozenset[str]) -> ParseTree:
+def _in_what_holds_it(tree: ParseTree, types: frozenset[str], colors: frozenset[str]) -> ParseTree:
     """The same, from what it depends on of a world: one command is grounded in many worlds with the same classes."""
-    return _holder(_colored(tree, types), types)
+    return _holder(_filled(_colored(tree, types), types, colors), types)
 
 
 def _holder(tree: ParseTree, types: Collection[str]) -> ParseTree:
@@ -77,3 +83,24 @@ def _colored(tree: ParseTree, types: Collection[str]) -> ParseTree:
     if behind and names_one_of(noun, types) and not names_one_of(last, types):
         phrase = replace(phrase, noun=noun, color=last)
     return ParseTree(phrase, children)
+
+
+def _filled(tree: ParseTree, types: Collection[str], colors: Collection[str]) -> ParseTree:
+    """A tree in which a thing has the colour of what it is said to have, where that is not there, and is empty where
+    nothing is in it.
+
+    Args:
+        colors: of what is there; of no others is it said ("the man with the grey beard").
+    """
+    phrase, children = tree.phrase, tuple(_filled(child, types, colors) for child in tree.children)
+    if phrase.kind is not PhraseKind.NOUN:
+        return ParseTree(phrase, children)
+    if _NOTHING_IN in phrase.words:
+        phrase = replace(phrase, words=tuple(_EMPTY if word == _NOTHING_IN else word for word in phrase.words))
+    with_color = [c for c in children if c.phrase.words[:1] == ("with",) and len(c.children) == 1]
+    fill = with_color[0].children[0].phrase if len(with_color) == 1 else phrase
+    if phrase.color or not (fill.color in colors and fill.noun) or fill is phrase:
+        return ParseTree(phrase, children)
+    if names_one_of(fill.noun, types) and fill.noun not in everyday().fillings:
+        return ParseTree(phrase, children)
+    return ParseTree(replace(phrase, color=fill.color), tuple(c for c in children if c is not with_color[0]))

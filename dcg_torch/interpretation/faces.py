@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, PLACE_WORDS, TOWARDS
+from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, PLACE_WORDS, SIDED, TOWARDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import NOT, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -26,7 +26,7 @@ _SIDE_OF = re.compile(r"\bside of$")
 _SIDE = " side"
 _AT = listed("at an end of a thing")
 _BESIDE = listed("on the side towards")
-_ACROSS = listed("across")
+_ACROSS, _NEAR = listed("across"), listed("on this side")
 _SAYING = _ENDS | {"side"}
 
 
@@ -41,12 +41,39 @@ def by_faces(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
         return tree
     sized = frozenset({o.type for o in world.objects if o.type and o.size is not None})
     types = frozenset(type_ for type_ in sized if not type_.startswith(OPAQUE))
+    if world.robot is not None and types:
+        tree = _seen(tree, types)
     return _faced(tree, types) if types else tree
 
 
 @functools.lru_cache(maxsize=1024)
 def _speaks_of_ends(tree: ParseTree) -> bool:
     return any(_SAID.search(node.phrase.text) for node in tree.walk())
+
+
+def _seen(tree: ParseTree, types: frozenset[str]) -> ParseTree:
+    """A tree in which the far side of a thing is the one away from you, and its left side the one on the left."""
+    children = tuple(_seen(child, types) for child in tree.children)
+    if tree.phrase.kind is PhraseKind.NOUN:
+        children = tuple(one for child in children for one in _on_a_seen_side(child, types))
+    return tree if children == tree.children else ParseTree(tree.phrase, children)
+
+
+def _on_a_seen_side(place: ParseTree, types: frozenset[str]) -> tuple[ParseTree, ...]:
+    """ "On the far side of the bed", "on the left side of the bed"; a place as it was where it is no such side."""
+    side = place.children[0] if len(place.children) == 1 else place
+    named = side.phrase.text.endswith(_SIDE) and place.phrase.words[:1] and place.phrase.words[0] in _AT
+    whole, others = _whole(side, types) if named else (None, ())
+    if whole is None or any(c.phrase.words[:1] == ("from",) for c in (*whole.children, *others)):
+        return (place,)
+    if side.phrase.noun in SIDED and not side.phrase.words:
+        return (_related(place, TOWARDS, whole, ParseTree(side.phrase)), *others)
+    if side.phrase.noun != "side" or len(side.phrase.words) != 1:
+        return (place,)
+    relation = AWAY_FROM if side.phrase.words[0] in _ACROSS else TOWARDS
+    if relation == TOWARDS and side.phrase.words[0] not in _NEAR:
+        return (place,)
+    return (_related(place, relation, whole, ParseTree(Phrase(PhraseKind.NOUN, "", (), "you"))), *others)
 
 
 def _faced(tree: ParseTree, types: frozenset[str]) -> ParseTree:

@@ -1,22 +1,28 @@
-"""Landmarks that are of the kind of what is meant: "the toilet between the other two", "the cup left of the other"."""
+"""Landmarks that are of the kind of what is meant: "the toilet between the other two", "the cup left of the other".
+
+So is "the tall one" of "the bottle next to the tall one", where nothing else is said of what kind it is.
+"""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.normal import singular
+from dcg_torch.names.vocabulary import ORDINALS, is_superlative
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
-_OTHER = "other"
+_OTHER, _ONE = "other", "one"
 
 
 def by_others(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
-    """A tree in which "the other two" have the noun of what stands to them.
+    """A tree in which "the other two" and "the last one" have the noun of what stands to them.
 
     Args:
         said: the words of the tree.
     """
-    return _named(tree) if _OTHER in said.words or _OTHER in said.nouns else tree
+    picked = any(map(_picks, said.words))
+    return _named(tree) if picked or _OTHER in said.words or _OTHER in said.nouns else tree
 
 
 def _named(tree: ParseTree) -> ParseTree:
@@ -36,4 +42,10 @@ def _to_others(place: ParseTree, noun: str) -> ParseTree:
 
 def _is_bare(phrase: Phrase) -> bool:
     other = phrase.noun == _OTHER or (phrase.noun is None and _OTHER in phrase.words)
-    return phrase.kind is PhraseKind.NOUN and other
+    one = phrase.noun is None and phrase.color is None and singular(phrase.text.split(" ")[-1]) == _ONE
+    return phrase.kind is PhraseKind.NOUN and (other or (one and any(map(_picks, phrase.words))))
+
+
+def _picks(word: str) -> bool:
+    """Does a word pick from several of a kind: "the last one", "the tallest one"?"""
+    return word in ORDINALS or is_superlative(word) or word == "last"

@@ -68,10 +68,11 @@ _BESIDE = listed("on a side") | {NEAREST}
 def over_and_beyond(place: ParseTree) -> tuple[ParseTree, ...]:
     """On a page what is above a thing is behind it, too."""
     name, *others = place.phrase.words or ("",)
-    side = {"above": "behind", "under": "in front of"}.get(name)
+    height = "above" if name == "on top of" else name
+    side = {"above": "behind", "under": "in front of"}.get(height)
     if side is None:
         return (place,)
-    return place, replace(place, phrase=replace(place.phrase, words=(side, *others)))
+    return tuple(replace(place, phrase=replace(place.phrase, words=(said, *others))) for said in (height, side))
 
 
 def told_sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple[str, ...]:

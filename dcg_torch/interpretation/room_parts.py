@@ -6,7 +6,8 @@ corner. So a noun phrase gets a word ("spot: corner"), which is compared with wh
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import itertools
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -15,19 +16,21 @@ from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal import normalise
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT
+from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT, TIERS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _ALL = listed("whole of a room")
 _CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
-_WITHIN = listed("in a corner")
+_WITHIN, _WALLS = listed("in a corner"), listed("wall of a room")
 _CLASSES, _THINGS, _WIDE = 4, 10, 2.0
 """Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
 _APART = 0.3
 """Metres by which the heights of some things of one name differ at least."""
+_AT_END, _FEW_ON_A_PILE = listed("at a side"), 12
+"""Prepositions before the top of a pile, and how many flat things one looks for a pile among."""
 _FEW = 100
 """Things of one name up to which these are looked for on a rack."""
 _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
@@ -40,23 +43,55 @@ def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     Args:
         said: the words of the tree.
     """
-    return tree if said.words.isdisjoint(_HEIGHTS) else _of_heights(tree, world)
+    return tree if said.words.isdisjoint(_HEIGHTS) and said.nouns.isdisjoint(_HEIGHTS) else _of_heights(tree, world)
 
 
 def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
     phrase, children = tree.phrase, tuple(_of_heights(child, world) for child in tree.children)
     if not _HEIGHTS.keys().isdisjoint(phrase.words) and _stand_apart_in_height(phrase, world):
         phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
+    ends = [child for child in children if _is_on_an_end(child)]
+    if phrase.noun is not None and len(ends) == 1 and _lie_on_one_another(_called(phrase.noun, world)):
+        word = _HEIGHTS[ends[0].children[0].phrase.noun or ""]
+        return ParseTree(replace(phrase, words=(*phrase.words, word)), tuple(c for c in children if c is not ends[0]))
     return ParseTree(phrase, children)
+
+
+def _is_on_an_end(place: ParseTree) -> bool:
+    """ "(The book) on top"."""
+    end = place.children[0] if len(place.children) == 1 else place
+    bare = end.phrase.noun in _HEIGHTS and not (end.phrase.words or end.children)
+    return bare and place.phrase.kind is PhraseKind.PREPOSITION and place.phrase.words[0] in _AT_END
+
+
+def _called(noun: str, world: WorldModel) -> list[Object]:
+    return [o for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+
+
+def _lie_on_one_another(things: Sequence[Object]) -> bool:
+    """Do some of a few things, that are low beside what they cover, rest on others of them?"""
+    low = [o for o in things if o.position and o.size and o.size[2] < min(o.size[:2])]
+    pairs = itertools.permutations(low, 2) if len(low) == len(things) <= _FEW_ON_A_PILE else ()
+    return any(_rests_on(above, below) for above, below in pairs)
+
+
+def _rests_on(above: Object, below: Object) -> bool:
+    (x, y, z), (a, b, c) = above.position or (0.0, 0.0, 0.0), below.position or (0.0, 0.0, 0.0)
+    size = below.size or (0.0, 0.0, 0.0)
+    rise = ((above.size or size)[2] + size[2]) / 2.0
+    return abs(x - a) < size[0] / 2.0 and abs(y - b) < size[1] / 2.0 and 0.5 * rise < z - c < 1.5 * rise
 
 
 def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
     noun = phrase.noun
     if noun is None or noun in PLACE_WORDS or {*phrase.words} & LATERAL:
         return False
-    at = [o.position for o in world.objects if o.position and o.type and names_one_of(noun, (o.type,))]
+    named = _called(noun, world)
+    if _lie_on_one_another(named):
+        return True
+    at = [o.position for o in named if o.position]
     lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
-    if len(world.classes) >= _CLASSES or highest - lowest < _APART:
+    if noun in TIERS or len(world.classes) >= _CLASSES or highest - lowest < _APART:
         return highest - lowest >= _APART
     return len(at) <= _FEW and _on_a_rack(np.array(at), world)
 
@@ -77,6 +112,29 @@ def _on_a_rack(at: np.ndarray, world: WorldModel) -> bool:
     return bool((high.max(axis=1) - low.min(axis=1) >= _APART).any())
 
 
+def by_walls(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """A tree in which "the left wall", that is no thing, is the left side.
+
+    Args:
+        said: the words of the tree.
+    """
+    if said.nouns.isdisjoint(_WALLS) or any(names_one_of(noun, _named(world)) for noun in said.nouns & _WALLS):
+        return tree
+    return _of_sides(tree)
+
+
+def _of_sides(tree: ParseTree) -> ParseTree:
+    phrase, children = tree.phrase, tuple(map(_of_sides, tree.children))
+    sides = [word for word in phrase.words if word in PLACE_WORDS] if phrase.noun in _WALLS else []
+    if len(sides) == 1:
+        phrase = replace(phrase, noun=sides[0], words=tuple(word for word in phrase.words if word != sides[0]))
+    return ParseTree(phrase, children)
+
+
+def _named(world: WorldModel) -> list[str]:
+    return [t for t in world.classes if not t.startswith(OPAQUE)]
+
+
 def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """A tree in which "in the corner" of a room, whichever it is, is a word of what is there.
 
@@ -85,7 +143,7 @@ def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     if not any("corner" in noun for noun in said.nouns) or _walls(world) is None:
         return tree
-    return _told(tree, [t for t in world.classes if not t.startswith(OPAQUE)])
+    return _told(tree, _named(world))
 
 
 def _told(tree: ParseTree, types: list[str]) -> ParseTree:

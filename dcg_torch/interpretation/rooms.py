@@ -84,6 +84,12 @@ def speaks_of_what_is_not_there(tree: ParseTree, types: frozenset[str]) -> bool:
     return not names_one_of(noun, types) or is_only_a_room(noun, types)
 
 
+def leads_to_a_room(tree: ParseTree) -> bool:
+    """Is the first noun phrase of a command the name of a room?"""
+    first = _first_noun(tree)
+    return first is not None and _room(first) is not None
+
+
 @functools.lru_cache(maxsize=1024)
 def _first_noun(tree: ParseTree) -> Phrase | None:
     return next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)

@@ -33,6 +33,9 @@ class Everyday:
         generic, purposeful: names of whatever there is, and those that stand behind what a thing is for.
         purposes: verb -> names of what is for that.
         kinds: name of a kind -> names of what people count as it.
+        packages: last words of the names of what is called by what it holds as well.
+        fillings: names of whatever is in a thing.
+        portions: what behind the name of a thing only says how much of it.
         beside: first word of a compound -> the name of what such a thing stands beside.
     """
 
@@ -41,6 +44,9 @@ class Everyday:
     purposeful: frozenset[str]
     purposes: dict[str, list[str]]
     kinds: dict[str, frozenset[str]]
+    packages: frozenset[str]
+    fillings: frozenset[str]
+    portions: frozenset[str]
     beside: dict[str, str]
 
 
@@ -58,11 +64,12 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    generic, purposeful = (frozenset(map(str, data[name])) for name in ("generic", "purposeful"))
+    lists = ("generic", "purposeful", "packages", "fillings", "portions")
+    generic, purposeful, packages, fillings, portions = (frozenset(map(str, data[name])) for name in lists)
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, data["beside"])
+    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, data["beside"])
 
 
 @functools.cache

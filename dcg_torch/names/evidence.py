@@ -66,6 +66,8 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
         said = next((other for other in (named, name_parts(named.head)) if _misspells(said.text, other.text)), said)
     if (told := _by_purpose(said, named)) is not None:
         return told
+    if (held := _as_held(said, named)) is not None:
+        return held
     form = _form(said, named)
     if form == "name: generic":
         return (form,)
@@ -78,8 +80,9 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     lists = everyday()
     if len(said.words) < 2 or said.head in named.words:
         return None
-    if said.words[: len(named.words)] == named.words and _says_kind(said.words[len(named.words) :], named):
-        return "name: class is head", "kind: same"  # "marker pen"
+    rest = said.words[len(named.words) :] if said.words[: len(named.words)] == named.words else ()
+    if rest and (lists.portions.issuperset(rest) or _says_kind(rest, named)):
+        return "name: class is head", "kind: same"  # "marker pen", "pizza slice"
     if said.head not in lists.purposeful:
         return None
     *_, word = before = said.words[:-1]
@@ -89,6 +92,26 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
         return None
     inner = " ".join(before)
     return evidence(inner, named.text) if base is None and not unheard_of(word) else ("name: generic",)
+
+
+def _as_held(said: Name, named: Name) -> tuple[str, ...] | None:
+    """The facts of what a package holds: "tomato soup" for "Campbell's tomato soup can"; None for all else.
+
+    A "glass bottle" holds no glass, so there are two words before the package at least.
+    """
+    holds = named.words[:-1]
+    if not holds or named.head not in everyday().packages:
+        return None
+    if said.head not in holds:  # "soda" for a Fanta bottle
+        of = _relation(said.text, " ".join(holds)) if named.text not in everyday().groups else "apart"
+        return ("name: none", "kind: head everyday") if of == "everyday" else None
+    if len(holds) < 2:
+        return None
+    form, *kind = evidence(said.text, " ".join(holds))
+    if form not in {"name: equal", "name: head"} or _kind(said, named) == "kind: everyday":
+        return None
+    # What is called so itself is called so rather: a package is no soup.
+    return "name: word", *("kind: strange" if one == "kind: everyday" else one for one in kind)
 
 
 def _verb_of(word: str) -> str | None:

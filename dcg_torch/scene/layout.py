@@ -20,7 +20,7 @@ from dcg_torch.scene.bodies import Bodies, bodies
 from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import TIE, Alike, numbered
 from dcg_torch.scene.outlooks import outlooks
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright import before_it, laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import positions, to_robot_frame
 
@@ -50,6 +50,7 @@ EDGES = ("edge", "corner")
 """Types of the places that are no point."""
 HEADINGS = {"far side": (1.0, 0.0), "near side": (-1.0, 0.0), "left side": (0.0, 1.0), "right side": (0.0, -1.0)}
 """Attribute of a place -> where that side is, in the frame of who looks."""
+_ROBOT = "robot"
 OF_ROBOT, OF_SPEAKER = "of robot", "of speaker"
 """Attributes of the sides of somebody."""
 
@@ -217,6 +218,8 @@ def layout(world: WorldModel) -> Layout:
     )
     speaker = None if world.speaker is None else _foot(world.speaker, viewer, world.unit)
     own = np.zeros(2) if world.viewer is None else _foot(robot, viewer, world.unit)
+    if not on_floor and objects:
+        own = before_it(position[:objects])[:2]
     heading = _headings(things, position, middle, None if world.viewer is None else robot.yaw - viewer.yaw)
     sized = bodies(world.objects, position[:, 2], viewer.yaw, world.unit) if on_floor else None
     outlook = None
@@ -250,6 +253,8 @@ def _as_seen(world: WorldModel, viewer: Pose) -> tuple[Floats, bool]:
     seen = position[: len(world.objects)]
     flat = laid_flat(seen)
     position[: len(world.objects)] = flat
+    if flat is not seen:
+        position[[j for j in range(len(seen), len(position)) if world.things[j].type == _ROBOT]] = before_it(flat)
     position /= world.unit
     return position, flat is seen
 

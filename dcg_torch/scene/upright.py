@@ -18,6 +18,8 @@ _SPOT = 0.05
 """Share of the picture's width within which one thing is straight over another."""
 _EVEN = 1.2
 """Steps from row to row of a rack are at most so many times as high as others."""
+_FAR_BEFORE = 20.0
+"""How many times as far as a picture is wide."""
 _ROWS, _COLUMNS = 2, 3
 """A wall of blocks is seldom so large; a page of pictures mostly is."""
 
@@ -44,6 +46,16 @@ def laid_flat(position: Floats) -> Floats:
     flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
+
+
+def before_it(flat: Floats) -> Floats:
+    """(3,) where who looks at a picture that is laid flat is: so far before it that what is lower in it is closer.
+
+    Args:
+        flat: (n, 3) what is in it; NaN of what is nowhere.
+    """
+    low, high = np.nanmin(flat, axis=0), np.nanmax(flat, axis=0)
+    return np.array([low[0] - _FAR_BEFORE * max(float(high[1] - low[1]), TIE), (low[1] + high[1]) / 2.0, 0.0])
 
 
 def is_upright(objects: Sequence[Object], viewer: Pose | None) -> bool:
