@@ -17,7 +17,7 @@ from dcg_torch.model.checkpoint import load
 
 VARIANT = Variant(groups=PAPER | {Group.OPEN, Group.RELATION, Group.NAMES}, beam=12)
 _ASSUMED = Assumptions().with_names(evident=True)
-LESSONS = 2250
+LESSONS = 4500
 _ROUNDS = 3
 SHIPPED = Path(str(files("dcg_torch.model"))) / "shipped"
 
