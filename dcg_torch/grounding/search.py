@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -30,11 +29,8 @@ from dcg_torch.types import Correspondence, ParseTree, Phrase, PhraseKind
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_EQUAL = math.log(0.75)
+_EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
-_RATHER, _AT_MOST, _AT_HAND = 4.0, 1.1, 0.25
-"""Nats that one of equals loses for each e-fold by which it is farther than the nearest, the most that it loses, and
-metres up to which all are near."""
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""
 
@@ -45,24 +41,6 @@ class _Found:
 
     scored: Scored
     beam: Beam | None = None
-
-
-def _nearer_rather(totals: Floats, equal: Sequence[int], away: Sequence[float]) -> Floats:
-    """Totals in which the nearer of equals are likelier, up to three times; together they are as likely as before.
-
-    Somebody who says "the pallet" among pallets means rather the one at hand.
-
-    Args:
-        equal: the numbers of the equals.
-        away: how far each is from the robot.
-    """
-    if len(equal) < 2:
-        return totals
-    nearest = max(min(away), _AT_HAND)
-    share = np.maximum(-_RATHER * np.log(np.maximum(1.0, np.array(away) / nearest)), -_AT_MOST)
-    found, of = totals.copy(), list(equal)
-    found[of] += share + np.logaddexp.reduce(totals[of]) - np.logaddexp.reduce(totals[of] + share)
-    return found
 
 
 class Search:
@@ -95,10 +73,8 @@ class Search:
             return Solution(tree, world, problem="there is nothing here to mean")
         root = self._picked(tree, landmark=False)
         number, totals = self.encoder.number, root.totals()[: self._meanable]
-        found, equal = target_of(tree), self._equals(root, totals)
-        best = self._nearest_best(root, equal)
-        if found is not None and not found.phrase.plural:
-            totals = _nearer_rather(totals, [number[i] for i in equal], list(equal.values()))
+        best = self._nearest_best(root, totals)
+        found = target_of(tree)
         noun = None if found is None else self._picked(found, landmark=False)
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
         odds = (
@@ -133,19 +109,16 @@ class Search:
         found = self._best(root, 1, scores)[0]
         return found if math.isfinite(found.log_score) else None
 
-    def _equals(self, root: Scored, totals: Floats) -> dict[str, float]:
-        """id -> metres to the robot, of what is as good as equal to the best, where names count; else of nothing."""
+    def _nearest_best(self, root: Scored, totals: Floats) -> Hypothesis:
+        """The best configuration; where names count, one of the nearest thing of those that are as good as equal."""
         best, robot = self._best(root, 1)[0], self.encoder.world.robot
+        things = self.encoder.world.objects
         if robot is None or not judges_absence(self.encoder) or best.meant.hypothetical or best.meant.members:
-            return {}
+            return best
         least = totals.max() + _EQUAL
-        equal = [o for o, total in zip(self.encoder.world.objects, totals.tolist(), strict=False) if total >= least]
-        return {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
-
-    def _nearest_best(self, root: Scored, equal: Mapping[str, float]) -> Hypothesis:
-        """The best configuration; one of the nearest thing of those that are as good as equal."""
-        best = self._best(root, 1)[0]
-        near = min(equal, key=equal.__getitem__, default=best.meant.id)
+        equal = [o for o, total in zip(things, totals.tolist(), strict=False) if total >= least]
+        away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
+        near = min(away, key=away.__getitem__, default=best.meant.id)
         if near == best.meant.id:
             return best
         scores = np.where(root.about(near, self.encoder.number), root.scores, -np.inf)
