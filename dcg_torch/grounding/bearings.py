@@ -26,6 +26,10 @@ Bools = NDArray[np.bool_]
 _AT = listed("on a side") | {WITHIN}
 _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}
 """Preposition before who is spoken to -> the direction in which what is so stands."""
+_STRAIGHT, _NOT_AHEAD = math.radians(25.0), -5.0
+"""Angle at which a thing is half a nat less straight on, and the most that it loses."""
+_AHEAD = "ahead of"
+"""The preposition of what is straight on, wherever the robot stands."""
 _SLANT = math.radians(40.0)
 """Angle at which a thing is half a nat less that way than one straight on."""
 _E_FOLD = 2.0
@@ -40,7 +44,8 @@ def by_bearing(
     """(landmarks, things) log Psi of a modifier, measured where its landmark is the robot or a side of it.
 
     Args:
-        log_psi: what is learned, which stays for all other landmarks, and for a robot that stands outside.
+        log_psi: what is learned, which stays for all other landmarks, and for a robot that stands outside, but for
+            what is straight ahead of it.
         landmarks: the number of each.
         compared: (things,) those of which the nearest is meant; None: those of one type.
     """
@@ -48,13 +53,22 @@ def by_bearing(
     if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    if not ways or not encoder.among_things:
+    if not ways or not (encoder.among_things or name == _AHEAD):
         return log_psi
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
     whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
     found = log_psi.copy()
     for k, way in ways:
-        found[k] = _that_way(where.position[:, :2] - where.robot, way, None if whole else kind)
+        offset = where.position[:, :2] - where.robot
+        among = encoder.among_things
+        found[k] = _that_way(offset, way, None if whole else kind) if among else _straight_on(offset, way)
+    return found
+
+
+def _straight_on(offset: Floats, way: Floats) -> Floats:
+    """(things,) how straight on each stands, near or far; `offset` is (things, 2) from the robot."""
+    slant = np.arctan2(offset @ np.array([-way[1], way[0]]), offset @ way)
+    found: Floats = np.maximum(-0.5 * (np.where(np.isfinite(slant), slant, math.pi) / _STRAIGHT) ** 2, _NOT_AHEAD)
     return found
 
 

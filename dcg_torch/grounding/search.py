@@ -246,7 +246,7 @@ class Search:
         return Scored(tree, combos, meant, scores, code)
 
     def _only_objects(self, tree: ParseTree, found: Scored) -> Scored:
-        """Without places, without the objects that the speaker has ruled out, and groups where one thing is meant."""
+        """Without places, objects that the speaker has ruled out, and groups of which a phrase does not speak."""
         world = self.encoder.world
         if world.meant is None and not world.groups and not world.places:
             return found
@@ -257,10 +257,9 @@ class Search:
         odds, fit = (None if v is None else v[:meanable] for v in (found.log_odds, found.log_fit))
         code, noun = found.code, target_of(tree)
         things = noun is not None and not in_group(noun.phrase)
-        single = noun is not None and things and not noun.phrase.plural
-        number = noun.phrase.count if noun is not None and things else None
-        if world.meant is not None or ((single or number) and world.groups):
-            none = [bool(o.members) and (single or number not in (None, len(o.members))) for o in world.meanable]
+        number = noun.phrase.count if noun is not None and noun.phrase.plural else None
+        if world.meant is not None or (things and world.groups):
+            none = [things and bool(o.members) and number != len(o.members) for o in world.meanable]
             out = np.array(none) | [not (world.meant is None or o.id in world.meant) for o in world.meanable]
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
