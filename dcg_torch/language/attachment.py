@@ -12,15 +12,15 @@ from dataclasses import replace
 from dcg_torch.language.clauses import BEFORE_VERB, Clause
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
-from dcg_torch.language.lexicon import PLACING, RELATION_VERBS, SETS, VERBS
+from dcg_torch.language.lexicon import CHOICES, PLACING, RELATION_VERBS, SETS, VERBS
 from dcg_torch.language.places import settle
 from dcg_torch.language.saying import NounPhrases
 
 
 def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause:
     """The clause of a list of items. `supplied`: a later clause says where the object goes ("and put it on ...")."""
-    builder = _Builder(items)
-    for item, after in zip(items, (*items[1:], END), strict=True):
+    builder = _Builder(items, decisions)
+    for item, after in itertools.pairwise((*items, END)):
         builder.step(item, after)
     clause, start = builder.clause, items[0].start
     lead = itertools.takewhile(lambda item: item.kind in BEFORE_VERB, items)
@@ -41,18 +41,22 @@ class _Builder(NounPhrases):
 
     def step(self, item: Item, after: Item) -> None:
         """Read one item; `after` is the next."""
-        joins = item.kind is Kind.AND and (after.kind is not Kind.NOUN or after.negative)
+        # "That aren't red or blue", "not a cup, a jar or a bowl".
+        behind = (one.text for one in self.items if one.start >= item.start and one.kind not in {Kind.NOUN, Kind.COMMA})
+        still = self.was_denied and next(behind, "") == "or"
+        joins = item.kind is Kind.AND and (after.kind is not Kind.NOUN or after.negative or still)
         if self.meant is not None and (joins or item.kind is Kind.COMMA or item.text == "nor"):
             self.nouns, self.meant = self.meant, None  # it goes on with what was spoken of before what is ruled out
         if item.kind is Kind.NEGATION:
             self.negation(item, after)
         elif item.kind is Kind.RELATIVE:
             self.relative = self.forced = True
+            self.nouns = self.described(after)
         elif item.text == "but" and any(noun.is_a("all") for noun in self.nouns):
             # "Anything (on the table) but the cone".
             self.place(replace(item, kind=Kind.PREPOSITION, words=("except",)))
         elif item.kind in {Kind.AND, Kind.COMMA}:
-            still = item.text == "or" and self.was_denied  # "that aren't red or blue"
+            self.excluded = still and bool(self.ruled_out)
             self.joined, self.relative, self.forced, self.denied = True, False, still, still
             self.conjunction = item.text if item.kind is Kind.AND else ""
         elif item.kind is Kind.VERB:
@@ -61,9 +65,23 @@ class _Builder(NounPhrases):
             self.place(item)
         elif item.kind is Kind.ADVERB:
             self.adverb(item, after)
-        elif item.kind is Kind.NOUN and not self.is_subject(item, after):
+        elif item.kind is Kind.NOUN and (self.preposition is not None or not self.is_subject(item, after)):
+            if self.joined and self.denied and item.noun and self.last in (END, *self.pending)[-1].children:
+                # "Not on the table or (on) the desk".
+                self.place(replace(self.pending[-1], words=(self.pending[-1].name.removeprefix("not "),), children=[]))
             self.noun(item)
             self.joined = self.forced = self.excluded = self.denied = False
+
+    def described(self, verb: Item) -> list[Item]:
+        """The noun phrases up to that of which a relative clause tells: "the cup on the table that is red"."""
+        place, last = (END, *self.pending)[-1], self.last
+        # "The cup by the jar that is by the box that is red", "the corner of the table that is near you".
+        if not (place.before and last in place.children) or place.forced or place.name == "of" or last.is_a("grouping"):
+            return self.nouns
+        agree = [verb.text not in SETS["one_does" if n.plural else "several_do"] for n in (place.before[-1], last)]
+        agree[1] = agree[1] and not last.is_a("pointed")
+        options = CHOICES["relative"] if agree[0] == agree[1] else {"thing" if agree[0] else "landmark": 0.0}
+        return list(place.before) if self.decisions.choose("relative", options) == "thing" else self.nouns
 
     def negation(self, item: Item, after: Item) -> None:
         """Whether "not" denies what is said of a noun phrase, excludes a noun phrase, or is of the verb."""
@@ -122,14 +140,11 @@ class _Builder(NounPhrases):
 
     def is_subject(self, item: Item, after: Item) -> bool:
         """The "you" of "the block that you hold", with and without "that"."""
-        if self.preposition is not None:
-            return False
         acts = after.kind is Kind.VERB
         it = item.text in SETS["stands_for"] and bool(self.nouns) and acts
         if not it and item.noun not in SETS["someone"]:  # "the block that the arm is holding"
             return item.noun in SETS["holders"] and self.relative
-        begins = after.name == "be" if it else bool(self.nouns) and not self.joined and acts
-        self.relative = self.relative or begins
+        self.relative |= after.name == "be" if it else bool(self.nouns) and not self.joined and acts
         return self.relative
 
     def verb(self, item: Item, after: Item) -> None:

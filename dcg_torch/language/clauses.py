@@ -98,8 +98,8 @@ def _is_statement(clause: Sequence[Item], items: Sequence[Item], k: int) -> bool
     if verbs:  # "it is on the left and is touching the cone"
         return items[k - 1].kind is Kind.AND
     after, one = (*items[k + 1 :], END)[0], next((item for item in clause if item.kind is Kind.NOUN), END)
-    state = one.pronoun and " " in one.text and is_state(after)  # "the middle one is sick"
-    named = after.noun is not None and not state
+    # But "the middle one is sick".
+    named = after.noun is not None and not (one.pronoun and " " in one.text and is_state(after))
     # "It is the lower of the two cubes", "the red mug was a present".
     told = k and (items[k - 1].text in SETS["stands_for"] or (items[k - 1].noun and items[k].text in SETS["past"]))
     return (told or not named) and any(item.kind is Kind.NOUN and not item.is_a("someone") for item in clause)
@@ -145,8 +145,7 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
         return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.
-        joined = before.kind in BEFORE_VERB - {Kind.NEGATION}
-        return joined and not item.participle and lemma in SETS["commands"]
+        return before.kind in BEFORE_VERB - {Kind.NEGATION} and not item.participle and lemma in SETS["commands"]
     before = second if before.kind is Kind.ADVERB else before
     after_noun = before.kind is Kind.NOUN and not before.is_a("someone")
     since = itertools.takewhile(lambda other: other.kind not in {Kind.STOP, Kind.AND}, reversed(items[:k]))

@@ -30,6 +30,7 @@ class Item:
     count: int | None = None
     pronoun: bool = False  # it, one, that: stands for something else
     participle: bool = False  # a verb's -ed or -ing form
+    late: bool = False  # a verb of what comes after all else: "before you go to the phone"
     finite: bool = False  # a verb's -s form
     determined: bool = False  # has an article
     negative: bool = False  # "no cube"
@@ -207,9 +208,8 @@ def _settle_row(noun: Item) -> None:
         alone = place.words == ("in",) and noun.plural and len(place.children) == 1
         if alone and row.is_a("group") and not row.text.startswith("the "):
             noun.words += (str(row.noun), *((f"of {noun.count}",) if noun.count else ()))
-            noun.count = None
+            noun.count, place.said, row.said = None, True, True
             noun.children.remove(place)
-            place.said = row.said = True
             return
 
 

@@ -160,10 +160,7 @@ class NounPhrase:
         self.nouns = []
         if unit in SETS["pairs"]:
             self.item.words += (unit,) if unit in SETS["close_pairs"] else ()
-            if self.picked and self.item.count == 1:
-                self.of = 2
-            else:
-                self.item.count = 2
+            self.of, self.item.count = (2, 1) if self.picked and self.item.count == 1 else (self.of, 2)
         elif unit in SETS["groups"]:
             self.item.words += (unit,)
             self.is_group = True

@@ -26,8 +26,7 @@ from dcg_torch.types import ParseTree, PhraseKind
 
 MAX_CHARACTERS = 600
 MAX_WORDS = 120  # four times the longest of most thousand human commands; the time goes with the number of words
-_PATHS = 3
-_RUNS_A_READING = 2
+_PATHS, _RUNS_A_READING = 3, 2
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,8 +141,7 @@ class _Command:
             self.tagged[mended] = _named(paths(words, self.known, self.names, _PATHS)), talk(words)
         tagged, parts = self.tagged[mended]
         weights = {name: CHOICES["scale"] * path.weight for name, path in tagged.items()}
-        path = tagged[decisions.choose("words", weights)]
-        said = items(path.tokens)
+        said = items(tagged[decisions.choose("words", weights)].tokens)
         groups = split(repair(said), parts)
         last = _supplied(groups)
         clauses = [build(group, n < last, decisions) for n, group in enumerate(groups)]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import PARTICLE_VERBS, PRONOUNS, SETS
+from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
 from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
 from dcg_torch.language.tagging import BEHIND, Token
 
@@ -53,8 +53,7 @@ class _Phrases:
         token = self.tokens[i]
         if token.text in SETS["filler_words"] and self.before.kind in {Kind.PREPOSITION, Kind.VERB, Kind.STOP}:
             return i + 1  # "go to like the cone"
-        normal = token.value[0]
-        *_, end = token.text.split()[:3]
+        normal, end = token.value[0], token.text.split()[:3][-1]
         if token.text.startswith("from the ") and end in SETS["ends"] and self.before.is_a("counted"):
             self.add(Kind.PREPOSITION, i, i + 1, ("from",))  # "the second from the left of the row"
             side = self.add(Kind.NOUN, i, i + 1)
@@ -68,7 +67,11 @@ class _Phrases:
     def verb(self, i: int) -> int:
         token = self.tokens[i]
         base = "have" if token.tag == "HAVE" else token.value[0] if " " in token.text else verb(token.text)
+        when = (END, *self.out)[-2:] if self.before.is_a("someone") else [self.before]
+        if len(when) > 1 and when[0].name in PLACING["times"]:
+            del self.out[-2:]  # "before you go to the phone"
         item = self.add(Kind.VERB, i, i + 1, (base,))
+        item.late = when[0].name in PLACING["late"]
         item.finite = token.tag in {"VG", "HAVE"} and token.text.endswith("s")
         item.participle = token.tag == "VG" and not item.finite
         after = self.tokens[i + 1].text
@@ -93,8 +96,8 @@ class _Phrases:
         item.noun = PRONOUNS.get(text)
         item.pronoun = item.noun is None
         if text in SETS["questions_as_things"]:  # "(drop) what you are holding"
-            item.determined = True
-            item.plural = text in SETS["all_things"] and not apart  # but "the cube, whatever it is"
+            # But "the cube, whatever it is".
+            item.determined, item.plural = True, text in SETS["all_things"] and not apart
             item.words = ("all",) * item.plural
             self.add(Kind.RELATIVE, i, i + 1)
         return i + 1

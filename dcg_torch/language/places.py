@@ -13,6 +13,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind, last_thing, share_noun
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
+from dcg_torch.names.evidence import is_akin
 
 _MOST_SUPPORTS = 3  # "on A on B on C": the second says where it goes
 
@@ -55,9 +56,8 @@ def _bare(place: Item) -> tuple[str, ...]:
     """What a preposition without a noun phrase says of the one before it."""
     if place.name in PLACING["mutual"] and place.before[-1].plural:
         return place.name, "each other"  # "the two cubes touching"
-    if place.name in PLACING["bare"]:
-        return place.words
-    return (place.name.split()[0],) if place.name in PLACING["extremes"] else ()  # "the one farthest away"
+    farthest = (place.name.split()[0],) if place.name in PLACING["extremes"] else ()  # "the one farthest away"
+    return place.words if place.name in PLACING["bare"] else farthest
 
 
 def _sought(clause: Clause, pending: list[Item]) -> list[Item]:
@@ -95,11 +95,10 @@ def _goal(clause: Clause, full: list[Item], supplied: bool, decisions: Decisions
     if clause.action in VERBS["put"]:
         goal = _destination(full)
         sure = goal is None or goal.name in PLACING["sure"]
-        return goal if sure or decisions.choose("goal", CHOICES["goal"]) == "destination" else None
-    if clause.action in VERBS["take"] | VERBS["go"]:
-        strong = (place for place in full if place.name in PLACING["strong"] and not place.forced)
-        return next((place for place in strong if not _about_noun(place)), None)
-    return None
+        rule = "goal_of_bringing" if clause.action in VERBS["bring"] and not clause.objects[0].is_a("back") else "goal"
+        return goal if sure or decisions.choose(rule, CHOICES[rule]) == "destination" else None
+    strong = (place for place in full if place.name in PLACING["strong"] and not (place.forced or _about_noun(place)))
+    return next(strong, None) if clause.action in VERBS["take"] | VERBS["go"] else None
 
 
 def _is_path(place: Item) -> bool:
@@ -176,12 +175,16 @@ def _destination(places: list[Item]) -> Item | None:
     return next(iter([*sure[:1], *last, *free]), None)
 
 
-def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause) -> None:
+def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause, joint: str) -> None:
     """ "the cube and the cone": the second noun phrase stands beside one before it."""
     one = item.pronoun and clause.action in SETS["be"]  # "a cube near you and one near me"
     apart = nouns[-1].is_a("somewhere" if one else "place") and not item.is_a("place")
+    # But "(the mug on) the table or the desk".
+    apart = apart and not (joint and is_akin(item.noun, nouns[-1].noun, last_thing(nouns).noun))
     partner = last_thing(nouns) if apart else nouns[-1]  # "the cube on the left and the cone"
     beside = clause.objects
+    whole = () if item.determined else tuple(SETS["whole"].intersection(partner.words))  # "every bowl or apple"
+    item.words, item.plural = (*item.words, *(whole or ("or",) * (joint == "or"))), item.plural or whole != ()
     if not (apart and partner.is_a("place")):  # but "On the left, the red cone"
         share_noun(partner, item)
         item.words += ("no",) if item.negative else ()  # "(with) a tie and no beard"

@@ -98,11 +98,10 @@ def denied_later(noun: Item, later: Sequence[Clause]) -> bool:
 
 def by_mention(one: Item, clauses: Sequence[Clause]) -> None:
     """ "There is a lamp and a chair. Take the latter.": which of those that were named before, in their order."""
-    before = [noun for noun in _mentions(clauses) if noun.start < one.start and noun.is_a("mention")]
-    named = sorted(before, key=lambda noun: noun.start)
-    for word, noun in (*zip(NTH.values(), named, strict=False), *(("last", noun) for noun in named[-1:])):
-        if word in one.words:
-            _take_over(one, noun)
+    named = sorted((n for n in _mentions(clauses) if n.start < one.start and n.is_a("mention")), key=lambda n: n.start)
+    ranks = (*zip(NTH.values(), named, strict=False), *(("last", noun) for noun in named[-1:]))
+    for noun in [noun for rank, noun in ranks if rank in one.words]:
+        _take_over(one, noun)
 
 
 def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -> None:
@@ -205,8 +204,9 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     sides = [node for node in below if node.is_a("left_right") and "my" not in node.words]
     goal: Item | None = None
     turned = False
-    for clause in clauses[: clauses.index(own)] if own.action in VERBS["take"] else ():
-        if clause.refused is not None or clause.negated or clause.action not in VERBS["go"] | VERBS["look"]:
+    led_by = VERBS["go"] | VERBS["look"] if own.action in VERBS["take"] else frozenset()
+    for clause in clauses[: clauses.index(own)]:
+        if clause.refused or clause.negated or (clause.verb or END).late or clause.action not in led_by:
             continue
         led = [place.children[0] for place in clause.places if place.name in PLACING["goals"] - PLACING["away"]]
         named = [noun for noun in (main_object(clause), *led) if noun is not None and noun.noun not in apart]

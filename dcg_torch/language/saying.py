@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from dcg_torch.language.clauses import Clause, main_object
+from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind, is_edge_of, is_state, last_thing, share_noun
 from dcg_torch.language.lexicon import NORMAL, PLACING, SETS, VERBS
 from dcg_torch.language.places import conjoin
@@ -14,8 +15,8 @@ from dcg_torch.language.places import conjoin
 class NounPhrases:
     """The noun phrases of a clause so far, and where the next one goes."""
 
-    def __init__(self, items: Sequence[Item]) -> None:
-        self.items = items
+    def __init__(self, items: Sequence[Item], decisions: Decisions) -> None:
+        self.items, self.decisions = items, decisions
         self.clause = Clause()
         self.pending: list[Item] = []
         self.nouns: list[Item] = []  # noun phrases so far
@@ -63,8 +64,7 @@ class NounPhrases:
             self.nouns.append(item)
         elif self.joined and self.nouns and (self.clause.verb is not None or self.conjunction):
             item.beside = True
-            item.words += ("or",) * (self.conjunction == "or")
-            conjoin(item, self.nouns, self.pending, self.clause)
+            conjoin(item, self.nouns, self.pending, self.clause, self.conjunction)
         elif item.noun not in SETS["measures"] or item.color or item.text.startswith("the ") or item.is_a("told_apart"):
             self.mention(item)
 
@@ -93,9 +93,9 @@ class NounPhrases:
 
     def exclude(self, item: Item) -> None:
         """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
-        item.said = True
-        before = last_thing(self.nouns) if self.nouns else None
-        self.ruled_out.append((item, next(iter(self.clause.objects), before)))
+        item.said = self.was_denied = True
+        item.determined = item.determined or (self.denied and item.noun is not None)  # "no cup, (no) jar or bowl"
+        self.ruled_out.append((item, (*self.clause.objects, last_thing(self.nouns) if self.nouns else None)[0]))
         self.meant = list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
@@ -132,6 +132,9 @@ class NounPhrases:
         if place is None or not self.nouns or place.name == "except":
             return False
         near = (self.last, last_thing(self.nouns)) if place.name in PLACING["ranks_from"] else ()
+        if near and item.noun and near[0].is_a("unnamed_rank") and item.is_a("sided_thing"):
+            # "The third from the left mug".
+            near[0].noun, near[0].pronoun, item.noun, item.words = item.noun, False, item.words[0], ()
         counted = [noun for noun in near if is_edge_of(noun, item, place)]
         if counted:
             counted[0].words += (f"from {'the ' if item.noun in SETS['sides'] else ''}{item.noun}",)
@@ -165,9 +168,7 @@ class NounPhrases:
         if item.is_a("color") and last.stop == item.start and last.is_a("bare"):
             return True  # "something red"
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
-        if not (self.joined or ordered) or not item.pronoun or (item.color and last.color):
-            return False
-        if last.is_a("place") or last.noun in SETS["robot"] or last.pronoun:
+        if not (self.joined or ordered) or not item.pronoun or (item.color and last.color) or last.is_a("told"):
             return False
         one = item.determined and item.text.endswith(" one")
         return (one or item.is_a("color_word")) and not (item.determined and self.conjunction)

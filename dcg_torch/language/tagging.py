@@ -115,8 +115,7 @@ class _Lattice:
             long = float(lx.GRAMMAR["long_preposition"]) if "P" in tags and " " in raw else 0.0
             out += [(Token(i, i + raw.count(" ") + 1, tag, raw, value), weight + long) for tag, weight in tags.items()]
             if long and self.words[i] in lx.PLACING["single"]:
-                short = Token(i, i + 1, "P", self.words[i], (self.words[i],))
-                out.append((short, lx.GRAMMAR["short_preposition"]))
+                out.append((Token(i, i + 1, "P", self.words[i], (self.words[i],)), lx.GRAMMAR["short_preposition"]))
         return out
 
     def _compounds(self, i: int) -> list[tuple[Token, float]]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from dcg_torch.language import references
 from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
-from dcg_torch.language.items import Item, Kind
+from dcg_torch.language.items import END, Item
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, TARGETS, VERBS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
@@ -30,9 +30,8 @@ def choices(clauses: Sequence[Clause]) -> list[Mention]:
         if clause.refused is not None:
             continue
         target = main_object(clause)
-        taken_back = target is not None and references.denied_later(target, clauses[n + 1 :])
-        clause.negated = clause.negated or taken_back
-        penalty = TARGETS["negated"] if clause.negated else 0.0
+        clause.negated |= target is not None and references.denied_later(target, clauses[n + 1 :])
+        penalty = TARGETS["negated"] * clause.negated + TARGETS["late"] * (clause.verb or END).late
         if target is not None:
             found.append(Mention(target, clause, _object_score(target, clause, clauses, found) + penalty))
             if clause.acting or clause.action in VERBS["put"] | VERBS["take"]:
@@ -91,9 +90,8 @@ def root(clauses: Sequence[Clause], decisions: Decisions) -> ParseTree | None:
     # "Facing the bed, take the lamp on your left".
     others = (place for clause in clauses for place in clause.places if place.name in PLACING["frames"])
     children += [place for place in others if place not in children]
-    for node in chosen.noun.walk():
-        if "mentioned" in node.words:
-            references.by_mention(node, clauses)
+    for node in [node for node in chosen.noun.walk() if "mentioned" in node.words]:
+        references.by_mention(node, clauses)
     references.describe_later(chosen.noun, chosen.clause, clauses)
     for one in [node for node in chosen.noun.walk() if node is chosen.noun or node.is_a("unnamed")]:
         references.one_of_several(one, clauses, decisions)
@@ -189,9 +187,6 @@ def _later_destination(chosen: Mention, clauses: Sequence[Clause]) -> list[Item]
 
 def freeze(item: Item) -> ParseTree:
     """An item and what hangs on it as values."""
-    children = tuple(freeze(child) for child in item.children)
-    if item.kind is Kind.PREPOSITION:
-        return ParseTree(Phrase(PhraseKind.PREPOSITION, item.text, item.words), children)
     words = tuple(dict.fromkeys(item.words))
-    phrase = Phrase(PhraseKind.NOUN, item.text, words, item.noun, item.color, item.plural, item.count)
-    return ParseTree(phrase, children)
+    phrase = Phrase(PhraseKind[item.kind.name], item.text, words, item.noun, item.color, item.plural, item.count)
+    return ParseTree(phrase, tuple(map(freeze, item.children)))

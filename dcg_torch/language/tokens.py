@@ -73,7 +73,6 @@ def normal_noun(name: str) -> str:
 
 def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
     """Words with what is misspelt mended; what is English or among the `known` nouns stays as it is."""
-    parts = frozenset(part for noun in known for part in noun.split())
     single = {noun for noun in known if " " not in noun}
     mended: list[str] = []
     strange = 0
@@ -82,7 +81,7 @@ def mend(words: Sequence[str], known: Collection[str]) -> list[str]:
             mended[-1] += word  # "mail box" where "mailbox" is known
         elif strange < _STRANGE and not is_english(word):
             strange += 1
-            mended.append(_speller(parts).correct(word))
+            mended.append(_speller(frozenset(part for noun in known for part in noun.split())).correct(word))
         else:
             mended.append(word)
     return mended
