@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.names.relations import listed
+from dcg_torch.scene.bodies import RESTS
 from dcg_torch.scene.layout import Layout
 from dcg_torch.scene.neighbours import SAME_SPOT
 
@@ -68,7 +69,7 @@ def _straight(landmark: int, where: Layout) -> Bools:
 def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
     """(things,) what those lose that lie beyond the next one; None where fewer than two lie that way."""
     lifted = up * (where.position[:, 2] - where.position[landmark, 2])
-    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL))
+    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL) & ~_within(landmark, where))
     if len(that_way) < 2:
         return None
     heights = lifted[that_way]
@@ -76,6 +77,18 @@ def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
     lost = np.zeros(len(lifted))
     lost[that_way] = _FARTHER * np.minimum(nearer, _MANY)
     return lost
+
+
+def _within(landmark: int, where: Layout) -> Bools:
+    """(things,) what stands in a landmark, as on the boards of a rack: these are no stack."""
+    found = np.zeros(len(where.position), dtype=np.bool_)
+    bodies = where.bodies
+    if bodies is not None and landmark < len(bodies.top):
+        with np.errstate(invalid="ignore"):
+            smaller = (bodies.half < bodies.half[landmark]).all(axis=1)
+            found[: len(bodies.top)] = smaller & (bodies.bottom >= bodies.bottom[landmark] - RESTS)
+            found[: len(bodies.top)] &= bodies.bottom < bodies.top[landmark] - RESTS
+    return found
 
 
 def _inside(one: int, other: int, where: Layout) -> Bools:
