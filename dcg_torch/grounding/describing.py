@@ -119,7 +119,7 @@ def _log_psi(
     if name in SAME_AS:
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
-        return log_more(name, encoder.all, landmarks, denied=denied)
+        return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]

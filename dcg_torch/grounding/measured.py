@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.vocabulary import ORDINALS
-from dcg_torch.types import Phrase
+from dcg_torch.types import NOT, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -61,6 +61,12 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
         log[known] -= loss
         log[~known] -= loss.max()
         taken |= {word, *(ORDINALS if compared else ())}
+    for word in phrase.words:
+        most = word.removeprefix(f"{NOT} ")
+        if most != word and most.endswith("est") and most in dimensions():
+            values = np.array([-math.inf if (v := measure(o, most)) is None else v for o in encoder.all])
+            log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= 2.0 * _BY_PLACE
+            taken.add(word)
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
 
