@@ -26,7 +26,7 @@ def likeliest(text: str, robot: Pose | None) -> str:
     ("text", "thing", "goal"),
     [
         ("walk to the bench and grab the rake", "rake", "bench"),
-        ("go to the garage, then bring me the kettle", "kettle", "garage"),
+        ("go to the garage, then bring me the kettle", "kettle", "kettle"),
         ("drive over to the bench and take the rake", "rake", "bench"),
     ],
 )

@@ -87,7 +87,7 @@ class Solution:
             return (self.object,)
         if noun.count is not None:
             best, *_ = ranked = self._ranked
-            counted = [o for o in ranked if not self._is_excluded(o, best)][: noun.count]
+            counted = [o for o in ranked if o.hypothetical or not self._is_excluded(o, best)][: noun.count]
             return tuple(o for o in counted if not o.hypothetical)  # what is not there may be likelier than what is
         found = self._described
         if HALF in noun.words:

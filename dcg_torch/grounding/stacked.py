@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.names.relations import listed
-from dcg_torch.scene.bodies import RESTS
 from dcg_torch.scene.layout import Layout
 from dcg_torch.scene.neighbours import SAME_SPOT
 
@@ -22,10 +21,12 @@ Bools = NDArray[np.bool_]
 _OVER, _UNDER = listed("straight over"), listed("straight under")
 _BETWEEN = "between"
 _FARTHER = -2.0
-"""Nats that a thing loses for each other that lies between it and the landmark, up to two."""
+"""Nats that a thing loses for each other of its type that lies between it and the landmark, up to two."""
 _MANY = 2
 _AMONG, _ELSEWHERE = -0.1, -5.0
 """Log Psi of what lies between two things of its stack, and the least that all else loses."""
+_OVERLAP = 0.1
+"""Units by which things that lie on one another may reach into each other."""
 _LEVEL = 0.01
 """Units by which one thing is higher than another at least."""
 
@@ -60,35 +61,39 @@ def by_levels_of_stacks(
 
 
 def _straight(landmark: int, where: Layout) -> Bools:
-    """(things,) what is on a landmark's spot, seen from above."""
-    aside: Floats = np.hypot(*(where.position[:, :2] - where.position[landmark, :2]).T)
-    found: Bools = where.solid & (aside < SAME_SPOT)
+    """(things,) what is on a landmark's spot, seen from above: what covers it, where extents are known."""
+    offset = where.position[:, :2] - where.position[landmark, :2]
+    found: Bools = where.solid & (np.hypot(*offset.T) < SAME_SPOT)
+    if where.bodies is not None:
+        n = len(where.bodies.half)
+        _, apart = where.bodies.over(np.array([landmark]), offset[None, :n])
+        found[:n] &= ~apart[0]
     return found
 
 
 def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
     """(things,) what those lose that lie beyond the next one; None where fewer than two lie that way."""
-    lifted = up * (where.position[:, 2] - where.position[landmark, 2])
-    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL) & ~_within(landmark, where))
+    lifted = _lifted(landmark, up, where)
+    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL))
     if len(that_way) < 2:
         return None
-    heights = lifted[that_way]
-    nearer = (heights[None] < heights[:, None] - _LEVEL).sum(axis=1)
+    heights, types = lifted[that_way], [where.things[j].type for j in that_way.tolist()]
+    alike = np.array([[one == other for other in types] for one in types])
+    nearer = (alike & (heights[None] < heights[:, None] - _LEVEL)).sum(axis=1)
     lost = np.zeros(len(lifted))
     lost[that_way] = _FARTHER * np.minimum(nearer, _MANY)
     return lost
 
 
-def _within(landmark: int, where: Layout) -> Bools:
-    """(things,) what stands in a landmark, as on the boards of a rack: these are no stack."""
-    found = np.zeros(len(where.position), dtype=np.bool_)
-    bodies = where.bodies
-    if bodies is not None and landmark < len(bodies.top):
-        with np.errstate(invalid="ignore"):
-            smaller = (bodies.half < bodies.half[landmark]).all(axis=1)
-            found[: len(bodies.top)] = smaller & (bodies.bottom >= bodies.bottom[landmark] - RESTS)
-            found[: len(bodies.top)] &= bodies.bottom < bodies.top[landmark] - RESTS
-    return found
+def _lifted(landmark: int, up: float, where: Layout) -> Floats:
+    """(things,) how much higher each is than a landmark, with `up` -1 lower; from its top where that is known."""
+    lifted: Floats = up * (where.position[:, 2] - where.position[landmark, 2])
+    if where.bodies is not None:
+        n, height = len(where.bodies.half), where.position[:, 2]
+        bottom, top = (np.where(np.isfinite(v), v, height[:n]) for v in (where.bodies.bottom, where.bodies.top))
+        clear = bottom - top[landmark] if up > 0.0 else bottom[landmark] - top
+        lifted[:n] = np.where(clear < -_OVERLAP, 0.0, lifted[:n])
+    return lifted
 
 
 def _inside(one: int, other: int, where: Layout) -> Bools:

@@ -17,7 +17,7 @@ from dcg_torch.types import Object
 
 _POINT = 0.5
 """Half extents in units up to which a thing counts as a point: of what is as wide as neighbours are apart."""
-RESTS = 0.12
+_RESTS = 0.12
 """Units between the foot of one thing and the top of another within which the one rests on the other."""
 _FOOT = 0.4
 """Share of its height from which on a thing's position is its middle and not its foot."""
@@ -71,13 +71,13 @@ class Bodies:
         with np.errstate(invalid="ignore"):
             above, below = self.bottom[None] - head, foot - self.top[None]
             lifted = self.bottom[None] - foot
-            least = np.where(covers, -RESTS, np.where(np.abs(lifted) < RESTS, np.inf, 0.0))
-            step = (above > least).astype(np.int64) + (above > np.maximum(least, RESTS))
-            step -= (below > least).astype(np.int64) + (below > np.maximum(least, RESTS))
+            least = np.where(covers, -_RESTS, np.where(np.abs(lifted) < _RESTS, np.inf, 0.0))
+            step = (above > least).astype(np.int64) + (above > np.maximum(least, _RESTS))
+            step -= (below > least).astype(np.int64) + (below > np.maximum(least, _RESTS))
             inside = covers & (step == 0)
             smaller, lower = area[None] < area[first][:, None], self.top[None] < head
             under = (smaller & lower).astype(np.int64) - (~smaller & (self.top[None] > head))
-            within = np.where(np.abs(lifted) > RESTS, np.sign(np.nan_to_num(lifted)), -under)
+            within = np.where(np.abs(lifted) > _RESTS, np.sign(np.nan_to_num(lifted)), -under)
         out: Ints = np.where(inside, within, step).astype(np.int64)
         return out
 
