@@ -17,6 +17,7 @@ VASES = [  # in no order of height
     Percept("lower", "vase", "blue", (3.0, -0.3, 0.0), (0.1, 0.1, 0.3)),
     Percept("higher", "vase", "green", (3.6, -0.9, 0.0), (0.1, 0.1, 0.45)),
 ]
+QUEUE = [Percept(f"p{k}", "person", None, (1.5 + 0.9 * k, -0.4, 0.0), (0.4, 0.4, 1.7)) for k in (2, 0, 4, 1, 3)]
 FLOATING = [  # of one height each, at three levels
     Percept(f"b{k}", "balloon", None, (2.0, 0.5 - 0.5 * k, (1.0, 0.2, 0.6)[k]), (0.2, 0.2, 0.2)) for k in range(3)
 ]
@@ -41,9 +42,22 @@ def _meant(text: str, things: list[Percept]) -> list[str]:
         ("the red vase that is not the tallest", VASES, "low"),
         ("the vase farther away than the blue one", VASES, "higher"),
         ("the vase that is closer than the red one which is tall", VASES, "low"),
+        ("the last person", QUEUE, "p4"),
+        ("the second person in the queue", QUEUE, "p1"),
+        ("go to the last person in line", QUEUE, "p4"),
+        ("the second to last person in the queue", QUEUE, "p3"),
         ("the highest balloon", FLOATING, "b0"),
         ("the lowest balloon", FLOATING, "b1"),
     ],
 )
 def test_what_is_meant(text: str, things: list[Percept], id_: str) -> None:
     assert _meant(text, things) == [id_]
+
+
+def test_each_of_two_things_is_in_its_own_room() -> None:
+    radios = [
+        Percept(f"{room} radio", "radio", None, (1.0 + 4.0 * k, 0.5, 0.0), None, frozenset({f"room: {room}"}))
+        for k, room in enumerate(("kitchen", "bedroom", "bathroom"))
+    ]
+    found = _meant("bring the radio in the kitchen and the radio in the bathroom", radios)
+    assert sorted(found) == ["bathroom radio", "kitchen radio"]
