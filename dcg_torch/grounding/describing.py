@@ -39,7 +39,7 @@ from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import GROUP_WORDS, TOGETHER, counted
+from dcg_torch.names.vocabulary import GROUP_WORDS, TIER, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -119,7 +119,7 @@ def _log_psi(
     if name in SAME_AS:
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
-        return log_more(name, encoder.all, landmarks, denied=denied)
+        return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
@@ -241,10 +241,12 @@ def _sized(
 
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what takes things out of those that are compared that a word such as "not red" rules out."""
-    if not any(word.startswith(f"{NOT} ") for word in phrase.words):
+    """(things,) what takes things out of those that are compared that "not red" rules out, or another shelf."""
+    tiers = {word for word in phrase.words if word.startswith(TIER)}
+    if not tiers and not any(word.startswith(f"{NOT} ") for word in phrase.words):
         return np.zeros(len(encoder.all))
-    return np.array([-_BEHIND - 1.0 if is_ruled_out(phrase.words, o, named=True) else 0.0 for o in encoder.all])
+    out = [not tiers <= o.attributes or is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    return np.where(out, -_BEHIND - 1.0, 0.0)
 
 
 def _denied_sizes(words: Sequence[str]) -> list[int]:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.interpretation.plain_words import whose_side
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.vocabulary import OWNERS
 from dcg_torch.names.weights import names_one_of
@@ -20,7 +21,14 @@ from dcg_torch.scene.frames import seen_by_speaker, seen_facing
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _SIDE = r"(?:\w+[ -]+){0,2}?(?:left|right|front|back|side|perspective|point of view|view|viewpoint)\b"
-_CUES = ((re.compile(rf"\bmy {_SIDE}"), 4.0), (re.compile(rf"\byour? {_SIDE}"), -4.0), (re.compile(r"\byour?\b"), -1.0))
+_STANDS = r"(?:as|where) {} (?:see|stand|sit|look|am|are|'m|'re)\b"
+_CUES = (
+    (re.compile(rf"\bmy {_SIDE}"), 4.0),
+    (re.compile(_STANDS.format("i")), 4.0),
+    (re.compile(_STANDS.format("you")), -4.0),
+    (re.compile(rf"\byour? {_SIDE}"), -4.0),
+    (re.compile(r"\byour?\b"), -1.0),
+)
 """What is said of the frame, and by how much it moves the log-odds of the speaker's: who says "your left" once sees all
 with the robot's eyes, and who speaks of the robot at all mostly does."""
 
@@ -85,8 +93,12 @@ FACING_FROM = "facing from"
 
 
 def from_the_other_side(tree: ParseTree) -> ParseTree:
-    """What is said, as who sees with the speaker's eyes would say it: "my left" instead of "your left"."""
-    words = tuple(_OTHER.get(word, word) for word in tree.phrase.words)
+    """What is said, as who sees with the speaker's eyes would say it: "my left" instead of "your left".
+
+    People stay where they are: "my side of the table" is still where the speaker is.
+    """
+    kept = whose_side(tree.phrase) is not None
+    words = tree.phrase.words if kept else tuple(_OTHER.get(word, word) for word in tree.phrase.words)
     return replace(
         tree, phrase=replace(tree.phrase, words=words), children=tuple(map(from_the_other_side, tree.children))
     )

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
-from dcg_torch.names.vocabulary import ORDINALS
-from dcg_torch.types import Phrase
+from dcg_torch.names.vocabulary import ORDINALS, is_superlative
+from dcg_torch.types import NOT, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -47,7 +47,8 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
     counted, taken = _counted_along(phrase, among, encoder), set[str]()
     log = np.zeros(len(among)) if counted is None else counted
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
-    if counted is not None and number is not None and "last" in phrase.words:
+    queue = counted is not None and _ALONG.keys().isdisjoint(phrase.words)
+    if queue or (counted is not None and number is not None and "last" in phrase.words):
         # "The second last from the right" is no second from the right, of which weights were learned.
         taken |= {"last", *ORDINALS, *_ALONG}
         log *= _COUNTED_ALONE
@@ -61,6 +62,12 @@ def measured(phrase: Phrase, told: Collection[str], among: Bools, encoder: World
         log[known] -= loss
         log[~known] -= loss.max()
         taken |= {word, *(ORDINALS if compared else ())}
+    for word in phrase.words:
+        most = word.removeprefix(f"{NOT} ")
+        if most != word and most.endswith("est") and most in dimensions():
+            values = np.array([-math.inf if (v := measure(o, most)) is None else v for o in encoder.all])
+            log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= 2.0 * _BY_PLACE
+            taken.add(word)
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
 
@@ -74,7 +81,9 @@ def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Float
     numbers = [ORDINALS[word] for word in phrase.words if word in ORDINALS] or [1] * last
     sides = [_ALONG[word] for word in phrase.words if word in _ALONG and (where.picture or word not in _DEEP)]
     at = np.flatnonzero(among & where.solid & np.isfinite(where.position).all(axis=1))
-    if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or phrase.among == "row":
+    queue = not sides and not where.picture and _is_a_queue(phrase, where.position[at])
+    sides = [_NEAR_FIRST] if queue else sides
+    if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or (phrase.among == "row" and not queue):
         return None
     log = np.zeros(len(among))
     first = where.position[at, :2] @ np.array(sides[0])
@@ -82,6 +91,20 @@ def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> Float
     return log
 
 
+def _is_a_queue(phrase: Phrase, position: Floats) -> bool:
+    """Do things that are counted from nowhere stand behind one another, as who looks sees it?
+
+    Args:
+        position: (things, 3) of what is counted.
+    """
+    if len(position) < _QUEUE or any(word.startswith("from ") or is_superlative(word) for word in phrase.words):
+        return False
+    deep, across, _ = position.T
+    return bool(np.ptp(across) < _STRAIGHT * np.ptp(deep) and np.diff(np.sort(deep)).min() > _EVEN)
+
+
+_QUEUE, _STRAIGHT, _NEAR_FIRST = 3, 0.25, (-1.0, 0.0)
+"""Things at least that make a queue, how wide it is at most for its depth, and the direction of its first."""
 _DEEP = {"from the back": (1.0, 0.0), "from the front": (-1.0, 0.0)}
 _ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
 """From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""

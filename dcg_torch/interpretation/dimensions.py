@@ -34,7 +34,17 @@ def _flatness(sides: Collection[float], height: float) -> float:
     return _footprint(sides, height) - (math.log(height) if height > 0.0 else 0.0)
 
 
-_MEASURES = {"footprint": _footprint, "length": _length, "thickness": _thickness, "flatness": _flatness}
+def _height(sides: Collection[float], height: float) -> float:
+    return math.log(height) if height > 0.0 else math.nan
+
+
+_MEASURES = {
+    "footprint": _footprint,
+    "length": _length,
+    "thickness": _thickness,
+    "flatness": _flatness,
+    "height": _height,
+}
 
 
 @functools.cache

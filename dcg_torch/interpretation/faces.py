@@ -54,7 +54,8 @@ def _speaks_of_ends(tree: ParseTree) -> bool:
 def _seen(tree: ParseTree, types: frozenset[str]) -> ParseTree:
     """A tree in which the far side of a thing is the one away from you, and its left side the one on the left."""
     children = tuple(_seen(child, types) for child in tree.children)
-    if tree.phrase.kind is PhraseKind.NOUN:
+    started = any(c.phrase.words[:1] == ("from",) and _is_a_name(c, types) for c in children)  # "from the door"
+    if tree.phrase.kind is PhraseKind.NOUN and not started:
         children = tuple(one for child in children for one in _on_a_seen_side(child, types))
     return tree if children == tree.children else ParseTree(tree.phrase, children)
 

@@ -15,7 +15,7 @@ _AND, _LAST, _FROM = "and", "last", "from "
 
 def each_meant(nouns: Sequence[ParseTree]) -> list[ParseTree]:
     """The noun phrases of one thing, or of several alike, that joined noun phrases mean."""
-    found = [one for noun in nouns for part in _own_and_repeated(noun) for one in _each_picked(part)]
+    found = [one for noun in nouns for part in own_and_repeated(noun) for one in _each_picked(part)]
     return _counted_alike(found)
 
 
@@ -37,7 +37,7 @@ def _is_another_color(word: str, phrase: Phrase) -> bool:
     return several and phrase.color is not None and region(word) is not None
 
 
-def _own_and_repeated(noun: ParseTree) -> list[ParseTree]:
+def own_and_repeated(noun: ParseTree) -> list[ParseTree]:
     """ "The cup by the box and the cup (or the one) by the jar": the second cup is beside the first, no landmark."""
     for k, place in enumerate(noun.children):
         first, *others = place.children or (noun,)

@@ -14,7 +14,7 @@ from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.palette import lab
 from dcg_torch.names.vocabulary import THAN
 from dcg_torch.scene.bodies import bulk
-from dcg_torch.types import NOT, Object, ParseTree, PhraseKind
+from dcg_torch.types import NOT, Object, ParseTree, PhraseKind, Pose
 
 Floats = NDArray[np.float64]
 
@@ -37,6 +37,12 @@ def _lightness(thing: Object) -> float | None:
     return None if thing.rgb is None else float(lab(np.array([thing.rgb], dtype=np.float64))[0, 0]) / 100.0
 
 
+def _away(viewer: Pose, thing: Object) -> float | None:
+    if thing.position is None:
+        return None
+    return math.log(max(_EVEN, math.hypot(thing.position[0] - viewer.x, thing.position[1] - viewer.y)))
+
+
 _MORE: dict[str, tuple[Callable[[Object], float | None], float]] = {
     **dict.fromkeys(("bigger", "larger", "greater"), (_size, 1.0)),
     **dict.fromkeys(("smaller", "littler", "tinier"), (_size, -1.0)),
@@ -47,13 +53,15 @@ _MORE: dict[str, tuple[Callable[[Object], float | None], float]] = {
     **{word: (functools.partial(measure, word=word), 1.0) for word in dimensions() if word.endswith("er")},
 }
 """Words that compare: what is measured, and whether more of it is meant or less."""
-MORE_THAN = {f"{word} {THAN}": how for word, how in _MORE.items()}
+_AWAY = {"farther": 1.0, "further": 1.0, "closer": -1.0, "nearer": -1.0}
+"""Words that compare how far things are from who looks, and whether far is meant or near."""
+MORE_THAN = frozenset(f"{word} {THAN}" for word in (*_MORE, *_AWAY))
 
 
 def compared_with(tree: ParseTree) -> ParseTree:
     """A noun phrase in which "bigger" and "than the box" are one modifier."""
     phrase = tree.phrase
-    word = next((word for word in phrase.words if word.removeprefix(f"{NOT} ") in _MORE), None)
+    word = next((word for word in phrase.words if word.removeprefix(f"{NOT} ") in {*_MORE, *_AWAY}), None)
     if phrase.kind is not PhraseKind.NOUN or word is None:
         return tree
     for k, place in enumerate(tree.children):
@@ -64,15 +72,19 @@ def compared_with(tree: ParseTree) -> ParseTree:
     return tree
 
 
-def log_more(name: str, things: Sequence[Object], landmarks: Sequence[tuple[int, ...]], *, denied: bool) -> Floats:
+def log_more(
+    name: str, things: Sequence[Object], landmarks: Sequence[tuple[int, ...]], *, denied: bool, viewer: Pose | None
+) -> Floats:
     """(landmarks, things) the logarithm of the probability that a thing is more so than a landmark.
 
     Args:
         name: one of `MORE_THAN`.
         landmarks: numbers of things; the first of each is the landmark.
         denied: that it is not.
+        viewer: who looks; None: from the origin.
     """
-    measure, sign = MORE_THAN[name]
+    word = name.removesuffix(f" {THAN}")
+    measure, sign = _MORE.get(word) or (functools.partial(_away, viewer or Pose(0.0, 0.0)), _AWAY[word])
     values = np.array([math.nan if (value := measure(thing)) is None else sign * value for thing in things])
     ahead = values[None, :] - values[[of[0] for of in landmarks], None]
     found = np.where(np.isnan(ahead), _OPEN, np.where(ahead > _EVEN, _SURE, 1.0 - _SURE))

@@ -179,12 +179,18 @@ def _sided(tree: ParseTree) -> ParseTree:
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
         words = ("in" if name in _WITHIN else name, *tree.phrase.words[1:])
         return ParseTree(replace(tree.phrase, words=words), (ParseTree(line),))
-    owner = next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
-    sided = not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()) or name not in _AT_SIDE
-    if owner is None or sided or phrase.noun not in ("side", "end", "edge"):
+    owner = whose_side(phrase)
+    if owner is None or name not in _AT_SIDE:
         return tree
     who = ParseTree(replace(phrase, noun=owner, words=()))
     return ParseTree(replace(tree.phrase, words=(NEAREST, *tree.phrase.words[1:])), (who,))
+
+
+def whose_side(phrase: Phrase) -> str | None:
+    """Where the one is whose side of a thing a phrase names: "my side of the table", and not "my left side"."""
+    if phrase.noun not in ("side", "end", "edge") or not {*phrase.words}.isdisjoint(SIDED | SYNONYMS.keys()):
+        return None
+    return next((OWNED_BY[word] for word in phrase.words if word in OWNED_BY), None)
 
 
 _FIRST = (
@@ -244,6 +250,7 @@ def _of_all(tree: ParseTree) -> ParseTree:
     return replace(tree, children=tuple(kept))
 
 
+_ROOM = listed("whole of a room")
 _NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
 """What is in none of the corners is near none: it is not merely no nearest one."""
 
@@ -268,6 +275,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     owner = next((word for word, who in OWNED_BY.items() if who == phrase.noun), None)
     if owner is not None and name in BESIDE_WHOM:  # "left of you" is not beside you alone
         name, phrase = "on", replace(phrase, noun=BESIDE_WHOM[name], words=(owner,))
+    if name in SIDE_OF and phrase.noun in _ROOM and not (phrase.words or landmark.children or phrase.noun in there):
+        name, phrase = "on", replace(phrase, noun=SIDE_OF[name])  # "on the left side of the room"
     if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
         anywhere = name in _ANYWHERE and not (name == "on" and phrase.noun in STOOD_ON)
         if anywhere and NOT not in tree.phrase.words and not (landmark.children or phrase.words):

@@ -36,6 +36,14 @@ _FEW = 100
 _HEIGHTS = dict.fromkeys(("top", "upper", "topmost"), "highest")
 _HEIGHTS |= dict.fromkeys(("bottom", "lower", "bottommost"), "lowest")
 
+_TALL = {
+    **dict.fromkeys(("high", "higher", "highest"), "tallest"),
+    **dict.fromkeys(("low", "lower", "lowest"), "shortest"),
+}
+"""What is said of heights, of things that stand on one level."""
+_LEVEL, _TALLER = 0.02, 1.15
+"""Metres within which things stand on one level, and how much higher one reaches than another at least."""
+
 
 def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """Of things at quite other heights, in a room or on a rack, "the lower shelf" is the lowest.
@@ -43,18 +51,31 @@ def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     Args:
         said: the words of the tree.
     """
-    return tree if said.words.isdisjoint(_HEIGHTS) and said.nouns.isdisjoint(_HEIGHTS) else _of_heights(tree, world)
+    if said.words.isdisjoint(_HEIGHTS.keys() | _TALL.keys()) and said.nouns.isdisjoint(_HEIGHTS):
+        return tree
+    return _of_heights(tree, world)
 
 
 def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
     phrase, children = tree.phrase, tuple(_of_heights(child, world) for child in tree.children)
     if not _HEIGHTS.keys().isdisjoint(phrase.words) and _stand_apart_in_height(phrase, world):
         phrase = replace(phrase, words=tuple(_HEIGHTS.get(word, word) for word in phrase.words))
+    if not _TALL.keys().isdisjoint(phrase.words) and phrase.noun and _reach_up(_called(phrase.noun, world)):
+        phrase = replace(phrase, words=tuple(_TALL.get(word, word) for word in phrase.words))
     ends = [child for child in children if _is_on_an_end(child)]
     if phrase.noun is not None and len(ends) == 1 and _lie_on_one_another(_called(phrase.noun, world)):
         word = _HEIGHTS[ends[0].children[0].phrase.noun or ""]
         return ParseTree(replace(phrase, words=(*phrase.words, word)), tuple(c for c in children if c is not ends[0]))
     return ParseTree(phrase, children)
+
+
+def _reach_up(things: Sequence[Object]) -> bool:
+    """Do some things stand on one level, and reach to several heights?"""
+    sized = [(o.position[2], o.size[2]) for o in things if o.position and o.size]
+    feet = [[z for z, _ in sized], [z - high / 2.0 for z, high in sized]]  # a position is a foot or a middle
+    high = [own for _, own in sized]
+    level = any(max(z) - min(z) < _LEVEL for z in feet) if sized else False
+    return level and len(sized) == len(things) and max(high) > _TALLER * min(high)
 
 
 def _is_on_an_end(place: ParseTree) -> bool:

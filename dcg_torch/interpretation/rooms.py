@@ -8,10 +8,12 @@ values of the key that gives the rooms ("room: kids room"), or else for what can
 from __future__ import annotations
 
 import functools
+import itertools
 from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
+from dcg_torch.interpretation.joined import own_and_repeated
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
 from dcg_torch.names.normal import normalise
@@ -42,7 +44,30 @@ def by_rooms(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     if not (any(map(_may_name_room, said.nouns)) or any(map(_is_room, said.words))):
         return tree
     types = frozenset(t for t in world.classes if not t.startswith(OPAQUE))
-    return _Speaking(_values(world), types, world.objects).node(tree)
+    return _Speaking(_values(world), types, world.objects).node(_each_in_its_room(tree))
+
+
+def _each_in_its_room(tree: ParseTree) -> ParseTree:
+    """ "The mug in the kitchen and the mug in the office": two noun phrases, each with a room."""
+    if tree.phrase.kind is not PhraseKind.VERB:
+        return tree
+    first, *others = tree.children or (tree,)
+    if others and others[0].phrase.kind is PhraseKind.PREPOSITION and first.phrase.kind is PhraseKind.NOUN:
+        whole = _with_its_own(replace(first, children=(*first.children, others[0])))
+        first, others = (whole, others[1:]) if len(whole.children) == len(first.children) else (first, others)
+    nouns = [own_and_repeated(_with_its_own(c)) if c.phrase.kind is PhraseKind.NOUN else [c] for c in (first, *others)]
+    return replace(tree, children=tuple(itertools.chain.from_iterable(nouns))) if tree.children else tree
+
+
+def _with_its_own(noun: ParseTree) -> ParseTree:
+    """A noun phrase in which a place behind the same noun, said again, is in the second one's phrase."""
+    for k, (place, after) in enumerate(itertools.pairwise(noun.children)):
+        again = place.children[-1] if len(place.children) > 1 else place
+        bare = again.phrase.kind is PhraseKind.NOUN and again.phrase.noun == noun.phrase.noun and not again.children
+        if bare and after.phrase.kind is PhraseKind.PREPOSITION and after.phrase.words[:1] == place.phrase.words[:1]:
+            whole = replace(place, children=(*place.children[:-1], replace(again, children=(after,))))
+            return replace(noun, children=(*noun.children[:k], whole, *noun.children[k + 2 :]))
+    return noun
 
 
 def led_into_rooms(trees: Sequence[ParseTree], world: WorldModel) -> list[tuple[ParseTree, bool]]:

@@ -67,7 +67,7 @@ BUILT_OF = {
     **{"story": "stack", "storey": "stack", "building": "stack", "structure": "stack"},
 }
 """What they call one after its counted members, and not else: "the two-story building", "the three-block chain"."""
-TIERS = frozenset({"shelf", "level", "tier"})
+TIERS = frozenset({"shelf", "level", "tier", "board"})
 """What people call a row of what stands at several heights before them, where nothing that is there is called so."""
 LINE_OF = {"row": LINE_ACROSS, "line": LINE_ACROSS, "column": LINE_ALONG}
 _FIRST = ("top", "topmost", "upper", "uppermost", "highest", "back", "far")

@@ -21,6 +21,8 @@ _RESTS = 0.12
 """Units between the foot of one thing and the top of another within which the one rests on the other."""
 _FOOT = 0.4
 """Share of its height from which on a thing's position is its middle and not its foot."""
+_RIM, _BOARD = 0.05, 0.15
+"""Metres that what is in a thing may be beyond its rim, and that boards are apart at least."""
 _COVERED = 0.2
 """Share of the smaller of two widths that two footprints have to share, so that one is over the other."""
 
@@ -88,6 +90,28 @@ def bulk(size: tuple[float, float, float]) -> float:
     """
     extents = [extent for extent in size if extent != 0.0]
     return math.prod(extents) if extents else 0.0
+
+
+def boards(objects: Sequence[Object]) -> dict[str, dict[str, float]]:
+    """Id of what has boards, as a rack or a bookcase -> ids of what stands on them, and its height in metres.
+
+    They are told by what stands in it at several heights, not all on the floor that it stands on.
+    """
+    there = [o for o in objects if o.size is not None and o.position is not None]
+    at = np.array([o.position for o in there]).reshape(-1, 3)
+    size = np.array([o.size for o in there]).reshape(-1, 3)
+    if len(at) and not (at[:, 2] < _FOOT * size[:, 2]).any():
+        at[:, 2] -= size[:, 2] / 2.0
+    found = {}
+    for k in np.flatnonzero((size > (0.0, 0.0, 2.0 * _BOARD)).all(axis=1)).tolist():
+        off = at - at[k]
+        inside = (np.abs(off[:, :2]) <= size[k, :2] / 2.0 + _RIM).all(axis=1) & (size[:, :2] <= size[k, :2]).all(axis=1)
+        inside &= (off[:, 2] > -_RIM) & (off[:, 2] + size[:, 2] / 2.0 < size[k, 2] - _RIM)
+        inside[k] = False
+        heights = off[inside, 2]
+        if len(heights) and heights.max() > _BOARD and np.ptp(heights) > _BOARD:
+            found[there[k].id] = {there[j].id: float(at[j, 2]) for j in np.flatnonzero(inside).tolist()}
+    return found
 
 
 def gap(one: Object, other: Object) -> float:
