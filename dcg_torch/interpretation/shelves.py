@@ -146,7 +146,7 @@ def _is_beyond(thing: Object, rack: Object, name: str) -> bool:
 
 def _is_one_of_several(shelf: ParseTree, world: WorldModel) -> bool:
     """Is what is called a shelf rather one of several racks: the second of them, the middle one?"""
-    named = sum(_is_called(shelf.phrase.noun, o) for o in world.objects)
+    named = sum(o.type is not None and normalise(o.type).split(" ")[-1] == shelf.phrase.noun for o in world.objects)
     return named > 1 and not any(map(_is_of, shelf.children))
 
 
