@@ -111,7 +111,7 @@ def draw(title: str, lines: dict[str, list[Result]], path: Path) -> None:
     what, _, by = title.rpartition(" by ")
     axes.set(title=what, xlabel=by)
     axes.grid(alpha=0.3)
-    axes.legend(fontsize=7)
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1.0), fontsize=7, frameon=False)  # beside the lines, over none
     with matplotlib.rc_context({"svg.hashsalt": "dcg_torch", "svg.fonttype": "none"}):  # small, the same bytes always
         figure.savefig(path, metadata={"Date": None})
     pyplot.close(figure)
