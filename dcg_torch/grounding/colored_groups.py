@@ -25,7 +25,7 @@ _ANOTHER = -5.0
 """The most that a group loses for a thing of another colour, or for a colour that none of its things has, in nats."""
 
 
-def told_colors(phrase: Phrase) -> tuple[str, ...]:
+def _told_colors(phrase: Phrase) -> tuple[str, ...]:
     """The colours of which a phrase says that a group has them; none where it says one alone."""
     if phrase.color is None or not in_group(phrase):
         return ()
@@ -35,13 +35,13 @@ def told_colors(phrase: Phrase) -> tuple[str, ...]:
 
 def without_colors(phrase: Phrase) -> Phrase:
     """The phrase without the colours of a group."""
-    told = told_colors(phrase)
+    told = _told_colors(phrase)
     return replace(phrase, color=None, words=tuple(w for w in phrase.words if w not in told)) if told else phrase
 
 
 def of_colors(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Floats:
     """(things,) log-factor of the colours that a phrase says of a group; 0 where it says no more than one."""
-    told = told_colors(phrase)
+    told = _told_colors(phrase)
     if not told or not encoder.perceived.any():
         return np.zeros(len(encoder.all))
     bare = replace(phrase, noun=None, words=(), look=(), plural=False, count=None)

@@ -5,7 +5,7 @@ That is measured, not learned. A group loses nats where another is meant rather.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -152,19 +152,20 @@ def _to_a_side(phrase: Phrase, encoder: WorldEncoder) -> Floats:
         return lost
     number, where = counted(phrase.words), encoder.layout
     some = [j for j in where.members if not kinds.isdisjoint(encoder.all[j].attributes)]
-    some = [j for j in some if number in (None, len(where.members[j]))]
-    inside = [frozenset(where.members[j].tolist()) for j in some]
-    inside = [of for of in inside if not any(a < of and b < of and a.isdisjoint(b) for a in inside for b in inside)]
-    whole = [
-        j
-        for j in some
-        if (own := frozenset(where.members[j].tolist())) in inside and not any(own < of for of in inside)
-    ]
+    inside = {j: frozenset(where.members[j].tolist()) for j in some if number in (None, len(where.members[j]))}
+    single = {j: of for j, of in inside.items() if not _holds_two(of, inside.values())}
+    whole = [j for j, of in single.items() if not any(of < other for other in single.values())]
     if len(whole) < 2:
         return lost
     left = np.array([where.position[j, 1] for j in whole]) * (1.0 if sides == {"left"} else -1.0)
     lost[whole] = np.where(left < left.max() - SAME_SPOT / 2.0, _NOT_THERE, 0.0)
     return lost
+
+
+def _holds_two(group: frozenset[int], groups: Collection[frozenset[int]]) -> bool:
+    """Is a group made of two others, or of more?"""
+    parts = [of for of in groups if of < group]
+    return any(one.isdisjoint(other) for one in parts for other in parts)
 
 
 def _tidiness(points: Floats) -> tuple[float, float]:

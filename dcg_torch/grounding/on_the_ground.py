@@ -21,6 +21,7 @@ _RESTS = -4.0
 _HIGH = -4.0
 """Nats for each metre by which a thing is higher than the lowest."""
 _THERE = -0.1
+"""Log Psi of what stands there."""
 
 
 def on_the_ground(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
