@@ -14,6 +14,7 @@ from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.contrary import of_contradictions
+from dcg_torch.grounding.counted_away import counted_away, is_anchored
 from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
@@ -205,9 +206,10 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    phrase, log_extent = measured(phrase, told, described, encoder)
+    phrase, log_away = counted_away(phrase, modifiers, fit, encoder)
+    phrase, log_extent = measured(phrase, told, described, encoder, anchored=is_anchored(modifiers))
     phrase, log_end = outermost(phrase, described, encoder)
-    return Comparison(described, log_size + log_shade + log_extent + log_end, phrase)
+    return Comparison(described, log_size + log_shade + log_away + log_extent + log_end, phrase)
 
 
 def _sized(
