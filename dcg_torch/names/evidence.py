@@ -83,6 +83,8 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     rest = said.words[len(named.words) :] if said.words[: len(named.words)] == named.words else ()
     if rest and (lists.portions.issuperset(rest) or _says_kind(rest, named)):
         return "name: class is head", "kind: same"  # "marker pen", "pizza slice"
+    if rest and lists.packages.issuperset(rest):
+        return "name: class is head", "kind: strange"  # "milk carton" for milk, but a carton is one as well
     if said.head not in lists.purposeful:
         return None
     *_, word = before = said.words[:-1]
