@@ -227,8 +227,9 @@ def _times(matrix: csr_array, values: Floats) -> Floats:
     if product is None or matrix.format != "csr":
         plain: Floats = matrix @ values
         return plain
-    found = np.zeros(matrix.shape[0])
-    product(*matrix.shape, matrix.indptr, matrix.indices, matrix.data, values, found)
+    n, k = matrix.shape
+    found = np.zeros(n)
+    product(n, k, matrix.indptr, matrix.indices, matrix.data, values, found)
     return found
 
 
