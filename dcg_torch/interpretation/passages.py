@@ -62,7 +62,8 @@ def _is_side(place: ParseTree) -> bool:
 
 def _is_passage(noun: str, world: WorldModel) -> bool:
     """Do things of a name stand in two lines ahead of the robot, one on either side?"""
-    at = [o.position for o in world.objects if o.position is not None and o.type and names_one_of(noun, (o.type,))]
+    named = {type_ for type_ in world.classes if type_ and names_one_of(noun, (type_,))}
+    at = [o.position for o in world.objects if o.position is not None and o.type in named]
     if len(at) < _LEAST or world.robot is None:
         return False
     x, y = to_robot_frame(world.robot, np.array([place[:2] for place in at])).T
