@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import WITHIN
+from dcg_torch.names.vocabulary import BESIDE_THE_WAY, WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
@@ -50,10 +50,10 @@ def by_bearing(
         compared: (things,) those of which the nearest is meant; None: those of one type.
     """
     name, where = phrase.words[0], encoder.layout
-    if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
+    if (name not in _AT and name not in _FROM_YOU and name != BESIDE_THE_WAY) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    if not ways or not (encoder.among_things or name == _AHEAD):
+    if not ways or not (encoder.among_things or name in (_AHEAD, BESIDE_THE_WAY)):
         return log_psi
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
     whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
@@ -61,7 +61,10 @@ def by_bearing(
     for k, way in ways:
         offset = where.position[:, :2] - where.robot
         among = encoder.among_things
-        found[k] = _that_way(offset, way, None if whole else kind) if among else _straight_on(offset, way)
+        if name == BESIDE_THE_WAY:
+            found[k] = _off_the_way(offset @ way, where.solid)
+            continue
+        found[k] = that_way(offset, way, None if whole else kind) if among else _straight_on(offset, way)
     return found
 
 
@@ -72,6 +75,19 @@ def _straight_on(offset: Floats, way: Floats) -> Floats:
     return found
 
 
+def _off_the_way(aside: Floats, solid: Bools) -> Floats:
+    """(things,) how surely each is beside a way and not on it; `aside` is how far to one side each of them is."""
+    off = np.where(np.isfinite(aside), aside, -np.inf)
+    known = np.abs(off[solid & np.isfinite(off)])
+    bound = _ON_THE_WAY * float(np.median(known)) if len(known) else 0.0
+    found: Floats = np.maximum(-np.logaddexp(0.0, (bound - off) / max(TIE, _VAGUELY * bound)), _NOT_BESIDE)
+    return found
+
+
+_ON_THE_WAY, _VAGUELY, _NOT_BESIDE = 0.3, 0.1, -8.0
+"""Share of how far things are off a way up to which one is on it, how vague that is, and the most that one loses."""
+
+
 def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     """(2,) the direction that a preposition names of a landmark; None where it is no side of the robot."""
     where, thing = encoder.layout, encoder.all[landmark]
@@ -80,12 +96,13 @@ def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     return where.heading[landmark] if where.direction[landmark] and OF_ROBOT in thing.attributes else None
 
 
-def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None) -> Floats:
+def that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None, aslant: float = _SLANT) -> Floats:
     """(things,) how well each stands in a direction: off it by an angle, and behind how many of its kind.
 
     Args:
-        offset: (things, 2) from the robot.
+        offset: (things, 2) from the robot, or another landmark.
         kind: (things,) of which kind each is; None: all that stand so are meant, near or far.
+        aslant: radians off it at which a thing loses half a nat.
     """
     x, y = way
     slant = np.arctan2(np.abs(offset @ np.array([-y, x])), offset @ way)
@@ -94,7 +111,7 @@ def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None) -> Fl
     inside: Floats = -np.logaddexp(0.0, (slant - ASLANT) / UNSURE)
     if kind is None:
         return inside
-    inside = inside - 0.5 * (slant / _SLANT) ** 2
+    inside = inside - 0.5 * (slant / aslant) ** 2
     away = np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
     cost = _E_FOLD * away - inside
     least = np.full(kind.max(initial=0) + 1, np.inf)
