@@ -16,7 +16,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.nearness import nearest_of_a_kind
 from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import WITHIN
+from dcg_torch.names.vocabulary import BESIDE_THE_WAY, WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
@@ -51,18 +51,20 @@ def by_bearing(
         compared: (things,) those of which the nearest is meant; None: those of one type.
     """
     name, where = phrase.words[0], encoder.layout
-    if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
+    if (name not in _AT and name not in _FROM_YOU and name != BESIDE_THE_WAY) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    if not ways or not (encoder.among_things or name == _AHEAD):
+    if not ways or not (encoder.among_things or name in (_AHEAD, BESIDE_THE_WAY)):
         return log_psi
     rows, to = [k for k, _ in ways], np.array([way for _, way in ways])
     offset, found = where.position[:, :2] - where.robot, log_psi.copy()
-    if not encoder.among_things:
+    if name == BESIDE_THE_WAY:
+        found[rows] = [_off_the_way(aside, where.solid) for aside in to @ offset.T]
+    elif not encoder.among_things:
         found[rows] = _straight_on(offset, to)
     else:
         whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
-        found[rows] = _that_way(offset, to, compared, encoder, whole=whole)
+        found[rows] = that_way(offset, to, compared, encoder, whole=whole)
     return found
 
 
@@ -79,6 +81,19 @@ def _straight_on(offset: Floats, ways: Floats) -> Floats:
     return found
 
 
+def _off_the_way(aside: Floats, solid: Bools) -> Floats:
+    """(things,) how surely each is beside a way and not on it; `aside` is how far to one side each of them is."""
+    off = np.where(np.isfinite(aside), aside, -np.inf)
+    known = np.abs(off[solid & np.isfinite(off)])
+    bound = _ON_THE_WAY * float(np.median(known)) if len(known) else 0.0
+    found: Floats = np.maximum(-np.logaddexp(0.0, (bound - off) / max(TIE, _VAGUELY * bound)), _NOT_BESIDE)
+    return found
+
+
+_ON_THE_WAY, _VAGUELY, _NOT_BESIDE = 0.3, 0.1, -8.0
+"""Share of how far things are off a way up to which one is on it, how vague that is, and the most that one loses."""
+
+
 def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     """(2,) the direction that a preposition names of a landmark; None where it is no side of the robot."""
     where, thing = encoder.layout, encoder.all[landmark]
@@ -87,13 +102,16 @@ def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     return where.heading[landmark] if where.direction[landmark] and OF_ROBOT in thing.attributes else None
 
 
-def _that_way(offset: Floats, ways: Floats, compared: Bools | None, encoder: WorldEncoder, *, whole: bool) -> Floats:
+def that_way(
+    offset: Floats, ways: Floats, compared: Bools | None, encoder: WorldEncoder, *, whole: bool, aslant: float = _SLANT
+) -> Floats:
     """(ways, things) how well each stands in a direction: off it by an angle, and behind how many of its kind.
 
     Args:
-        offset: (things, 2) from the robot.
+        offset: (things, 2) from the robot, or another landmark.
         compared: (things,) those of which the nearest is meant; None: those of one type.
         whole: are all meant that stand so, near or far?
+        aslant: radians off it at which a thing loses half a nat.
     """
     left, ahead = _off(offset, ways)
     slant = np.arctan2(np.abs(left), ahead)
@@ -102,7 +120,7 @@ def _that_way(offset: Floats, ways: Floats, compared: Bools | None, encoder: Wor
     inside: Floats = -np.logaddexp(0.0, (slant - ASLANT) / UNSURE)
     if whole:
         return inside
-    inside = inside - 0.5 * (slant / _SLANT) ** 2
+    inside = inside - 0.5 * (slant / aslant) ** 2
     away = _E_FOLD * np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
     of_each, least = nearest_of_a_kind(np.where(there, away - inside, np.inf), compared, encoder)
     behind = np.where(there, away - np.where(np.isfinite(least), least, 0.0)[of_each], np.inf)

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
+from dcg_torch.grounding.compass import by_compass
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.counted_away import counted_away, is_anchored
 from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
@@ -130,6 +131,7 @@ def _log_psi(
     log_psi = by_levels_of_stacks(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
+    log_psi = by_compass(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
         row = counted(tree.children[0].phrase.words) is not None
         log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
@@ -229,7 +231,7 @@ def _sized(
     log_size, out = np.zeros(len(named)), np.zeros(len(named))
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     denied = _denied_sizes(phrase.words)
-    kind = _of_kind(phrase, encoder, tables) if sizes or denied else named
+    kind = of_kind(phrase, encoder, tables) if sizes or denied else named
     off = _off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
     if off is not None:
         phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
@@ -257,7 +259,7 @@ def _denied_sizes(words: Sequence[str]) -> list[int]:
     return [side for side in sides if side is not None]
 
 
-def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
+def of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     """(things,) those that the noun of a phrase names."""
     table = tables.unranked(encoder, replace(phrase, color=None, look=(), words=()))
     number = tables.factor.correspondences.index

@@ -231,12 +231,22 @@ def _relation(noun: str, name: str) -> str:
         return "strange"
     if said.senses & named.senses:
         return "same"
+    if _is_whoever(noun) and not _is_whoever(name) and nouns().senses(_PERSON, 1)[0] in named.above[1]:
+        return "same"  # a "guy" may be a waiter
     for reach, relation in ((0, "kind"), (1, "far kind")):
         if said.above[reach] & named.senses:
             return f"noun is {relation}"
         if named.above[reach] & said.senses:
             return f"class is {relation}"
     return "sibling" if said.direct & named.direct else "apart"
+
+
+def _is_whoever(noun: str) -> bool:
+    """Is it a name of a person, whoever that is: "guy", "lady", "kid"?"""
+    return _share_a_name(noun, _PERSON)
+
+
+_PERSON: Final = "person"
 
 
 @functools.lru_cache(maxsize=8192)
