@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.apart import log_apart
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
@@ -18,6 +19,7 @@ from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
+from dcg_torch.grounding.first_few import first_few
 from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
@@ -33,13 +35,14 @@ from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
+from dcg_torch.interpretation.distances import said_apart
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import GROUP_WORDS, TIER, TOGETHER, counted
+from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, SO_FAR, TIER, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -120,6 +123,8 @@ def _log_psi(
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
         return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)
+    if name == SO_FAR and (far := said_apart(tree.phrase)) is not None:
+        return log_apart(far, landmarks, encoder, denied=denied)
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
@@ -205,9 +210,10 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
+    phrase, log_few = first_few(phrase, modifiers, described, encoder)
     phrase, log_extent = measured(phrase, told, described, encoder)
     phrase, log_end = outermost(phrase, described, encoder)
-    return Comparison(described, log_size + log_shade + log_extent + log_end, phrase)
+    return Comparison(described, log_size + log_shade + log_few + log_extent + log_end, phrase)
 
 
 def _sized(
@@ -241,11 +247,14 @@ def _sized(
 
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what takes things out of those that are compared that "not red" rules out, or another shelf."""
+    """(things,) what takes things out of those that are compared that "not red" rules out, another shelf or column."""
     tiers = {word for word in phrase.words if word.startswith(TIER)}
-    if not tiers and not any(word.startswith(f"{NOT} ") for word in phrase.words):
+    cells = [{f"{CELL}{cell}" for cell in w.removeprefix(CELL).split("|")} for w in phrase.words if w.startswith(CELL)]
+    if not (tiers or cells) and not any(word.startswith(f"{NOT} ") for word in phrase.words):
         return np.zeros(len(encoder.all))
-    out = [not tiers <= o.attributes or is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    elsewhere = [not tiers <= o.attributes or any(map(o.attributes.isdisjoint, cells)) for o in encoder.all]
+    denied = [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    out = np.array(elsewhere) | denied
     return np.where(out, -_BEHIND - 1.0, 0.0)
 
 

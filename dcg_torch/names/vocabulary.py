@@ -147,6 +147,8 @@ ANY, SO_MANY = "any", frozenset({*NUMBER_WORDS, "one", "a couple"})
 """What begins a noun phrase that means some of several, whichever they are: "any two", "three of", "a couple of"."""
 HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
+SO_FAR = "so far from"
+"""The relation of what is so far from a landmark as the text of a phrase says: "within a metre of"."""
 THAN = "than"
 """The preposition before what a thing is compared with."""
 EXCEPT = "except"

@@ -1,0 +1,58 @@
+"""What is so far from a landmark as is said: "within a metre of the door". That is measured, not learned."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.interpretation.distances import Apart
+
+Floats = NDArray[np.float64]
+
+_SLIP = 0.001
+"""The least probability that a thing is meant that is farther or closer than is said."""
+_VAGUE, _STEP = 0.06, 0.03
+"""By how much of a bound it is vague, and by how many metres at least."""
+_OFF = 0.15
+"""The same of a distance that is said itself."""
+
+
+def log_apart(said: Apart, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool) -> Floats:
+    """(combos, things) the logarithm of the probability that people say so of a thing; 0 where nobody knows.
+
+    Args:
+        landmarks: numbers of things; the first of each is the landmark.
+    """
+    far = _gaps([of[0] for of in landmarks], encoder) * encoder.world.unit
+    inside = _below(said.most - far, said.most) * _below(far - said.least, said.least)
+    if said.about is not None:
+        inside = 1.0 / (
+            1.0 + ((far - said.about) / (_OFF * said.about + _STEP)) ** 2
+        )  # of all that are off, the closest
+    likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - inside if denied else inside)
+    found: Floats = np.log(np.where(np.isfinite(far), likely, 1.0))
+    found[np.arange(len(landmarks)), [of[0] for of in landmarks]] = np.log(_SLIP)
+    return found
+
+
+def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(combos, things) units between extents on the floor; of what nobody knows the extents of, from its middle."""
+    where = encoder.layout
+    at, half = where.position[:, :2], np.zeros((len(where.position), 2))
+    if where.bodies is not None:
+        half[: len(where.bodies.half)] = np.nan_to_num(where.bodies.half)
+    apart = np.abs(at[landmarks][:, None] - at[None]) - half[landmarks][:, None] - half[None]
+    found: Floats = np.linalg.norm(np.maximum(apart, 0.0), axis=2)
+    return np.where(where.solid[None], found, np.nan)
+
+
+def _below(room: Floats, bound: float) -> Floats:
+    """How surely there is room up to a bound; there is to one that is nowhere, and down to none."""
+    if not 0.0 < bound < np.inf:
+        return np.ones_like(room)
+    with np.errstate(over="ignore", invalid="ignore"):
+        found: Floats = 1.0 / (1.0 + np.exp(-room / (_VAGUE * bound + _STEP)))
+    return found
