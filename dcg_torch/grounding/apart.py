@@ -1,4 +1,7 @@
-"""What is so far from a landmark as is said: "within a metre of the door". That is measured, not learned."""
+"""What is so far from a landmark as is said: "within a metre of the door", or nearer to it than to another.
+
+That is measured, not learned.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.interpretation.distances import Apart
+from dcg_torch.interpretation.distances import Apart, said_apart
+from dcg_torch.names.vocabulary import NEARER_OF_TWO, NEARER_THAN, SO_FAR
+from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
 
@@ -18,6 +23,22 @@ _VAGUE, _STEP = 0.06, 0.03
 """By how much of a bound it is vague, and by how many metres at least."""
 _OFF = 0.15
 """The same of a distance that is said itself."""
+
+
+MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN})
+"""Relations of which distances say all."""
+
+
+def log_distance(
+    phrase: Phrase, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool
+) -> Floats:
+    """(combos, things) the log-probability that a modifier by one of `MEASURED` is said of a thing; as the next two."""
+    if phrase.words[0] != SO_FAR:
+        return log_nearer(phrase.words[0], landmarks, encoder, denied=denied)
+    said = said_apart(phrase)
+    if said is None:
+        raise ValueError(f"no distance is said by {phrase.text!r}")
+    return log_apart(said, landmarks, encoder, denied=denied)
 
 
 def log_apart(said: Apart, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool) -> Floats:
@@ -35,6 +56,26 @@ def log_apart(said: Apart, landmarks: Sequence[tuple[int, ...]], encoder: WorldE
     likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - inside if denied else inside)
     found: Floats = np.log(np.where(np.isfinite(far), likely, 1.0))
     found[np.arange(len(landmarks)), [of[0] for of in landmarks]] = np.log(_SLIP)
+    return found
+
+
+def log_nearer(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool) -> Floats:
+    """(combos, things) the logarithm of the probability that a thing is nearer to the first of two landmarks.
+
+    Args:
+        name: `NEARER_OF_TWO`, than to the second, or `NEARER_THAN`, than the second is.
+        landmarks: pairs of numbers of things; nothing is nearer to itself.
+    """
+    first, second = np.array(landmarks).T
+    row = np.arange(len(landmarks))
+    near = _gaps(first.tolist(), encoder)
+    far = _gaps(second.tolist(), encoder) if name == NEARER_OF_TWO else near[row, second][:, None]
+    with np.errstate(over="ignore", invalid="ignore"):
+        sure = 1.0 / (1.0 + np.exp((near - far) / (_VAGUE * (near + far) / 2.0 + _STEP)))
+    likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - sure if denied else sure)
+    found: Floats = np.log(np.where(np.isfinite(sure), likely, 0.5))
+    found[row, first] = found[row, second] = np.log(_SLIP)
+    found[first == second] = np.log(_SLIP)
     return found
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.apart import log_apart
+from dcg_torch.grounding.apart import MEASURED, log_distance
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
@@ -35,14 +35,13 @@ from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
-from dcg_torch.interpretation.distances import said_apart
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, SO_FAR, TIER, TOGETHER, counted
+from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, TIER, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -106,7 +105,7 @@ def modifier_factor(
             log_psi = far
         elif not means_all(tree.phrase):
             log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
-    if of_each or len(beams) > 1:
+    if of_each or (len(beams) > 1 and tree.phrase.words[0] not in MEASURED):
         scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
@@ -123,8 +122,8 @@ def _log_psi(
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
         return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)
-    if name == SO_FAR and (far := said_apart(tree.phrase)) is not None:
-        return log_apart(far, landmarks, encoder, denied=denied)
+    if name in MEASURED:
+        return log_distance(tree.phrase, landmarks, encoder, denied=denied)
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]

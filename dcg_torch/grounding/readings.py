@@ -35,6 +35,7 @@ from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.others import by_others
 from dcg_torch.interpretation.paired import by_pairs
 from dcg_torch.interpretation.passages import by_passages
+from dcg_torch.interpretation.plain_lines import lines_from_here
 from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls, with_corners
 from dcg_torch.interpretation.rooms import (
@@ -111,7 +112,7 @@ def _on_the_way(reading: WeightedReading, text: str) -> float:
 
 _REWRITES = (
     *(by_passages, by_pairs, by_members, by_others, by_rooms, by_compounds, by_faces, by_corners, by_walls),
-    *(by_heights, by_levels, by_shelves, by_middles, one_pair, few_together),
+    *(by_heights, by_levels, by_shelves, by_middles, one_pair, few_together, lines_from_here),
 )
 """What turns words into others that say the same in a scene."""
 

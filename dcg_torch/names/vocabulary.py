@@ -149,6 +149,8 @@ HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
 SO_FAR = "so far from"
 """The relation of what is so far from a landmark as the text of a phrase says: "within a metre of"."""
+NEARER_OF_TWO, NEARER_THAN = "nearer of two", "nearer than another"
+"""Relations to two landmarks: a thing is nearer to the first than to the second, or than the second is."""
 THAN = "than"
 """The preposition before what a thing is compared with."""
 EXCEPT = "except"
@@ -213,7 +215,7 @@ LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "
 AT_END, TOWARDS, AWAY_FROM = "at the end of", "on the side towards", "on the side away from"
 """Where a thing is at what has extents; the sides face another thing, or away from it."""
 OF_OUTLINE = frozenset({AT_END, TOWARDS, AWAY_FROM})
-OF_BOTH = OF_TWO | OF_OUTLINE
+OF_BOTH = OF_TWO | OF_OUTLINE | {NEARER_OF_TWO, NEARER_THAN}
 """Prepositions of which several landmarks are no several places."""
 LIKE_RELATION |= {AT_END: "at", TOWARDS: "next to", AWAY_FROM: "next to"}
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
