@@ -47,7 +47,7 @@ def log_apart(said: Apart, landmarks: Sequence[tuple[int, ...]], encoder: WorldE
     Args:
         landmarks: numbers of things; the first of each is the landmark.
     """
-    far = _gaps([of[0] for of in landmarks], encoder) * encoder.world.unit
+    far = gaps_between([of[0] for of in landmarks], encoder) * encoder.world.unit
     inside = _below(said.most - far, said.most) * _below(far - said.least, said.least)
     if said.about is not None:
         inside = 1.0 / (
@@ -68,8 +68,8 @@ def log_nearer(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEn
     """
     first, second = np.array(landmarks).T
     row = np.arange(len(landmarks))
-    near = _gaps(first.tolist(), encoder)
-    far = _gaps(second.tolist(), encoder) if name == NEARER_OF_TWO else near[row, second][:, None]
+    near = gaps_between(first.tolist(), encoder)
+    far = gaps_between(second.tolist(), encoder) if name == NEARER_OF_TWO else near[row, second][:, None]
     with np.errstate(over="ignore", invalid="ignore"):
         sure = 1.0 / (1.0 + np.exp((near - far) / (_VAGUE * (near + far) / 2.0 + _STEP)))
     likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - sure if denied else sure)
@@ -79,7 +79,7 @@ def log_nearer(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEn
     return found
 
 
-def _gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+def gaps_between(landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) units between extents on the floor; of what nobody knows the extents of, from its middle."""
     where = encoder.layout
     at, half = where.position[:, :2], np.zeros((len(where.position), 2))

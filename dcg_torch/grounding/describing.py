@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.apart import MEASURED, log_distance
 from dcg_torch.grounding.bearings import by_bearing
+from dcg_torch.grounding.by_measure import by_measure
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.contrary import of_contradictions
@@ -19,7 +20,6 @@ from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
-from dcg_torch.grounding.first_few import first_few
 from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
@@ -27,8 +27,8 @@ from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.nearness import by_nearness
+from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.on_the_ground import on_the_ground
-from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.overhead import by_height
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
@@ -192,6 +192,7 @@ def comparison_set(
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables)
+    again = again + nothing_near(phrase.words, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
@@ -209,10 +210,8 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    phrase, log_few = first_few(phrase, modifiers, described, encoder)
-    phrase, log_extent = measured(phrase, told, described, encoder)
-    phrase, log_end = outermost(phrase, described, encoder)
-    return Comparison(described, log_size + log_shade + log_few + log_extent + log_end, phrase)
+    phrase, log_measure = by_measure(phrase, told, modifiers, described, encoder)
+    return Comparison(described, log_size + log_shade + log_measure, phrase)
 
 
 def _sized(

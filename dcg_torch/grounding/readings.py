@@ -32,6 +32,7 @@ from dcg_torch.interpretation.factor_tree import (
 from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.looking import Looks, told_by_looking
 from dcg_torch.interpretation.middles import by_middles
+from dcg_torch.interpretation.nothing import by_nothing
 from dcg_torch.interpretation.others import by_others
 from dcg_torch.interpretation.paired import by_pairs
 from dcg_torch.interpretation.passages import by_passages
@@ -112,7 +113,7 @@ def _on_the_way(reading: WeightedReading, text: str) -> float:
 
 _REWRITES = (
     *(by_passages, by_pairs, by_members, by_others, by_rooms, by_compounds, by_faces, by_corners, by_walls),
-    *(by_heights, by_levels, by_shelves, by_middles, one_pair, few_together, lines_from_here),
+    *(by_nothing, by_heights, by_levels, by_shelves, by_middles, one_pair, few_together, lines_from_here),
 )
 """What turns words into others that say the same in a scene."""
 

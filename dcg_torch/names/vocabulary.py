@@ -149,6 +149,9 @@ HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
 SO_FAR = "so far from"
 """The relation of what is so far from a landmark as the text of a phrase says: "within a metre of"."""
+ODD, NOTHING, NO_OTHER = "odd", "nothing ", "no other "
+"""The word for what alone differs from all else, and what begins the words for what has nothing, or no other of its
+kind, beside it."""
 NEARER_OF_TWO, NEARER_THAN = "nearer of two", "nearer than another"
 """Relations to two landmarks: a thing is nearer to the first than to the second, or than the second is."""
 THAN = "than"
