@@ -6,6 +6,7 @@ import functools
 from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import NO_OTHER, NOTHING
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -41,7 +42,7 @@ def _by_nothing(tree: ParseTree) -> ParseTree:
 def _denied(phrase: Phrase, landmarks: tuple[ParseTree, ...]) -> Phrase:
     """ "Next to no chair" is not next to a chair."""
     none = len(landmarks) == 1 and landmarks[0].phrase.text.startswith(_NO) and landmarks[0].phrase.noun is not None
-    if not none or phrase.words[0].startswith(NOT) or phrase.words[0] in ("with", "without"):
+    if not none or phrase.words[0] not in listed("with nothing there"):
         return phrase
     return replace(phrase, words=(f"{NOT} {phrase.words[0]}", *phrase.words[1:]))
 
@@ -52,7 +53,7 @@ def _of_nothing(place: ParseTree, head: Phrase) -> str | None:
         return None
     phrase, name = place.children[0].phrase, place.phrase.words[0]
     denied, plain = name.startswith(f"{NOT} "), name.removeprefix(f"{NOT} ")
-    if phrase.color or place.children[0].children or plain in ("with", "without"):
+    if phrase.color or place.children[0].children or plain not in listed("with nothing there"):
         return None
     if phrase.noun == _THING:
         told = phrase.text == _NOTHING if not denied else phrase.text in (_ANYTHING, f"{_ANYTHING} else")
