@@ -81,3 +81,22 @@ def test_how_far_something_reaches_is_measured_from_its_edge() -> None:
 @pytest.mark.parametrize("text", ["next to", "near", "two spaces left of", "from", "within", "one of"])
 def test_what_states_no_length_is_no_distance(text: str) -> None:
     assert said_apart(Phrase(PhraseKind.PREPOSITION, text, ("near",))) is None
+
+
+@pytest.mark.parametrize("yaw", [0.0, 1.0, -2.5])
+@pytest.mark.parametrize(
+    ("said", "hour"),
+    [
+        ("at your two o'clock", 2),
+        ("at your 11 o'clock", 11),
+        ("in the ten o'clock direction", 10),
+        ("to your twelve o'clock", 12),
+    ],
+)
+def test_an_hour_of_the_clock_is_a_direction_from_the_robot(said: str, hour: int, yaw: float) -> None:
+    turned = {h: yaw - h * math.pi / 6.0 for h in (10, 11, 12, 1, 2, 3)}
+    things = [
+        Percept(f"h{h}", "crate", None, (1.0 + r * math.cos(t), 2.0 + r * math.sin(t), 0.0))
+        for h, (t, r) in zip(turned, zip(turned.values(), (2.0, 3.0, 2.5, 3.5, 2.2, 3.1), strict=True), strict=True)
+    ]
+    assert meant(f"take the crate {said}", things, Pose(1.0, 2.0, yaw)) == [f"h{hour}"]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.interpretation.distances import Apart, said_apart
+from dcg_torch.interpretation.distances import Apart, said_apart, said_turn
 from dcg_torch.names.vocabulary import NEARER_OF_TWO, NEARER_THAN, SO_FAR
 from dcg_torch.types import Phrase
 
@@ -25,6 +25,8 @@ _OFF = 0.15
 """The same of a distance that is said itself."""
 
 
+_HALF_AN_HOUR = np.pi / 12.0
+"""Angle by which what is said to be at an hour of the clock may be off."""
 MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN})
 """Relations of which distances say all."""
 
@@ -35,7 +37,9 @@ def log_distance(
     """(combos, things) the log-probability that a modifier by one of `MEASURED` is said of a thing; as the next two."""
     if phrase.words[0] != SO_FAR:
         return log_nearer(phrase.words[0], landmarks, encoder, denied=denied)
-    said = said_apart(phrase)
+    said, turn = said_apart(phrase), said_turn(phrase)
+    if turn is not None:
+        return np.tile(log_turned(turn, encoder, denied=denied), (len(landmarks), 1))
     if said is None:
         raise ValueError(f"no distance is said by {phrase.text!r}")
     return log_apart(said, landmarks, encoder, denied=denied)
@@ -56,6 +60,21 @@ def log_apart(said: Apart, landmarks: Sequence[tuple[int, ...]], encoder: WorldE
     likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - inside if denied else inside)
     found: Floats = np.log(np.where(np.isfinite(far), likely, 1.0))
     found[np.arange(len(landmarks)), [of[0] for of in landmarks]] = np.log(_SLIP)
+    return found
+
+
+def log_turned(turn: float, encoder: WorldEncoder, *, denied: bool) -> Floats:
+    """(things,) the logarithm of the probability that a thing is that way from the robot.
+
+    Args:
+        turn: radians to the left of straight ahead.
+    """
+    where = encoder.layout
+    x, y = (where.position[:, :2] - where.robot).T
+    off = np.abs((np.arctan2(y, x) - turn + np.pi) % (2.0 * np.pi) - np.pi)
+    inside = 1.0 / (1.0 + (off / _HALF_AN_HOUR) ** 4)
+    likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - inside if denied else inside)
+    found: Floats = np.log(np.where(np.isfinite(off) & where.solid, likely, _SLIP))
     return found
 
 

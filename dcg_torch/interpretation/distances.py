@@ -1,16 +1,32 @@
-"""How far from a thing another is said to be: "within a meter of the door", "about two metres from you"."""
+"""How far from a thing another is said to be, or which way: "within a meter of the door", "at your two o'clock"."""
 
 from __future__ import annotations
 
 import functools
+import math
 import re
 from typing import NamedTuple
 
 from dcg_torch.names.normal import read_data
+from dcg_torch.names.vocabulary import NUMBER_WORDS
 from dcg_torch.types import Phrase
 
 _SHARE = 0.3
 """Share of a distance by which "about two metres" may be off."""
+
+
+_HOURS, _TURNED = 12, re.compile(r"turned (\w+) of")
+"""The hours of a clock, and how a parser writes a direction by the hour."""
+
+
+def said_turn(phrase: Phrase) -> float | None:
+    """The angle that "at your two o'clock" states, in radians to the left of straight ahead; None where none is."""
+    found = _TURNED.fullmatch(phrase.text)
+    if found is None:
+        return None
+    hour = found[1]
+    number = NUMBER_WORDS.get(hour) or (int(hour) if hour.isdecimal() else _patterns()[1].get(hour, _HOURS))
+    return -2.0 * math.pi * (number % _HOURS) / _HOURS
 
 
 class Apart(NamedTuple):
