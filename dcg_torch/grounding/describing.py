@@ -10,12 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.apart import MEASURED, log_distance
 from dcg_torch.grounding.bearings import by_bearing
+from dcg_torch.grounding.by_measure import by_measure
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.compass import by_compass
 from dcg_torch.grounding.contrary import of_contradictions
-from dcg_torch.grounding.counted_away import counted_away, is_anchored
 from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
@@ -27,8 +28,8 @@ from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.nearness import by_nearness
+from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.on_the_ground import on_the_ground
-from dcg_torch.grounding.outermost import outermost
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.overhead import by_height
 from dcg_torch.grounding.reach import means_all, of_all, of_denied
@@ -41,7 +42,7 @@ from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import GROUP_WORDS, TIER, TOGETHER, counted
+from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, TIER, TOGETHER, counted
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
@@ -105,7 +106,7 @@ def modifier_factor(
             log_psi = far
         elif not means_all(tree.phrase):
             log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
-    if of_each or len(beams) > 1:
+    if of_each or (len(beams) > 1 and tree.phrase.words[0] not in MEASURED):
         scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
     return ModifierFactor(tree, combos, log_psi + share[:, None], share, compared, of_each)
@@ -122,6 +123,8 @@ def _log_psi(
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
         return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)
+    if name in MEASURED:
+        return log_distance(tree.phrase, landmarks, encoder, denied=denied)
     table = tables.placed(encoder, tree.phrase, landmarks, compared)
     asserted = Correspondence.INACTIVE if denied else Correspondence.ACTIVE
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
@@ -191,6 +194,7 @@ def comparison_set(
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables)
+    again = again + nothing_near(phrase.words, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
@@ -208,10 +212,8 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    phrase, log_away = counted_away(phrase, modifiers, fit, encoder)
-    phrase, log_extent = measured(phrase, told, described, encoder, anchored=is_anchored(modifiers))
-    phrase, log_end = outermost(phrase, described, encoder)
-    return Comparison(described, log_size + log_shade + log_away + log_extent + log_end, phrase)
+    phrase, log_measure = by_measure(phrase, told, modifiers, (described, fit), encoder)
+    return Comparison(described, log_size + log_shade + log_measure, phrase)
 
 
 def _sized(
@@ -245,11 +247,14 @@ def _sized(
 
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
-    """(things,) what takes things out of those that are compared that "not red" rules out, or another shelf."""
+    """(things,) what takes things out of those that are compared that "not red" rules out, another shelf or column."""
     tiers = {word for word in phrase.words if word.startswith(TIER)}
-    if not tiers and not any(word.startswith(f"{NOT} ") for word in phrase.words):
+    cells = [{f"{CELL}{cell}" for cell in w.removeprefix(CELL).split("|")} for w in phrase.words if w.startswith(CELL)]
+    if not (tiers or cells) and not any(word.startswith(f"{NOT} ") for word in phrase.words):
         return np.zeros(len(encoder.all))
-    out = [not tiers <= o.attributes or is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    elsewhere = [not tiers <= o.attributes or any(map(o.attributes.isdisjoint, cells)) for o in encoder.all]
+    denied = [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    out = np.array(elsewhere) | denied
     return np.where(out, -_BEHIND - 1.0, 0.0)
 
 

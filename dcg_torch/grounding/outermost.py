@@ -34,7 +34,7 @@ def outermost(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> tuple[Phra
     log = np.zeros(len(among))
     said = [word for word in phrase.words if word in _OUTER | _INNER]
     position = encoder.layout.position
-    at = np.flatnonzero(among & np.isfinite(position).all(axis=1))
+    at = np.flatnonzero(among & encoder.layout.solid & np.isfinite(position).all(axis=1))
     if not (said and phrase.plural) or len(at) < 3:
         return phrase, log
     offset = position[at] - position[at].mean(axis=0)

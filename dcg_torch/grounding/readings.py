@@ -17,9 +17,7 @@ from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.attributes import by_attributes
-from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.containers import in_what_holds_it
-from dcg_torch.interpretation.faces import by_faces
 from dcg_torch.interpretation.factor_tree import (
     Setting,
     coordinated,
@@ -30,23 +28,18 @@ from dcg_torch.interpretation.factor_tree import (
     speaks_of,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
+from dcg_torch.interpretation.in_the_scene import in_the_scene
 from dcg_torch.interpretation.looking import Looks, told_by_looking
-from dcg_torch.interpretation.middles import by_middles
-from dcg_torch.interpretation.others import by_others
-from dcg_torch.interpretation.paired import by_pairs
-from dcg_torch.interpretation.passages import by_passages
-from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
-from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls, with_corners
+from dcg_torch.interpretation.room_parts import with_corners
 from dcg_torch.interpretation.rooms import (
-    by_rooms,
     leads_to_a_room,
     led_into_rooms,
     speaks_of_what_is_not_there,
     with_rooms,
 )
-from dcg_torch.interpretation.shelves import by_shelves, with_tiers
+from dcg_torch.interpretation.shelves import with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
-from dcg_torch.interpretation.stacks import by_levels, with_levels
+from dcg_torch.interpretation.stacks import with_levels
 from dcg_torch.names.attributes import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
@@ -91,7 +84,7 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         for (r, weight), absent in zip(weighed, strange, strict=True)
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
-    trees = [_in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
+    trees = [in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)
     told = by_attributes([told_by_looking(tree, command.text, looks) for tree, _ in led], world)
     return [
@@ -107,23 +100,6 @@ def _on_the_way(reading: WeightedReading, text: str) -> float:
     """
     first = _FIRST_GOAL in reading.rules and ("," in text or not leads_to_a_room(reading.tree))
     return _ON_THE_WAY if first else 0.0
-
-
-_REWRITES = (
-    *(by_passages, by_pairs, by_members, by_others, by_rooms, by_compounds, by_faces, by_corners, by_walls),
-    *(by_heights, by_levels, by_shelves, by_middles, one_pair, few_together),
-)
-"""What turns words into others that say the same in a scene."""
-
-
-def _in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
-    """A tree in the words of a scene; few commands say anything that would be said in others."""
-    said = Words.of(tree)
-    for rewrite in _REWRITES:
-        found = rewrite(tree, said, world)
-        if found is not tree and found != tree:  # what is kept of a tree is kept of this very one
-            tree, said = found, Words.of(found)
-    return tree
 
 
 _OF_ALL = frozenset({"corner", "middle"})
@@ -189,7 +165,7 @@ class SharedSearch:
         further = tuple([self._described(part, brief=False) for part in others])
         found = self._described(first, brief=brief)
         if offers_choice(tree):
-            return sum_over([found, *further], [_log_there(one) for one in (found, *further)])
+            return sum_over([found, *further], [_log_there(one) + _fit(one) for one in (found, *further)])
         return replace(found, further=further) if further else found
 
     def _described(self, tree: ParseTree, *, brief: bool) -> Solution:

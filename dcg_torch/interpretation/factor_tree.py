@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from dcg_torch.interpretation.distances import said_apart, said_turn
 from dcg_torch.interpretation.from_you import from_you
 from dcg_torch.interpretation.joined import each_meant, either_color
 from dcg_torch.interpretation.plain_lines import in_whole_line
@@ -30,6 +31,7 @@ from dcg_torch.names.vocabulary import (
     READ_FROM,
     SIDE_MIDDLE,
     SIDED,
+    SO_FAR,
     VERTICAL,
     WITHIN,
     counted,
@@ -299,6 +301,8 @@ def _modifier(tree: ParseTree, head: Phrase) -> ParseTree:
     if words[0] in OF_TWO and len(landmarks) == 1 and landmarks[0].phrase.plural:
         landmarks *= 2  # "between the two cones": two of one description
     several = head.count if head.count is not None and head.count > 1 else None
+    if said_apart(tree.phrase) is not None or said_turn(tree.phrase) is not None:
+        words = (SO_FAR, *words[1:])
     phrase = Phrase(
         PhraseKind.MODIFIER,
         tree.phrase.text,

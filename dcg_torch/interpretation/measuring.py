@@ -55,6 +55,8 @@ _MORE: dict[str, tuple[Callable[[Object], float | None], float]] = {
 """Words that compare: what is measured, and whether more of it is meant or less."""
 _AWAY = {"farther": 1.0, "further": 1.0, "closer": -1.0, "nearer": -1.0}
 """Words that compare how far things are from who looks, and whether far is meant or near."""
+COMPARING = frozenset({*_MORE, *_AWAY})
+"""Words that compare two things."""
 MORE_THAN = frozenset(f"{word} {THAN}" for word in (*_MORE, *_AWAY))
 
 
@@ -68,8 +70,24 @@ def compared_with(tree: ParseTree) -> ParseTree:
         if place.phrase.words[:1] == (THAN,):
             more = replace(place, phrase=replace(place.phrase, words=(f"{word} {THAN}", *place.phrase.words[1:])))
             kept = replace(phrase, words=tuple(other for other in phrase.words if other != word))
-            return ParseTree(kept, (*tree.children[:k], more, *tree.children[k + 1 :]))
+            return compared_with(ParseTree(kept, (*tree.children[:k], more, *tree.children[k + 1 :])))
     return tree
+
+
+def compared_twice(tree: ParseTree) -> ParseTree:
+    """ "Bigger than the red one and smaller than the blue one": "smaller" is said of what is bigger."""
+    thans = [c for c in tree.children if c.phrase.words[:1] == (THAN,) and len(c.children) == 1]
+    if tree.phrase.kind is not PhraseKind.NOUN or len(thans) < 2:
+        return tree
+    marks = [place.children[0] for place in thans[:-1]]
+    again = tuple(word for mark in marks for word in mark.phrase.words if word in COMPARING)
+    told = {id(place): replace(place, children=(_without(place.children[0], again),)) for place in thans[:-1]}
+    phrase = replace(tree.phrase, words=(*tree.phrase.words, *again))
+    return ParseTree(phrase, tuple(told.get(id(child), child) for child in tree.children))
+
+
+def _without(tree: ParseTree, words: Sequence[str]) -> ParseTree:
+    return replace(tree, phrase=replace(tree.phrase, words=tuple(w for w in tree.phrase.words if w not in words)))
 
 
 def log_more(

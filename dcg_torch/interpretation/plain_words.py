@@ -5,7 +5,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.interpretation.measuring import compared_with
+from dcg_torch.interpretation.measuring import compared_twice, compared_with
+from dcg_torch.interpretation.nearer import nearer_of_two
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
     MIDDLES,
@@ -194,6 +195,8 @@ def whose_side(phrase: Phrase) -> str | None:
 
 
 _FIRST = (
+    nearer_of_two,
+    compared_twice,
     from_the_ground,
     end_of_a_stack,
     _sided,

@@ -35,6 +35,11 @@ def scene_kind(world: WorldModel) -> str:
     return " ".join(name for name, holds in told.items() if holds) or "bare"
 
 
+def is_on_floor(world: WorldModel) -> bool:
+    """Are things of known sizes so far apart that they stand on a floor, and neither on a table nor in a picture?"""
+    return world.unit >= _TABLE and all(o.size is not None for o in world.objects if not o.hypothetical)
+
+
 def is_board(kind: str) -> bool:
     """Are things of one kind on a table? What is "the highest" there is so as on a page, but for the top of a stack."""
     names = kind.split(" ")

@@ -147,6 +147,13 @@ ANY, SO_MANY = "any", frozenset({*NUMBER_WORDS, "one", "a couple"})
 """What begins a noun phrase that means some of several, whichever they are: "any two", "three of", "a couple of"."""
 HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
+SO_FAR = "so far from"
+"""The relation of what is so far from a landmark as the text of a phrase says: "within a metre of"."""
+ODD, NOTHING, NO_OTHER = "odd", "nothing ", "no other "
+"""The word for what alone differs from all else, and what begins the words for what has nothing, or no other of its
+kind, beside it."""
+NEARER_OF_TWO, NEARER_THAN = "nearer of two", "nearer than another"
+"""Relations to two landmarks: a thing is nearer to the first than to the second, or than the second is."""
 THAN = "than"
 """The preposition before what a thing is compared with."""
 EXCEPT = "except"
@@ -211,7 +218,7 @@ LIKE_RELATION |= {"surrounded by": "near", "with": "near", "not with": "near", "
 AT_END, TOWARDS, AWAY_FROM = "at the end of", "on the side towards", "on the side away from"
 """Where a thing is at what has extents; the sides face another thing, or away from it."""
 OF_OUTLINE = frozenset({AT_END, TOWARDS, AWAY_FROM})
-OF_BOTH = OF_TWO | OF_OUTLINE
+OF_BOTH = OF_TWO | OF_OUTLINE | {NEARER_OF_TWO, NEARER_THAN}
 """Prepositions of which several landmarks are no several places."""
 BESIDE_THE_WAY = "beside the way on"
 """Where a thing is on the side of a way on which somebody looks ahead, and what is counted there begins."""
