@@ -135,6 +135,21 @@ def test_a_rank_before_the_noun(side: str, noun: str) -> None:
     assert (phrase.noun, phrase.words) == (noun, ("fourth", f"from the {side}"))
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "please take a photo",
+        "good to see you again",
+        "my name is Tom",
+        "slow down a bit",
+        "hurry up please",
+        "watch out",
+    ],
+)
+def test_talk_that_names_no_thing(text: str) -> None:
+    assert parse_command(text).refused
+
+
 @pytest.mark.parametrize("text", ["nice weather today", "what a lovely day today", "terrible weather outside"])
 def test_weather_is_no_order(text: str) -> None:
     assert parse_command(text).refused is not None

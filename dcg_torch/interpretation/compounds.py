@@ -2,6 +2,7 @@
 
 So it is where a class of that name is not there, and where some of the things named by the last word stand on what the
 first words name, and others do not. "The bedroom lamp" is one in the bedroom, where the bedroom is there as a thing.
+"The baby giraffe" is small among the giraffes.
 """
 
 from __future__ import annotations
@@ -29,7 +30,19 @@ def by_compounds(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     Args:
         said: the words of the tree.
     """
+    if not said.words.isdisjoint(everyday().ages):
+        tree = _sized(tree, world)
     return _split(tree, world) if any(" " in noun for noun in said.nouns) else tree
+
+
+def _sized(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """ "The adult zebra" is a large one, where things have extents and nobody says how old they are."""
+    children, ages = tuple(_sized(child, world) for child in tree.children), everyday().ages
+    known = any(a.startswith("age") for o in world.objects for a in o.attributes)
+    if known or tree.phrase.kind is not PhraseKind.NOUN or all(o.size is None for o in world.objects):
+        return replace(tree, children=children)
+    words = tuple(ages.get(word, word) for word in tree.phrase.words)
+    return ParseTree(tree.phrase if words == tree.phrase.words else replace(tree.phrase, words=words), children)
 
 
 def _split(tree: ParseTree, world: WorldModel) -> ParseTree:
@@ -48,6 +61,8 @@ def _split(tree: ParseTree, world: WorldModel) -> ParseTree:
         return ParseTree(phrase, children)
     if any(log_odds(phrase.noun or "", type_) > _NAMED and normalise(type_) != head for type_ in types):
         return ParseTree(phrase, children)
+    if (size := everyday().ages.get(first)) is not None and any(o.size is not None for o in heads):
+        return ParseTree(replace(phrase, noun=head, words=(*phrase.words, size)), children)
     place = beside or first
     marks = [o for o in things if log_odds(place, o.type or "") > _NAMED and o not in heads]
     over = [any(_is_over(o, mark, world.unit) for mark in marks) for o in heads]

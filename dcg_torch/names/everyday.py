@@ -37,6 +37,7 @@ class Everyday:
         fillings: names of whatever is in a thing.
         portions: what behind the name of a thing only says how much of it.
         beside: first word of a compound -> the name of what such a thing stands beside.
+        ages: the same -> how large it is among those of its kind.
     """
 
     groups: dict[str, frozenset[int]]
@@ -48,6 +49,7 @@ class Everyday:
     fillings: frozenset[str]
     portions: frozenset[str]
     beside: dict[str, str]
+    ages: dict[str, str]
 
 
 @functools.cache
@@ -69,7 +71,8 @@ def everyday() -> Everyday:
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, data["beside"])
+    compounds = data["beside"], data["ages"]
+    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, *compounds)
 
 
 @functools.cache

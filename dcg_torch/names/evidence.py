@@ -13,6 +13,7 @@ from typing import Final
 
 from rapidfuzz.distance import OSA
 
+from dcg_torch.english.dictionary import english
 from dcg_torch.names.everyday import Name, everyday, name_parts
 from dcg_torch.names.wordnet import nouns
 
@@ -296,9 +297,11 @@ def is_generic(noun: str) -> bool:
 
 
 def unheard_of(noun: str) -> bool:
-    """Is it one word that neither WordNet nor this project's list knows?"""
+    """Is it one word that neither WordNet nor this project's list knows? "Weather" is no thing, but it is known."""
     name = name_parts(noun)
-    return len(name.words) == 1 and not _meanings(name.text).senses and name.text not in everyday().groups
+    if len(name.words) > 1 or _meanings(name.text).senses or name.text in everyday().groups:
+        return False
+    return not english().get(name.text, {}).get("n", 0)
 
 
 @dataclass(frozen=True, slots=True)
