@@ -203,34 +203,52 @@ class SparseRows(_AllAtOnce):
         few = len(self.factors) == 1  # then a copy by columns costs little, and is the faster way
         return tuple(factor.T.tocsr() if few else factor.T for factor in self.factors)
 
+    @cached_property
+    def _products(self) -> tuple[Sequence[_Product], Sequence[_Product]]:
+        """What multiplies one vector by each matrix, for scores and for their transpose."""
+        return list(map(_product, self.factors[::-1])), list(map(_product, self._back))
+
     def scores(self, d: Floats) -> Floats:
         """(Q, N)."""
-        return _applied(self.factors[::-1], d)
+        return _applied(self.factors[::-1], d) if len(d) > 1 else _in_turn(self._products[0], d)
 
     def gradient(self, residual: Floats) -> Floats:
         """(Q, K)."""
-        return _applied(self._back, residual)
+        return _applied(self._back, residual) if len(residual) > 1 else _in_turn(self._products[1], residual)
 
 
 def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
     """Each matrix in turn, to every row of values (Q, n)."""
-    alone = len(values) == 1
-    found = values[0] if alone else values.T
+    found = values.T
     for matrix in matrices:
-        found = _times(matrix, found) if alone else matrix @ found
-    return found[None] if alone else np.ascontiguousarray(found.T)
+        found = matrix @ found
+    return np.ascontiguousarray(found.T)
 
 
-def _times(matrix: csr_array, values: Floats) -> Floats:
+_Product = Callable[[Floats], Floats]
+
+
+def _in_turn(products: Sequence[_Product], values: Floats) -> Floats:
+    """The same of one row (1, n)."""
+    found: Floats = values[0]
+    for product in products:
+        found = product(found)
+    return found.reshape(1, -1)
+
+
+def _product(matrix: csr_array) -> _Product:
     """A matrix times a vector: what `@` comes to, without its checks, which take longer than a small product."""
-    product = _product_of_csr()
-    if product is None or matrix.format != "csr":
-        plain: Floats = matrix @ values
-        return plain
-    n, k = matrix.shape
-    found = np.zeros(n)
-    product(n, k, matrix.indptr, matrix.indices, matrix.data, values, found)
-    return found
+    added = _product_of_csr()
+    if added is None or matrix.format != "csr":
+        return cast("_Product", matrix.__matmul__)
+    (n, k), starts, columns, values = matrix.shape, matrix.indptr, matrix.indices, matrix.data
+
+    def product(vector: Floats) -> Floats:
+        found = np.zeros(n)
+        added(n, k, starts, columns, values, vector, found)
+        return found
+
+    return product
 
 
 @functools.cache

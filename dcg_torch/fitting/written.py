@@ -183,7 +183,7 @@ def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, 
     number[cells] = np.arange(len(cells))
     rows = np.flatnonzero(length)
     incidence = Incidence(np.repeat(np.arange(len(rows)), length[rows]), number[pairs], len(rows), len(cells))
-    return incidence, rows, cells // (groundings + 1) * groundings + cells % (groundings + 1)
+    return incidence, rows, cells - cells // (groundings + 1)  # without the last column of each language column
 
 
 def _merged(incidence: Incidence, count: Floats, offset: Floats | None) -> tuple[Incidence, Floats, Floats | None]:

@@ -141,15 +141,14 @@ class WorldEncoder:
         return Coded(padded(rows), code), first
 
     def _group_or_place(self, number: int, states: tuple[str, ...]) -> list[int]:
-        thing, colors = self.all[number], tuple[str, ...]()
-        if thing.members:
-            inside = [self.all[j].color for j in self.layout.members[number].tolist()]
-            colors = tuple([c for c in dict.fromkeys(inside) if c is not None])
+        thing = self.all[number]
         if self.related:
             states = (*states, *(("kind: group",) if thing.members else ("kind: place", "place: yes")))
-        key = thing.type, thing.known, thing.color, states, colors
-        columns = self._kinds.get(key)
+        key = thing.type, thing.known, thing.color, states  # which tell of the colours in a group
+        columns = self._kinds.get(key) if self.related else None
         if columns is None:
+            inside = [self.all[j].color for j in self.layout.members[number].tolist()] if thing.members else []
+            colors = [c for c in dict.fromkeys(inside) if c is not None]
             columns = self._kinds[key] = self.features.thing_columns(thing, states, colors)
         return columns
 

@@ -267,8 +267,10 @@ class Search:
         things = noun is not None and not in_group(noun.phrase)
         number = noun.phrase.count if noun is not None and noun.phrase.plural else None
         if world.meant is not None or (things and world.groups):
-            none = [things and bool(o.members) and number != len(o.members) for o in world.meanable]
-            out = np.array(none) | [not (world.meant is None or o.id in world.meant) for o in world.meanable]
+            out = np.zeros(meanable, dtype=np.bool_)
+            out[len(world.objects) :] = [things and number != len(group.members) for group in world.groups]
+            if world.meant is not None:
+                out |= [o.id not in world.meant for o in world.meanable]
             scores = np.where(out[None, :, None], -np.inf, scores)
             odds, fit = (None if v is None else np.where(out, -np.inf, v) for v in (odds, fit))
             code = None

@@ -75,7 +75,10 @@ def _straight(landmark: int, where: Layout) -> Bools:
 def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
     """(things,) what those lose that lie beyond the next one; None where fewer than two lie that way."""
     lifted = _lifted(landmark, up, where)
-    that_way = np.flatnonzero(_straight(landmark, where) & (lifted > _LEVEL))
+    higher = lifted > _LEVEL
+    if not higher.any():  # all stands on one level
+        return None
+    that_way = np.flatnonzero(higher & _straight(landmark, where))
     if len(that_way) < 2:
         return None
     heights, types = lifted[that_way], [where.things[j].type for j in that_way.tolist()]
@@ -99,7 +102,10 @@ def _lifted(landmark: int, up: float, where: Layout) -> Floats:
 
 def _inside(one: int, other: int, where: Layout) -> Bools:
     """(things,) what lies between two things of one stack; nothing where they are of two."""
-    height, straight = where.position[:, 2], _straight(one, where)
+    height = where.position[:, 2]
     low, high = sorted((height[one], height[other]))
-    found: Bools = straight & straight[other] & (height > low + _LEVEL) & (height < high - _LEVEL)
+    found: Bools = (height > low + _LEVEL) & (height < high - _LEVEL)
+    if found.any():
+        straight = _straight(one, where)
+        found &= straight & straight[other]
     return found

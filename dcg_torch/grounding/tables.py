@@ -118,17 +118,14 @@ class Tables:
         if own is None:
             own = self._related[phrase] = side[:, self.features.relation_of]
         first = list(dict.fromkeys([of[0] for of in landmarks]))
-        alone = side[:, self.features.placed_column, None]
-        out = np.empty((len(side), len(first), n))
-        out[:] = alone[..., None]
+        out = side[:, self.features.placed_column, None].repeat(len(first) * n, axis=1)
         step = max(1, _ENTRIES // (n * 16))
         for start in range(0, len(first), step) if own.any() else ():  # "facing" is measured alone
             part = [(j,) for j in first[start : start + step]]
             flat = encoder.relations(part, counted, members).reshape(-1, len(part) * n)
             flat = flat[flat.max(axis=1, initial=-1) >= 0].astype(np.int64)  # to most things half of them tell nothing
-            total = alone.repeat(flat.shape[1], axis=1)
-            _add(total, own, flat)
-            out[:, start : start + step] = total.reshape(len(side), -1, n)
+            _add(out[:, start * n : (start + len(part)) * n], own, flat)
+        out = out.reshape(len(side), -1, n)
         if landmarks and len(landmarks[0]) > 1:
             out = out[:, [first.index(of[0]) for of in landmarks]]
             out += own[:, scene.between(encoder.layout, landmarks)]

@@ -52,8 +52,8 @@ def _single_linkage(points: Floats, code: Ints) -> list[tuple[int, int, float]]:
         from scipy.cluster.hierarchy import linkage  # here: few commands speak of groups, and it takes a while
 
         return [(int(one), int(other), distance) for one, other, distance, _ in linkage(points, "single").tolist()]
-    i, j = (code[:, None] == code[None, :]).nonzero()
-    i, j = i[i < j], j[i < j]
+    every = np.arange(n)
+    i, j = ((code[:, None] == code) & (every[:, None] < every)).nonzero()
     x, y = (own[i] - own[j] for own in points.T)
     apart = np.sqrt(x * x + y * y)
     order = np.argsort(apart, kind="stable")

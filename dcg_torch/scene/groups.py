@@ -195,13 +195,12 @@ def _next_steps(points: Floats, code: Ints) -> dict[tuple[int, int], int]:
     """Which thing stands one more step on, of each step (i, j) between two that are next to each other on a level."""
     i, j = _steps(points, code)
     length = np.hypot(*(points[j] - points[i])[:, :2].T)
-    _, inside = _nearest_to(points, (points[i] + points[j]) / 2.0, code, code[i])
-    i, j, length = (of[inside > _HALFWAY * length] for of in (i, j, length))  # a row leaves out none of its own
-    due = 2.0 * points[j] - points[i]
-    best, miss = _nearest_to(points, due, code, code[i])
-    kept = miss < _UNEVEN * length
+    middle, due = (points[i] + points[j]) / 2.0, 2.0 * points[j] - points[i]
+    best, away = _nearest_to(points, np.concatenate([middle, due]), code, np.concatenate([code[i], code[i]]))
+    inside, miss = away[: len(i)], away[len(i) :]
+    kept = (inside > _HALFWAY * length) & (miss < _UNEVEN * length)  # a row leaves out none of its own
     pairs = zip(i[kept].tolist(), j[kept].tolist(), strict=True)
-    return dict(zip(pairs, best[kept].tolist(), strict=True))
+    return dict(zip(pairs, best[len(i) :][kept].tolist(), strict=True))
 
 
 def _steps(points: Floats, code: Ints) -> tuple[Ints, Ints]:

@@ -202,9 +202,7 @@ def layout(world: WorldModel) -> Layout:
     objects, placed = len(world.objects), n - len(world.places)
     position, on_floor = _as_seen(world, viewer)
     half = np.zeros((n, 2))
-    for j in range(placed, n):
-        if (size := things[j].size) is not None:
-            half[j] = size[:2]
+    half[placed:] = [(0.0, 0.0) if place.size is None else place.size[:2] for place in world.places] or 0.0
     half /= 2 * world.unit
     members = _members(world) if world.groups else {}
     if members:
@@ -276,9 +274,9 @@ def _of_groups(members: dict[int, Ints], position: Floats, half: Floats) -> None
     group, inside = list(members), np.concatenate(list(members.values()))
     counts = np.array([len(of) for of in members.values()])
     starts, own = np.cumsum(counts) - counts, position[inside]
-    total = np.zeros((len(group), 3))
-    np.add.at(total, np.repeat(np.arange(len(group)), counts), own)  # member after member: the same bits every time
-    position[group] = total / counts[:, None]
+    which = np.repeat(np.arange(len(group)), counts)
+    total = [np.bincount(which, axis) for axis in own.T]  # member after member: the same bits every time
+    position[group] = np.transpose(total / counts)
     reach = np.maximum.reduceat(own[:, :2], starts, axis=0) - np.minimum.reduceat(own[:, :2], starts, axis=0)
     half[group] = reach / 2
 
@@ -297,7 +295,7 @@ def _headings(things: tuple[Object, ...], position: Floats, middle: Floats, turn
         turned: the angle from where another viewer looks to where the robot does; None: the robot is the viewer.
     """
     out = np.full((len(things), 2), math.nan)
-    for j, thing in [(j, thing) for j, thing in enumerate(things) if thing.attributes]:
+    for j, thing in [(j, thing) for j, thing in enumerate(things) if thing.attributes and not thing.members]:
         if (side := _side(thing.attributes)) is None:
             continue
         x, y = side
