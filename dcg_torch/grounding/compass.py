@@ -16,7 +16,7 @@ from dcg_torch.grounding.bearings import that_way
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import ON_A_SIDE
 from dcg_torch.names.vocabulary import BY_COMPASS
-from dcg_torch.types import Phrase
+from dcg_torch.types import ParseTree
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -26,15 +26,18 @@ _SLANT = math.radians(25.0)
 
 
 def by_compass(
-    phrase: Phrase, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+    tree: ParseTree, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
 ) -> Floats:
     """(landmarks, things) log Psi of a modifier, measured where it names a point of the compass, from a thing.
+
+    What is north of several is so of each of them.
 
     Args:
         log_psi: what is learned, which stays for all else: from places and groups, and in a room of unknown north.
         landmarks: the number of each.
         compared: (things,) those of which the nearest is meant; None: those of one type.
     """
+    phrase = tree.phrase
     sides = BY_COMPASS.get(" ".join(phrase.text.split(" ")[-2:]), ())
     where = encoder.layout
     if phrase.words[0] not in sides or where.outlook is not None:
@@ -47,6 +50,9 @@ def by_compass(
             (off,) = that_way(offset, way, compared, encoder, whole=phrase.plural, aslant=_SLANT)
             found[k] = off / len(sides)  # each of its sides says it once
             found[k, j] = log_psi[k, j]
+    if tree.children[0].phrase.plural:
+        alike = encoder.type_number[list(landmarks)] == encoder.type_number[landmarks[0]]
+        found[alike] = found[alike].min(axis=0)
     return found
 
 

@@ -36,6 +36,7 @@ from dcg_torch.grounding.reach import means_all, of_all, of_denied
 from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
+from dcg_torch.grounding.upon import by_side_upon
 from dcg_torch.interpretation.measuring import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
@@ -75,11 +76,7 @@ _LANDMARKS = 8
 
 
 def modifier_factor(
-    tree: ParseTree,
-    beams: Sequence[Beam],
-    encoder: WorldEncoder,
-    tables: Tables,
-    compared: Bools | None = None,
+    tree: ParseTree, beams: Sequence[Beam], encoder: WorldEncoder, tables: Tables, compared: Bools | None = None
 ) -> ModifierFactor:
     """The factor of a modifier, from its log Psi under every choice of landmarks.
 
@@ -131,13 +128,14 @@ def _log_psi(
     if denied:
         return log_psi
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = by_side_upon(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_levels_of_stacks(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
-    log_psi = by_compass(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
+    log_psi = by_compass(tree, log_psi, [of[0] for of in landmarks], compared, encoder)
     if name in _MEMBER:
-        row = counted(tree.children[0].phrase.words) is not None
-        log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
+        row = counted(tree.children[0].phrase.words)
+        log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row is not None)
     return log_psi
 
 

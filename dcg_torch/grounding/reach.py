@@ -167,6 +167,12 @@ def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEnc
     return x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)
 
 
+def sides_of(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
+    """(landmarks, 2) where a side of each is, as it is looked at."""
+    x, y = (np.broadcast_to(v, (len(landmarks), 1)) for v in _ways(side, landmarks, encoder))
+    return np.concatenate([x, y], axis=1)
+
+
 ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
 """Preposition -> the direction in which what is so stands, as who looks sees it."""
 TOUCHING = 0.1

@@ -171,21 +171,22 @@ class Search:
         if not own:
             return []
         several = counted(tree.phrase.words) is not None
-        kind = self._beside_what_is_faced(tree)
+        faced, named = self._beside_what_is_faced(tree), self._of_several_classes(tree.phrase)
+        kind = named if faced is None else faced
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         sized = self.encoder.layout.bodies is not None
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
-        narrowed = is_narrowed(tree.phrase, self.encoder) or self._names_several(tree.phrase)
+        narrowed = is_narrowed(tree.phrase, self.encoder) or named is not None
         some = len(others) < len(own) and (several or bool(parts) or narrowed)
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
 
-    def _names_several(self, phrase: Phrase) -> bool:
-        """Does a noun name things of several classes that are there: "the vehicle closest to the gate"?"""
+    def _of_several_classes(self, phrase: Phrase) -> Bools | None:
+        """(things,) those that a noun names, where they are of several classes: "the vehicle closest to the gate"."""
         if phrase.noun is None:
-            return False
+            return None
         named = of_kind(phrase, self.encoder, self._tables)
-        return len(np.unique(self.encoder.type_number[named])) > 1
+        return named if len(np.unique(self.encoder.type_number[named])) > 1 else None
 
     def _beside_what_is_faced(self, tree: ParseTree) -> Bools | None:
         """(things,) those of a noun phrase's kind that may be meant by who faces what they are beside; else None."""
