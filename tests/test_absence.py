@@ -126,6 +126,11 @@ def test_a_new_word_may_name_what_is_there(model: GroundingModel) -> None:
     assert _absent(_ground(model, "go to the blicket", _things("pallet", "crate"))) < 0.5
 
 
+def test_a_word_that_is_known_and_names_no_thing_is_no_new_name(model: GroundingModel) -> None:
+    things = _things("red cube", "blue ball", "green lamp")
+    assert _absent(_ground(model, "the zorp", things)) < 0.5 < _absent(_ground(model, "the weather", things))
+
+
 def test_a_class_without_a_name_may_be_anything(model: GroundingModel) -> None:
     things = [Percept("a", f"{OPAQUE}7", None, (2.0, 0.0, 0.0))]
     assert _absent(_ground(model, "go to the pallet", things)) < 0.5

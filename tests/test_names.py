@@ -13,7 +13,7 @@ from name_pairs import MEANT, NOT_MEANT
 from noun_table import fit_weights, make_table
 
 from dcg_torch.names import embedding
-from dcg_torch.names.evidence import FORMS, KINDS, evidence, unheard_of
+from dcg_torch.names.evidence import FORMS, KINDS, evidence
 from dcg_torch.names.normal import DATA as DATA_FOLDER
 from dcg_torch.names.normal import normalise, read_data, singular
 from dcg_torch.names.weights import fact_weights, log_odds
@@ -237,9 +237,3 @@ def test_without_the_extra_one_line_says_so(monkeypatch: pytest.MonkeyPatch) -> 
     embedding._model.cache_clear()
     with pytest.raises(embedding.EmbeddingMissing, match=r"install dcg-torch\[embeddings\]"):
         embedding.embed(["a"])
-
-
-def test_a_word_for_no_thing_is_no_new_name() -> None:
-    """ "Zorp" may be what somebody calls a thing that is there, "weather" is known and is none."""
-    assert unheard_of("zorp")
-    assert not any(map(unheard_of, ("weather", "patience", "drill", "hydrant")))

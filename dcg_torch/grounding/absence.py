@@ -17,6 +17,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.english.dictionary import english
 from dcg_torch.fitting.psi import Floats
 from dcg_torch.grounding.contrary import contradicted
 from dcg_torch.grounding.encode import WorldEncoder
@@ -124,7 +125,7 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
     gap: Floats = np.maximum(0.0, best - odds)
     if tables.features.knows_noun(phrase.noun):
         return gap
-    if unheard_of(phrase.noun):
+    if unheard_of(phrase.noun) and not english().get(phrase.noun, {}).get("n", 0):  # "weather" is no thing
         gap = np.minimum(gap, _NEW)
     slips = [o.type is not None and may_be_meant_for(phrase.noun, o.type) for o in objects]
     gap = np.where(slips, np.minimum(gap, _LETTER), gap)

@@ -13,7 +13,6 @@ from typing import Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.english.dictionary import english
 from dcg_torch.names.everyday import Name, everyday, name_parts
 from dcg_torch.names.wordnet import nouns
 
@@ -297,11 +296,9 @@ def is_generic(noun: str) -> bool:
 
 
 def unheard_of(noun: str) -> bool:
-    """Is it one word that neither WordNet nor this project's list knows? "Weather" is no thing, but it is known."""
+    """Is it one word that neither WordNet nor this project's list knows?"""
     name = name_parts(noun)
-    if len(name.words) > 1 or _meanings(name.text).senses or name.text in everyday().groups:
-        return False
-    return not english().get(name.text, {}).get("n", 0)
+    return len(name.words) == 1 and not _meanings(name.text).senses and name.text not in everyday().groups
 
 
 @dataclass(frozen=True, slots=True)

@@ -62,9 +62,9 @@ def with_places(world: WorldModel, workspace: Workspace | None = None) -> WorldM
     """A world with the places that can be spoken of.
 
     Without a workspace there are no edges, only the robot, the speaker and the directions from them: the world of a
-    robot that drives about. Where no robot is known either, the scene is all that there is, and has the edges of what is
-    in it. A speaker of whom nothing is known is then taken to stand with the robot, and to speak of
-    the robot's left and right. The unit is a metre there, or less where things stand closer than in a room.
+    robot that drives about. Where no robot is known either, the scene is all that there is, and has the edges of what
+    is in it. A speaker of whom nothing is known is taken to stand with the robot, and to speak of the robot's left and
+    right. The unit is a metre there, or less where things stand closer than in a room.
     """
     if workspace is None and world.robot is None:
         workspace = Workspace(None, spacing(world.objects) or 1.0)
