@@ -11,6 +11,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.first_few import first_few
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.measured import measured
+from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.odd import odd_one
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.types import Phrase
@@ -37,7 +38,7 @@ def by_measure(
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
     phrase, few = first_few(phrase, modifiers, among, encoder)
-    phrase, extent = measured(phrase, told, among, encoder)
+    phrase, extent = measured(phrase, told, among, encoder, placed=not all(is_in_a_group(m.tree) for m in modifiers))
     phrase, end = outermost(phrase, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)
     return phrase, few + extent + end + odd
