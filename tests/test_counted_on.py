@@ -37,6 +37,7 @@ def benches(seed: int) -> list[Percept]:
         ("the bench that has exactly two pots on it", {"b1"}),
         ("go to the bench on which there are two pots", {"b1"}),
         ("the bench with the most pots", {"b2"}),
+        ("the bench with more than two pots on it", {"b2"}),
         ("the bench with the fewest pots", {"b0"}),
         ("the bench with only one pot", {"b0"}),
         ("both pots on the bench with two pots", {"p10", "p11"}),
