@@ -129,6 +129,26 @@ def test_pages_that_stand_upright(model: GroundingModel, text: str, meant: str) 
     assert _meant(model, Episode.model_validate(episode)) == {meant}
 
 
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the corner drawers", "11 15 41 45"),
+        ("open all four corner drawers", "11 15 41 45"),
+        ("the drawers in the corners", "11 15 41 45"),
+        ("the green corner drawer", "45"),
+        ("the blue drawers in the corners", "11 41"),
+        ("the red drawer on the edge", "15"),
+        ("the bottom drawer in the middle", "43"),
+        ("the drawer in the middle at the top", "13"),
+    ],
+)
+def test_rims_and_corners(model: GroundingModel, text: str, meant: str) -> None:
+    colors = {"11": "blue", "15": "red", "41": "blue", "45": "green"}
+    episode = _rack(text)
+    of = {"objects": [o.model_copy(update={"color": colors.get(o.id, o.color)}) for o in episode.objects]}
+    assert _meant(model, episode.model_copy(update=of)) == set(meant.split())
+
+
 def _objects(points: list[tuple[float, float, float]]) -> list[Object]:
     return [Object(f"o{k}", "block", False, position=point) for k, point in enumerate(points)]
 

@@ -100,6 +100,8 @@ def test_a_singular_stays(noun: str) -> None:
         ("apple", "pear", "name: none", "kind: sibling"),
         ("leather settee", "sofa", "name: none", "kind: head everyday"),
         ("spoon", "ladder", "name: none", "kind: apart"),
+        ("honey jar", "honey", "name: class is head", "kind: strange"),
+        ("honey jar", "jar", "name: class is head", "kind: strange"),
     ],
 )
 def test_facts(noun: str, name: str, form: str, kind: str | None) -> None:

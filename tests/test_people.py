@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import functools
+from typing import Final
 
 import pytest
 
+import dcg_torch
 from dcg_torch.evaluation.episodes import EpisodeObject
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import default_parser
@@ -188,3 +190,49 @@ def test_words_for_people() -> None:
 def test_of_words_of_which_one_fits_nobody_the_others_count(text: str, number: str) -> None:
     ranked = _ground(text, MEN, "man").probabilities
     assert max((p, i) for i, p in ranked.items() if i.isdecimal())[1] == number
+
+
+HALF_HAVE: Final = {
+    "a": {"hat: none", "scarf: red"},
+    "b": {"hat: blue", "scarf: red"},
+    "c": {"hat: blue", "scarf: none"},
+    "d": {"hat: none", "scarf: green"},
+}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("the child with no hat and a red scarf", "a"),
+        ("the child with no hat and a green scarf", "d"),
+        ("the child with a hat and no scarf", "c"),
+        ("the child who has no hat but a red scarf", "a"),
+        ("the child with a blue hat and a red scarf", "b"),
+    ],
+)
+def test_no_denies_what_it_stands_before_alone(text: str, expected: str) -> None:
+    model = dcg_torch.pretrained()
+    there = [
+        Percept(name, "child", None, (3.0, 1.5 - k, 0.0), attributes=frozenset(has))
+        for k, (name, has) in enumerate(HALF_HAVE.items())
+    ]
+    found = model.ground(text, model.world_model(there, looked=True))
+    assert [o.id for o in found.objects] == [expected]
+
+
+def test_of_two_things_with_one_is_there_and_the_other_is_not() -> None:
+    model = dcg_torch.pretrained()
+    there = [
+        Percept("t1", "table", None, (3.0, 2.0, 0.0)),
+        Percept("t2", "table", None, (3.0, -2.0, 0.0)),
+        Percept("t3", "table", None, (6.0, 0.0, 0.0)),
+        Percept("v1", "vase", None, (3.0, 2.0, 0.8)),
+        Percept("v3", "vase", None, (6.0, 0.0, 0.8)),
+        Percept("s1", "stool", None, (3.0, 2.8, 0.0)),
+        Percept("s2", "stool", None, (3.0, -2.8, 0.0)),
+    ]
+    world = model.world_model(there, looked=True)
+    said = {"a vase and no stool": "t3", "no vase and a stool": "t2", "a vase and a stool": "t1"}
+    assert {has: [o.id for o in model.ground(f"the table with {has}", world).objects] for has in said} == {
+        has: [id_] for has, id_ in said.items()
+    }

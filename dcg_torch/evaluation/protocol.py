@@ -96,8 +96,8 @@ class Answer:
             "correct": self.correct,
             "kind": self.kind,
             "cause": self.cause,
-            "problem": self.parse.problem,
-            "refused": getattr(self.parse, "refused", None),
+            "problem": self.parse.problem if self.solution is None else None,
+            "refused": getattr(self.parse, "refused", None) if self.solution is None else None,
             "unread": list(getattr(self.parse, "unread", ())),
         }
 
@@ -191,10 +191,10 @@ def answers(
         words = model.symbols
         reading = heard(parse, episode.text, words.keys(), world.objects)
         read = time.perf_counter()
-        noun, solution = reading.noun, None
+        noun = reading.noun
         kind = "known" if noun in first_words else "learned" if noun in words else "unknown"
-        if reading.tree is not None:
-            solution = model.ground(reading, world)
+        found = model.ground(reading, world)
+        solution = None if found.problem is not None else found
         grounded = time.perf_counter()
         if learn and solution is not None:
             model.learn(solution)

@@ -128,11 +128,8 @@ def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
 
 
 def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:
-    """New weights (P, L, G), the prior where they are to move; part by part: one mask for all takes thrice as long."""
-    fixed = weight.copy()
-    for p, own in enumerate(fixed):
-        np.copyto(own, 0.0 if prior is None else prior[p], where=active)
-    return fixed
+    """New weights (P, L, G), the prior where they are to move."""
+    return np.where(active, 0.0 if prior is None else prior, weight)
 
 
 class Problem(NamedTuple):

@@ -183,7 +183,13 @@ class Objective:
         """As a function of d (Q, K), from the curvature (Q, Q, N) of each row."""
         if len(curvature) == 1:
             own, strength = curvature[0], self.strength / 2.0
-            return lambda d: self.rows.through(d, lambda rows, u: own[:, rows] * u) + strength * d
+
+            def times_alone(d: Floats) -> Floats:
+                bent = self.rows.through(d, lambda rows, u: own[:, rows] * u)
+                bent += strength * d
+                return bent
+
+            return times_alone
 
         def bend(rows: slice, u: Floats) -> Floats:
             return _times(curvature[:, :, rows], u[:, None])[:, 0]
@@ -300,4 +306,5 @@ def max_norm(gradient: Floats) -> float:
     """Of the gradient with respect to all P weights, which sum to zero, from that of the last Q."""
     if not gradient.size:
         return 0.0
-    return float(max(np.abs(gradient).max(), np.abs(gradient.sum(axis=0)).max()))
+    last = float(np.abs(gradient).max())
+    return last if len(gradient) == 1 else max(last, float(np.abs(gradient.sum(axis=0)).max()))

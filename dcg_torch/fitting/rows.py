@@ -7,10 +7,11 @@ Conventions: K variables of each of Q differences, N rows, arrays (Q, K) and (Q,
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Protocol, Self
+from typing import TYPE_CHECKING, Protocol, Self, cast
 
 import numpy as np
 
@@ -213,10 +214,33 @@ class SparseRows(_AllAtOnce):
 
 def _applied(matrices: Sequence[csr_array], values: Floats) -> Floats:
     """Each matrix in turn, to every row of values (Q, n)."""
-    found = values[0] if len(values) == 1 else values.T
+    alone = len(values) == 1
+    found = values[0] if alone else values.T
     for matrix in matrices:
-        found = matrix @ found
-    return found[None] if len(values) == 1 else np.ascontiguousarray(found.T)
+        found = _times(matrix, found) if alone else matrix @ found
+    return found[None] if alone else np.ascontiguousarray(found.T)
+
+
+def _times(matrix: csr_array, values: Floats) -> Floats:
+    """A matrix times a vector: what `@` comes to, without its checks, which take longer than a small product."""
+    product = _product_of_csr()
+    if product is None or matrix.format != "csr":
+        plain: Floats = matrix @ values
+        return plain
+    n, k = matrix.shape
+    found = np.zeros(n)
+    product(n, k, matrix.indptr, matrix.indices, matrix.data, values, found)
+    return found
+
+
+@functools.cache
+def _product_of_csr() -> Callable[..., None] | None:
+    """What adds the product of a CSR matrix, as its parts, and a vector to another; None where scipy has it no more."""
+    try:
+        from scipy.sparse._sparsetools import csr_matvec  # here: only large fits need it
+    except ImportError:
+        return None
+    return cast("Callable[..., None]", csr_matvec)
 
 
 def ones_at(starts: Ints, numbers: Numbers, shape: tuple[int, ...], ones: Floats | None = None) -> csr_array:

@@ -13,9 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.nearness import nearest_of_a_kind
 from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import WITHIN
+from dcg_torch.names.vocabulary import BESIDE_THE_WAY, WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
@@ -50,26 +51,47 @@ def by_bearing(
         compared: (things,) those of which the nearest is meant; None: those of one type.
     """
     name, where = phrase.words[0], encoder.layout
-    if (name not in _AT and name not in _FROM_YOU) or encoder.world.robot is None:
+    if (name not in _AT and name not in _FROM_YOU and name != BESIDE_THE_WAY) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    if not ways or not (encoder.among_things or name == _AHEAD):
+    if not ways or not (encoder.among_things or name in (_AHEAD, BESIDE_THE_WAY)):
         return log_psi
-    kind = encoder.type_number if compared is None else compared.astype(np.int64)
-    whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
-    found = log_psi.copy()
-    for k, way in ways:
-        offset = where.position[:, :2] - where.robot
-        among = encoder.among_things
-        found[k] = _that_way(offset, way, None if whole else kind) if among else _straight_on(offset, way)
+    rows, to = [k for k, _ in ways], np.array([way for _, way in ways])
+    offset, found = where.position[:, :2] - where.robot, log_psi.copy()
+    if name == BESIDE_THE_WAY:
+        found[rows] = [_off_the_way(aside, where.solid) for aside in to @ offset.T]
+    elif not encoder.among_things:
+        found[rows] = _straight_on(offset, to)
+    else:
+        whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
+        found[rows] = that_way(offset, to, compared, encoder, whole=whole)
     return found
 
 
-def _straight_on(offset: Floats, way: Floats) -> Floats:
-    """(things,) how straight on each stands, near or far; `offset` is (things, 2) from the robot."""
-    slant = np.arctan2(offset @ np.array([-way[1], way[0]]), offset @ way)
+def _off(offset: Floats, ways: Floats) -> tuple[Floats, Floats]:
+    """(ways, things) how far each is to the left of a direction, and how far along it."""
+    (x, y), (along, across) = offset.T, ways.T[:, :, None]
+    return y * along - x * across, x * along + y * across
+
+
+def _straight_on(offset: Floats, ways: Floats) -> Floats:
+    """(ways, things) how straight on each stands, near or far; `offset` is (things, 2) from the robot."""
+    slant = np.arctan2(*_off(offset, ways))
     found: Floats = np.maximum(-0.5 * (np.where(np.isfinite(slant), slant, math.pi) / _STRAIGHT) ** 2, _NOT_AHEAD)
     return found
+
+
+def _off_the_way(aside: Floats, solid: Bools) -> Floats:
+    """(things,) how surely each is beside a way and not on it; `aside` is how far to one side each of them is."""
+    off = np.where(np.isfinite(aside), aside, -np.inf)
+    known = np.abs(off[solid & np.isfinite(off)])
+    bound = _ON_THE_WAY * float(np.median(known)) if len(known) else 0.0
+    found: Floats = np.maximum(-np.logaddexp(0.0, (bound - off) / max(TIE, _VAGUELY * bound)), _NOT_BESIDE)
+    return found
+
+
+_ON_THE_WAY, _VAGUELY, _NOT_BESIDE = 0.3, 0.1, -8.0
+"""Share of how far things are off a way up to which one is on it, how vague that is, and the most that one loses."""
 
 
 def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
@@ -80,25 +102,27 @@ def _way(name: str, landmark: int, encoder: WorldEncoder) -> Floats | None:
     return where.heading[landmark] if where.direction[landmark] and OF_ROBOT in thing.attributes else None
 
 
-def _that_way(offset: Floats, way: Floats, kind: NDArray[np.int64] | None) -> Floats:
-    """(things,) how well each stands in a direction: off it by an angle, and behind how many of its kind.
+def that_way(
+    offset: Floats, ways: Floats, compared: Bools | None, encoder: WorldEncoder, *, whole: bool, aslant: float = _SLANT
+) -> Floats:
+    """(ways, things) how well each stands in a direction: off it by an angle, and behind how many of its kind.
 
     Args:
-        offset: (things, 2) from the robot.
-        kind: (things,) of which kind each is; None: all that stand so are meant, near or far.
+        offset: (things, 2) from the robot, or another landmark.
+        compared: (things,) those of which the nearest is meant; None: those of one type.
+        whole: are all meant that stand so, near or far?
+        aslant: radians off it at which a thing loses half a nat.
     """
-    x, y = way
-    slant = np.arctan2(np.abs(offset @ np.array([-y, x])), offset @ way)
+    left, ahead = _off(offset, ways)
+    slant = np.arctan2(np.abs(left), ahead)
     there = np.isfinite(slant)
     slant = np.where(there, slant, math.pi)
     inside: Floats = -np.logaddexp(0.0, (slant - ASLANT) / UNSURE)
-    if kind is None:
+    if whole:
         return inside
-    inside = inside - 0.5 * (slant / _SLANT) ** 2
-    away = np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
-    cost = _E_FOLD * away - inside
-    least = np.full(kind.max(initial=0) + 1, np.inf)
-    np.minimum.at(least, kind, np.where(there, cost, np.inf))
-    behind = np.where(there, _E_FOLD * away - np.where(np.isfinite(least), least, 0.0)[kind], np.inf)
+    inside = inside - 0.5 * (slant / aslant) ** 2
+    away = _E_FOLD * np.log(np.maximum(np.where(there, np.hypot(*offset.T), np.inf), max(_LEAST, TIE)))
+    of_each, least = nearest_of_a_kind(np.where(there, away - inside, np.inf), compared, encoder)
+    behind = np.where(there, away - np.where(np.isfinite(least), least, 0.0)[of_each], np.inf)
     found: Floats = inside - np.maximum(behind, 0.0)
     return found

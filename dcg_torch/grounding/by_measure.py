@@ -7,11 +7,11 @@ from collections.abc import Collection, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.counted_away import counted_away, is_anchored
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.first_few import first_few
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.measured import measured
-from dcg_torch.grounding.modifiers import is_in_a_group
 from dcg_torch.grounding.odd import odd_one
 from dcg_torch.grounding.outermost import outermost
 from dcg_torch.types import Phrase
@@ -24,7 +24,7 @@ def by_measure(
     phrase: Phrase,
     told: Collection[str],
     modifiers: Sequence[ModifierFactor],
-    among: Bools,
+    described: tuple[Bools, Floats],
     encoder: WorldEncoder,
 ) -> tuple[Phrase, Floats]:
     """What the words say of each thing.
@@ -32,13 +32,15 @@ def by_measure(
     Args:
         told: words that attributes answer.
         modifiers: of the noun phrase.
-        among: (things,) what the rest of the phrase describes.
+        described: (things,) what the rest of the phrase describes, and the log-factor of how well it does.
 
     Returns:
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
+    among, fit = described
+    phrase, away = counted_away(phrase, modifiers, fit, encoder)
     phrase, few = first_few(phrase, modifiers, among, encoder)
-    phrase, extent = measured(phrase, told, among, encoder, placed=not all(is_in_a_group(m.tree) for m in modifiers))
+    phrase, extent = measured(phrase, told, among, encoder, anchored=is_anchored(modifiers))
     phrase, end = outermost(phrase, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)
-    return phrase, few + extent + end + odd
+    return phrase, away + few + extent + end + odd

@@ -15,6 +15,7 @@ from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.by_measure import by_measure
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
+from dcg_torch.grounding.compass import by_compass
 from dcg_torch.grounding.contrary import of_contradictions
 from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
@@ -88,24 +89,22 @@ def modifier_factor(
         compared: (things,) those among which it ranks; None: all of a kind.
     """
     several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
-    denied = NOT in tree.phrase.words
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     first = [of[0] for of in combos.things]
     having = of_having(tree, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
     log_psi = log_psi if having is None else having
-    of_each = several > 0 and len(combos) >= several
-    if of_each:
+    if of_each := several > 0 and len(combos) >= several:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
         log_psi = log_psi[np.array(chosen)].mean(axis=1)  # said once, it counts once
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each and having is None:
-        name, to = tree.phrase.words[0], [of[0] for of in landmarks]
-        far = of_denied(name, log_psi, to, scores, encoder, denied=denied)
+        name = tree.phrase.words[0]
+        far = of_denied(name, log_psi, first, scores, encoder, denied=NOT in tree.phrase.words)
         if far is not None:
             log_psi = far
         elif not means_all(tree.phrase):
-            log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
+            log_psi = by_nearness(name, log_psi, first, scores, compared, encoder)
     if of_each or (len(beams) > 1 and tree.phrase.words[0] not in MEASURED):
         scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
@@ -134,11 +133,12 @@ def _log_psi(
     log_psi = opposite(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = by_levels_of_stacks(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
-    log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
-    if name in _MEMBER:
-        row = counted(tree.children[0].phrase.words) is not None
-        log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row)
-    return log_psi
+    first = [of[0] for of in landmarks]
+    log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)
+    log_psi = by_compass(tree.phrase, log_psi, first, compared, encoder)
+    if name not in _MEMBER:
+        return log_psi
+    return of_members(log_psi, first, encoder, row=counted(tree.children[0].phrase.words) is not None)
 
 
 def _fewer(beams: Sequence[Beam]) -> Sequence[tuple[int, ...]] | None:
@@ -212,7 +212,7 @@ def comparison_set(
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    phrase, log_measure = by_measure(phrase, told, modifiers, described, encoder)
+    phrase, log_measure = by_measure(phrase, told, modifiers, (described, fit), encoder)
     return Comparison(described, log_size + log_shade + log_measure, phrase)
 
 
@@ -233,7 +233,7 @@ def _sized(
     log_size, out = np.zeros(len(named)), np.zeros(len(named))
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     denied = _denied_sizes(phrase.words)
-    kind = _of_kind(phrase, encoder, tables) if sizes or denied else named
+    kind = of_kind(phrase, encoder, tables) if sizes or denied else named
     off = _off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
     if off is not None:
         phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
@@ -263,7 +263,7 @@ def _denied_sizes(words: Sequence[str]) -> list[int]:
     return [side for side in sides if side is not None]
 
 
-def _of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
+def of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     """(things,) those that the noun of a phrase names."""
     table = tables.unranked(encoder, replace(phrase, color=None, look=(), words=()))
     number = tables.factor.correspondences.index

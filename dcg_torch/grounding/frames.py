@@ -14,10 +14,10 @@ from dataclasses import replace
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.interpretation.plain_words import whose_side
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.vocabulary import OWNERS
+from dcg_torch.names.vocabulary import LATERAL, ORDINALS, OWNERS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.bodies import gap
-from dcg_torch.scene.frames import seen_by_speaker, seen_facing
+from dcg_torch.scene.frames import seen_before, seen_by_speaker, seen_facing
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _SIDE = r"(?:\w+[ -]+){0,2}?(?:left|right|front|back|side|perspective|point of view|view|viewpoint)\b"
@@ -56,7 +56,9 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     """
     views_ = (FACING, FACING_FROM)
     place = next((c for c in tree.children if c.phrase.words[:1] and c.phrase.words[0] in views_ and c.children), None)
-    if place is None or len(tree.children) < 2 or place.children[0].phrase.noun is None:
+    if place is None:
+        return _from_before(tree, solve)
+    if len(tree.children) < 2 or place.children[0].phrase.noun is None:
         return None
     found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), place.children[:1]))
     thing = found.object
@@ -66,6 +68,39 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     seen = seen_facing(found.world, thing, away=away)
     noun = next((node.phrase.noun for node in tree.children[0].walk() if node.phrase.kind is PhraseKind.NOUN), None)
     return seen if seen is None or away or noun is None else _of_those_beside(seen, thing, noun)
+
+
+def _from_before(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
+    """ "The left pillow on the couch" is left for who stands before that, where nobody knows who stands where."""
+    sided = next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN and _is_sided(node)), None)
+    if sided is None:
+        return None
+    words = tuple(word for word in sided.phrase.words if not _says_side(word) and word not in ORDINALS)
+    rest = tuple(child for child in sided.children if not _is_side(child))
+    bare = ParseTree(replace(sided.phrase, words=words), rest)
+    found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), (bare,)))
+    if found.world.robot is not None:
+        return None
+    likely = max(found.probabilities.values(), default=0.0) * _AS_LIKELY
+    return seen_before(found.world, {id_ for id_, p in found.probabilities.items() if p >= likely})
+
+
+def _is_sided(noun: ParseTree) -> bool:
+    return any(map(_says_side, noun.phrase.words)) or any(map(_is_side, noun.children))
+
+
+def _says_side(word: str) -> bool:
+    return word.removeprefix("from the ").removesuffix("most") in LATERAL
+
+
+def _is_side(place: ParseTree) -> bool:
+    """ "On the left", and not "on the left of the bed"."""
+    side = place.children[0] if len(place.children) == 1 else place
+    return place.phrase.kind is PhraseKind.PREPOSITION and side.phrase.noun in LATERAL and not side.children
+
+
+_AS_LIKELY = 0.5
+"""Share of the likeliest one's probability from which things are among those of which one is on the left."""
 
 
 def _of_those_beside(world: WorldModel, faced: Object, noun: str) -> WorldModel:
@@ -102,6 +137,23 @@ def from_the_other_side(tree: ParseTree) -> ParseTree:
     return replace(
         tree, phrase=replace(tree.phrase, words=words), children=tuple(map(from_the_other_side, tree.children))
     )
+
+
+def as_viewed(tree: ParseTree, world: WorldModel) -> ParseTree:
+    """A tree as it is said in a world that is seen otherwise than by the robot; else as it is.
+
+    Where nobody knows where the robot is "your left" is the left of who faces what is told.
+    """
+    if world.viewer is None:
+        return tree
+    return from_the_other_side(tree) if world.robot is not None else _unowned(tree)
+
+
+def _unowned(tree: ParseTree) -> ParseTree:
+    phrase = tree.phrase
+    if phrase.noun in LATERAL:
+        phrase = replace(phrase, words=tuple(word for word in phrase.words if word not in OWNERS))
+    return ParseTree(phrase, tuple(map(_unowned, tree.children)))
 
 
 _OTHER = dict(zip(OWNERS, reversed(OWNERS), strict=True))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
-from dcg_torch.names.vocabulary import ORDINALS, is_superlative
+from dcg_torch.names.vocabulary import NUMBER_WORDS, ORDINALS, is_superlative
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Object, Phrase
 
@@ -35,26 +35,26 @@ _LIKE = {"wider": "largest", "widest": "largest"}
 
 
 def measured(
-    phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder, *, placed: bool = False
+    phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder, *, anchored: bool = False
 ) -> tuple[Phrase, Floats]:
     """What the words of a noun phrase that measure or count things say of each.
 
     Args:
         told: words that attributes answer.
         among: (things,) what the rest of the phrase describes.
-        placed: is it said where these are? Then they are vaguely told, and may be a part of a row.
+        anchored: may a landmark say from where it counts, "the first drawer left of the stove"?
 
     Returns:
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
     words = [word for word in phrase.words if word in dimensions() and word not in told]
-    counted, taken = _counted_along(phrase, among, encoder, placed=placed), set[str]()
+    counted, taken = _counted_along(phrase, told, among, encoder, anchored), set[str]()
     log = np.zeros(len(among)) if counted is None else counted
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
-    queue = counted is not None and _ALONG.keys().isdisjoint(phrase.words)
-    if queue or (counted is not None and number is not None and "last" in phrase.words):
+    in_line = counted is not None and _ALONG.keys().isdisjoint(phrase.words)
+    if in_line or (counted is not None and number is not None and "last" in phrase.words):
         # "The second last from the right" is no second from the right, of which weights were learned.
-        taken |= {"last", *ORDINALS, *_ALONG}
+        taken |= {"last", *ORDINALS, *_ALONG, *_number(phrase, told)}
         log *= _COUNTED_ALONE
     for word in words:
         values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
@@ -62,7 +62,7 @@ def measured(
         if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
             continue
         compared = word.endswith(("er", "est"))
-        loss = _behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
+        loss = behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
         log[known] -= loss
         log[~known] -= loss.max()
         taken |= {word, *(ORDINALS if compared else ())}
@@ -85,7 +85,9 @@ def _bulk(thing: Object, sign: float) -> float | None:
     return None if thing.size is None or not bulk(thing.size) > 0.0 else sign * math.log(bulk(thing.size))
 
 
-def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder, *, placed: bool) -> Floats | None:
+def _counted_along(
+    phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder, anchored: bool
+) -> Floats | None:
     """(things,) log-factor of "the second (to last) from the left", by the place among what the rest describes.
 
     None where nothing is counted so, and in a group, which counts its own.
@@ -93,43 +95,58 @@ def _counted_along(phrase: Phrase, among: Bools, encoder: WorldEncoder, *, place
     where, last = encoder.layout, "last" in phrase.words
     numbers = [ORDINALS[word] for word in phrase.words if word in ORDINALS] or [1] * last
     sides = [_ALONG[word] for word in phrase.words if word in _ALONG and (where.picture or word not in _DEEP)]
-    at = np.flatnonzero(among & where.solid & np.isfinite(where.position).all(axis=1))
-    line = None if sides or where.picture else _line_from(phrase, where.position[at], across=not placed)
-    queue = line is not None
-    sides = sides if line is None else [line]
-    if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or (phrase.among == "row" and not queue):
+    called = {} if numbers else _number(phrase, told)
+    if not (numbers or called):
         return None
-    first = where.position[at, :2] @ np.array(sides[0])
-    lost = _behind(-first if last else first, numbers[0], phrase.count or 1)
-    log = np.full(len(among), -lost.max() if queue else 0.0)
+    there = where.solid & np.isfinite(where.position).all(axis=1)
+    at = np.flatnonzero(among & there)
+    kind = there & np.isin(encoder.type_number, encoder.type_number[at])
+    first = None if sides or anchored else _first_in_line(phrase, where.position[kind], picture=where.picture)
+    sides = sides if first is None else [first]
+    numbers = numbers if first is None else numbers or list(called.values())
+    if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or (phrase.among == "row" and first is None):
+        return None
+    along = where.position[at, :2] @ np.array(sides[0])
+    lost = behind(-along if last else along, numbers[0], phrase.count or 1)
+    log = np.full(len(among), 0.0 if first is None else -lost.max())  # no place is the first of a line
     log[at] = -lost
     return log
 
 
-def _line_from(phrase: Phrase, position: Floats, *, across: bool) -> tuple[float, float] | None:
-    """The direction of the first of things that stand in a line, as who looks sees it: near, or left.
+def _number(phrase: Phrase, told: Collection[str]) -> dict[str, int]:
+    """The number that one thing is called by, if no attribute answers it: "door 3", "lane two"."""
+    if phrase.plural or phrase.count is not None:
+        return {}
+    numbers = {w: int(w) if w.isdecimal() else NUMBER_WORDS.get(w, 0) for w in phrase.words if w not in told}
+    return {word: number for word, number in numbers.items() if number > 0}
+
+
+def _first_in_line(phrase: Phrase, position: Floats, *, picture: bool) -> tuple[float, float] | None:
+    """Towards the first of things in a line that are counted from nowhere; None where they stand in no line.
+
+    A queue begins at its near end, a column of a picture at its top. What stands side by side is read from the left.
 
     Args:
-        position: (things, 3) of what is counted, from nowhere in particular; None where they stand in no line.
-        across: may the line be one from left to right?
+        position: (things, 3) of all that are of the kind of what is counted, as who looks sees them.
     """
-    if len(position) < _QUEUE or any(word.startswith("from ") or is_superlative(word) for word in phrase.words):
+    if len(position) < _LINE or any(word.startswith("from ") or is_superlative(word) for word in phrase.words):
         return None
-    deep, wide, _ = position.T
-    for along, aside, first in ((deep, wide, (-1.0, 0.0)), (wide, deep, (0.0, 1.0)))[: 1 + across]:
-        if np.ptp(aside) < _STRAIGHT * np.ptp(along) and np.diff(np.sort(along)).min() > _EVEN:
+    for axis, first in ((0, _TOP_FIRST if picture else _NEAR_FIRST), (1, _LEFT_FIRST)):
+        along, across = position[:, axis], position[:, 1 - axis]
+        if np.ptp(across) < _STRAIGHT * np.ptp(along) and np.diff(np.sort(along)).min() > _EVEN:
             return first
     return None
 
 
-_QUEUE, _STRAIGHT = 3, 0.25
+_LINE, _STRAIGHT = 3, 0.25
 """Things at least that make a line, and how wide it is at most for its length."""
+_NEAR_FIRST, _TOP_FIRST, _LEFT_FIRST = (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
 _DEEP = {"from the back": (1.0, 0.0), "from the front": (-1.0, 0.0)}
 _ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
 """From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""
 
 
-def _behind(values: Floats, number: int, count: int) -> Floats:
+def behind(values: Floats, number: int, count: int) -> Floats:
     """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing."""
     ahead: Floats = (values[None, :] > values[:, None] + _EVEN).sum(axis=1).astype(np.float64)
     return _BY_PLACE * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))

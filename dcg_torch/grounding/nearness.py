@@ -58,7 +58,7 @@ def _nearly_as_near(
     gap[np.arange(len(landmarks)), landmarks] = np.inf
     gap[:, ~encoder.layout.solid] = np.inf
     gap[~encoder.layout.solid[list(landmarks)]] = np.inf
-    of_each, nearest = _nearest_of_a_kind(gap, compared, encoder)
+    of_each, nearest = nearest_of_a_kind(gap, compared, encoder)
     best = np.full(len(nearest), -np.inf)
     first = np.isfinite(gap) & (gap <= nearest[of_each])
     np.maximum.at(best, of_each[first], log_psi[first])
@@ -72,8 +72,12 @@ _NEARLY = 9.0
 """Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind."""
 
 
-def _nearest_of_a_kind(gap: Floats, compared: Bools | None, encoder: WorldEncoder) -> tuple[Ints, Floats]:
-    """(combos, things) a number for each landmark and kind, and by these numbers the gap of the nearest; inf: none."""
+def nearest_of_a_kind(gap: Floats, compared: Bools | None, encoder: WorldEncoder) -> tuple[Ints, Floats]:
+    """(combos, things) a number for each landmark and kind, and by these numbers the gap of the nearest; inf: none.
+
+    Args:
+        gap: (combos, things) how far each is from each landmark, or what else is least of the nearest.
+    """
     kind = encoder.type_number if compared is None else compared.astype(np.int64)
     of_each: Ints = kind + (kind.max(initial=0) + 1) * np.arange(len(gap))[:, None]
     nearest = np.full(of_each.max(initial=0) + 1, np.inf)
@@ -140,7 +144,7 @@ def nearer_on_a_side(
     off = np.where(solid[mark][:, None] & solid, aslant(name, mark, encoder), np.inf)
     off[np.arange(len(mark)), mark] = np.inf
     beside, slanting = off < STRAIGHT, (off >= STRAIGHT) & (off < ASLANT)
-    of_each, nearest = _nearest_of_a_kind(np.where(beside, gap, np.inf), compared, encoder)
+    of_each, nearest = nearest_of_a_kind(np.where(beside, gap, np.inf), compared, encoder)
     lost = np.zeros(gap.shape)
     lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
     lost[slanting] = np.where(nearest[of_each[slanting]] < _NOT_FARTHER * gap[slanting], -_LESS_STRAIGHT, 0.0)

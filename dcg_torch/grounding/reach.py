@@ -43,9 +43,7 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     ranks = any(is_superlative(word) and word != "middle" for word in words) and ORDINALS.keys().isdisjoint(words)
     to_you = PLACE_WORDS.get(modifier.children[0].phrase.noun or "", ("", None))[0] == "robot"
     counted = to_you and any(ranks_from(c) for c in noun.children if c is not modifier)  # "the second chair behind you"
-    # "The second cup left of the lamp": counted among all that are left of it.
-    beside = not to_you and _COUNTED_BESIDE.get(phrase.words[0]) in words
-    ranks = (ranks or counted or beside) and not noun.phrase.plural
+    ranks = (ranks or counted) and not noun.phrase.plural
     sided = phrase.words[0] in ON_A_SIDE and ("to a thing" in phrase.context or to_you)
     if not ranks or NOT in phrase.words or not (sided or (to_you and phrase.words[0] == "ahead of")):
         return modifier
@@ -176,8 +174,6 @@ def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEnc
 
 ON_A_SIDE = {"left of": (0.0, 1.0), "right of": (0.0, -1.0), "behind": (1.0, 0.0), "in front of": (-1.0, 0.0)}
 """Preposition -> the direction in which what is so stands, as who looks sees it."""
-_COUNTED_BESIDE = {"left of": "from the right", "right of": "from the left"}
-"""Preposition -> from where things are counted that stand so."""
 TOUCHING = 0.1
 """Units of a gap below which distances are alike."""
 ASLANT, UNSURE = math.radians(65.0), math.radians(6.0)

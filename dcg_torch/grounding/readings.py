@@ -12,7 +12,7 @@ import numpy as np
 from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
-from dcg_torch.grounding.frames import from_the_other_side
+from dcg_torch.grounding.frames import as_viewed
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution, several_there
 from dcg_torch.grounding.tables import Tables
@@ -215,10 +215,7 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
         readings: the likeliest first.
     """
     brief = len(searches) * len(readings) > 1  # only the solution that is taken needs a runner-up
-    found = [
-        [search.ground(from_the_other_side(r.tree) if search.world.viewer else r.tree, brief=brief) for r in readings]
-        for search, _ in searches
-    ]
+    found = [[search.ground(as_viewed(r.tree, search.world), brief=brief) for r in readings] for search, _ in searches]
     weights = [[frame + r.log_weight for r in readings] for _, frame in searches]
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
     for search, _ in searches if brief else ():

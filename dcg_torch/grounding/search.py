@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.contrary import of_missing_marks
-from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, ranks
+from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, of_kind, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
@@ -175,9 +175,17 @@ class Search:
         others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
         sized = self.encoder.layout.bodies is not None
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
-        some = len(others) < len(own) and (several or bool(parts) or is_narrowed(tree.phrase, self.encoder))
+        narrowed = is_narrowed(tree.phrase, self.encoder) or self._names_several(tree.phrase)
+        some = len(others) < len(own) and (several or bool(parts) or narrowed)
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
+
+    def _names_several(self, phrase: Phrase) -> bool:
+        """Does a noun name things of several classes that are there: "the vehicle closest to the gate"?"""
+        if phrase.noun is None:
+            return False
+        named = of_kind(phrase, self.encoder, self._tables)
+        return len(np.unique(self.encoder.type_number[named])) > 1
 
     def _beside_what_is_faced(self, tree: ParseTree) -> Bools | None:
         """(things,) those of a noun phrase's kind that may be meant by who faces what they are beside; else None."""

@@ -45,15 +45,16 @@ def by_levels_of_stacks(
     if up == 0.0 and name != _BETWEEN:
         return log_psi
     where, found = encoder.layout, log_psi
+    stacked = set(where.near.stacked.nonzero()[0].tolist())
     for k, of in enumerate(landmarks):
-        if not where.solid[list(of)].all():
+        if len(of) != (1 if up else 2) or not stacked.issuperset(of):
             continue
-        if up != 0.0 and len(of) == 1:
+        if up != 0.0:
             lost = _levels_off(of[0], up, where)
             if lost is not None:
                 found = found.copy() if found is log_psi else found
                 found[k] = np.where(lost <= 0.0, _AMONG, found[k]) if whole else found[k] + np.nan_to_num(lost)
-        elif up == 0.0 and len(of) == 2:
+        else:
             inside = _inside(of[0], of[1], where)
             if inside.any():
                 found = found.copy() if found is log_psi else found

@@ -178,8 +178,8 @@ class _Speaking:
         if phrase.noun in _PLACES or names_one_of(phrase.noun, self.types):
             return []
         key = named_key(phrase.noun, self.keys)
-        if key is None:
-            return []
+        if key is None or (key in _OF_LOOKS and states_value(phrase.noun, frozenset({key}))):
+            return []  # a triangle is a shape, and has none
         whole = [w for w in said if _is_of_whole(w.removeprefix(NOT_), key)]
         like = [w for w in said if w not in whole and not w.startswith(NOT_)]
         denied = denied or "no" in like

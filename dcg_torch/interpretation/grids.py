@@ -26,6 +26,9 @@ _ANY, _FEW = 3, 6
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
 _ASLANT: tuple[Cell, ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 _MIDDLES = listed("middle")
+_CORNER = "corner"
+_RIMS = frozenset({_CORNER, "edge"})
+"""What "the corner tiles" and "those on the edge" have in common with all that is on the rim of a grid."""
 _SPOTS = listed("spots of a grid")
 _TELLING = frozenset().union(
     LINE_OF, LINE_ENDS, CELL_STEPS, _BESIDE, _SPOTS, _MIDDLES, ("between", "surrounded by", _DIAGONAL)
@@ -59,7 +62,12 @@ def by_cells(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTree]:
 @functools.lru_cache(maxsize=1024)
 def _may_speak_of_cells(tree: ParseTree) -> bool:
     """Is there a word without which `_Speaking` finds nothing to say?"""
-    return any(node.phrase.noun in _TELLING or not _TELLING.isdisjoint(node.phrase.words) for node in tree.walk())
+    return any(
+        node.phrase.noun in _TELLING
+        or (node.phrase.noun or "").partition(" ")[0] in _RIMS
+        or not _TELLING.isdisjoint(node.phrase.words)
+        for node in tree.walk()
+    )
 
 
 def _grid(world: WorldModel) -> Grid | None:
@@ -94,7 +102,7 @@ class _Speaking:
 
     def node(self, tree: ParseTree) -> ParseTree:
         """A phrase and all below it."""
-        phrase = tree.phrase
+        phrase = self.without_rim(tree.phrase)
         if phrase.kind is not PhraseKind.NOUN:
             return replace(tree, children=tuple(self.node(child) for child in tree.children))
         lines = [line for child in tree.children for line in self.lines(child)]
@@ -112,10 +120,20 @@ class _Speaking:
             if near:
                 found = (near if found is None else found & near) or near
                 phrase = replace(phrase, words=tuple(w for w in phrase.words if not _number((w,))), count=None)
-        found = found or self.corner(phrase, tree.children)
+        if not found and (found := self.corner(phrase, tree.children)):
+            kept = [self.node(place) for place in tree.children if not _is_a_spot(place)]
         if found:
+            phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in _RIMS))
             phrase = replace(phrase, words=(*phrase.words, f"{CELL}{'|'.join(map(_name, sorted(found)))}"))
         return ParseTree(phrase, tuple(kept))
+
+    def without_rim(self, phrase: Phrase) -> Phrase:
+        """A noun phrase that says "corner" as a word of its own: "the corner tiles", where no class is called so."""
+        rim, _, noun = (phrase.noun or "").partition(" ")
+        called = any((thing.type or "").lower().startswith(rim) for thing in self.things.values())
+        return (
+            phrase if rim not in _RIMS or not noun or called else replace(phrase, noun=noun, words=(*phrase.words, rim))
+        )
 
     def lines(self, place: ParseTree) -> Iterable[set[Cell]]:
         """The cells of each row or column that a prepositional phrase says a thing is in."""
@@ -198,29 +216,30 @@ class _Speaking:
     def corner(self, phrase: Phrase, places: Sequence[ParseTree]) -> set[Cell] | None:
         """The cells of "the top left drawer", "on the right edge", "in the very middle", if what stands there is so."""
         words, edge = {*phrase.words}, False
-        for place in places:
-            if place.phrase.words[:1] and place.phrase.words[0] in _WITHIN and len(place.children) == 1:
-                landmark = place.children[0]
-                if landmark.phrase.noun in _SPOTS | LINE_ENDS.keys() and not landmark.children:
-                    words |= {*landmark.phrase.words, landmark.phrase.noun or ""}
-                    edge = edge or landmark.phrase.noun == "edge"
+        for spot in (place.children[0].phrase for place in places if _is_a_spot(place)):
+            words |= {*spot.words, spot.noun or ""}
+            edge = edge or spot.noun == "edge"
+        ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
+        if words & _RIMS and not (ends or words & _MIDDLES):
+            return self.fitting(phrase, self.grid.corners() if _CORNER in words else self.grid.rim()) or None
         if phrase.plural or _number(words) is not None:
             return None
         if words & _MIDDLES and words <= _MIDDLES:
-            return self.fitting(phrase, self.central())
-        if not words.isdisjoint(("left", "right")):
-            words -= {"far"}  # "on the far right" is at no back
-        ends = {LINE_ENDS[word] for word in words if word in LINE_ENDS}
-        if len(ends) != 1 + (not edge) or len({axis for axis, _ in ends} & {0, 1}) != len(ends):
+            return self.fitting(phrase, self.grid.central())
+        if not words.isdisjoint(("left", "right")) and _CORNER not in words:
+            ends = {
+                LINE_ENDS[word] for word in words - {"far"} if word in LINE_ENDS
+            }  # "on the far right" is at no back
+        both = len({axis for axis, _ in ends} & {0, 1})
+        if both != len(ends) or not both or (both == 1 and not (edge or words & _MIDDLES)):
             return None
         size = (self.grid.rows, self.grid.columns)
         at = {axis or 0: 0 if end > 0 else size[axis or 0] - 1 for axis, end in ends}
-        return self.fitting(phrase, {cell for cell in self.things if all(cell[a] == k for a, k in at.items())}) or None
-
-    def central(self) -> set[Cell]:
-        """The cell in the middle, or those around it."""
-        rows, columns = ({(n - 1) // 2, n // 2} for n in (self.grid.rows, self.grid.columns))
-        return {(r, c) for r in rows for c in columns}
+        cells = {cell for cell in self.things if all(cell[a] == k for a, k in at.items())}
+        if both == 1 and words & _MIDDLES:  # "the bottom drawer in the middle"
+            (axis,) = {0, 1} - at.keys()
+            cells = {cell for cell in cells if cell[axis] in ((size[axis] - 1) // 2, size[axis] // 2)}
+        return self.fitting(phrase, cells) or None
 
     def beside(self, phrase: Phrase, place: ParseTree) -> set[Cell] | None:
         """The cells that a preposition to landmarks in the grid means; None where it means none for certain."""
@@ -268,6 +287,14 @@ class _Speaking:
     def fitting(self, phrase: Phrase, cells: Collection[Cell]) -> set[Cell]:
         """Those of some cells whose things have the name, colour and marks that a phrase says."""
         return {cell for cell in cells if (thing := self.things.get(cell)) is not None and _fits(phrase, thing, cell)}
+
+
+def _is_a_spot(place: ParseTree) -> bool:
+    """Does a prepositional phrase name a part of the grid: "in the top left corner", "on the edge"?"""
+    if place.phrase.words[:1] and place.phrase.words[0] in _WITHIN and len(place.children) == 1:
+        landmark = place.children[0]
+        return landmark.phrase.noun in _SPOTS | LINE_ENDS.keys() and not landmark.children
+    return False
 
 
 def _fits(phrase: Phrase, thing: Object, cell: Cell) -> bool:

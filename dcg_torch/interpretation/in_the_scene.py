@@ -43,6 +43,6 @@ def in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
     said = Words.of(tree)
     for rewrite in _REWRITES:
         found = rewrite(tree, said, world)
-        if found is not tree:
+        if found is not tree and found != tree:  # what is kept of a tree is kept of this very one
             tree, said = found, Words.of(found)
     return tree

@@ -49,7 +49,7 @@ def told_by_looking(tree: ParseTree, text: str, looks: Looks) -> ParseTree:
     if not looks.shown and not looks.named and not looks.valued:
         return tree
     words = _words(text)
-    several = looks.shown and _speaks_of_others(tree, looks.classes)
+    several = looks.shown and (_speaks_of_others(tree, looks.classes) or _is_mended(tree, text))
     values = stated_values(words) if looks.valued else ()
     names = _names_of_classes(tree, looks.classes)
     if looks.named or several:
@@ -71,7 +71,17 @@ def _but_names(words: tuple[str, ...], names: frozenset[str]) -> tuple[str, ...]
 def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
     """Whether a noun phrase after the first is one of the things that are there: "the small one above the big dot"."""
     _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
-    return any(names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") for noun in others)
+    goals = [noun.phrase for place in tree.children[1:] for noun in place.children]  # "between the two yellow ones"
+    return any(
+        names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") or noun in goals for noun in others
+    )
+
+
+def _is_mended(tree: ParseTree, text: str) -> bool:
+    """Is the first noun phrase put together from several of the text, because the speaker took something back?"""
+    first = next((node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
+    own, spoken = (re.findall(r"\w+", said.lower()) for said in ("" if first is None else first.text, text))
+    return len(own) > 1 and {*own} <= {*spoken} and f" {' '.join(own)} " not in f" {' '.join(spoken)} "
 
 
 def _words(text: str) -> tuple[str, ...]:

@@ -66,9 +66,12 @@ class _Builder(NounPhrases):
         elif item.kind is Kind.ADVERB:
             self.adverb(item, after)
         elif item.kind is Kind.NOUN and (self.preposition is not None or not self.is_subject(item, after)):
-            if self.joined and self.denied and item.noun and self.last in (END, *self.pending)[-1].children:
-                # "Not on the table or (on) the desk".
-                self.place(replace(self.pending[-1], words=(self.pending[-1].name.removeprefix("not "),), children=[]))
+            place = (END, *self.pending)[-1]
+            apart = place.name in PLACING["having"] and item.is_a("quantified") and item.negative != self.last.negative
+            if self.joined and (self.denied or apart) and item.noun and self.last in place.children:
+                # "Not on the table or (on) the desk", "with no hat and (with) a red shirt".
+                self.place(replace(place, words=("with" if apart else place.name.removeprefix("not "),), children=[]))
+                self.pending[-1].before = place.before if apart else self.pending[-1].before
             self.noun(item)
             self.joined = self.forced = self.excluded = self.denied = False
 

@@ -140,8 +140,7 @@ def _is_main(items: Sequence[Item], k: int, relative: bool, clause: Sequence[Ite
     lemma = item.name.split()[0]
     if _goes_on(item, before, clause) or _is_statement(clause, items, k) or _is_inverted(clause, item):
         return False
-    passive = item.participle and before.name == "be" and second.kind is Kind.NOUN
-    if passive and second.text not in SETS["people"]:
+    if item.participle and before.name == "be" and second.kind is Kind.NOUN and second.text not in SETS["people"]:
         return False  # "the block being held", "the cube is placed on ...", but "you are looking for"
     if relative:
         # "... that is near you and put it there": a command verb after "and" ends the relative clause.

@@ -121,7 +121,7 @@ def _unnamed(clause: Clause) -> None:
     """ "closest to me", "in the corner", "my left", "top left corner": of the thing only the place is said."""
     telling = PLACING["extremes"] | PLACING["between"]
     places = [p for p in clause.places if p.name in telling or p.children[0].is_a("somewhere")]
-    told = [side for side in clause.objects if side.is_a("side") and side.is_a("told_side")]
+    told = (side for side in clause.objects if side.is_a("side") and side.is_a("told_side"))
     places += [side.behind("in" if side.is_a("middle") else "on") for side in told]
     places += [spot.behind("in") for spot in clause.objects if spot.is_a("spot") and not spot.is_a("side")]
     if places:
@@ -187,8 +187,6 @@ def conjoin(item: Item, nouns: list[Item], pending: list[Item], clause: Clause, 
     item.words, item.plural = (*item.words, *(whole or ("or",) * (joint == "or"))), item.plural or whole != ()
     if not (apart and partner.is_a("place")):  # but "On the left, the red cone"
         share_noun(partner, item)
-        item.words += ("no",) if item.negative else ()  # "(with) a tie and no beard"
-        places = (place.children for place in reversed(pending))
-        beside = next((below for below in places if any(child is partner for child in below)), beside)
+        beside = next((of.children for of in reversed(pending) if any(one is partner for one in of.children)), beside)
     beside.append(item)
     nouns.append(item)

@@ -22,6 +22,7 @@ from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, told_where, worth_grounding
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.speakers import about_the_speaker
 from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.interpretation.marks import heard
 from dcg_torch.interpretation.spoken import ReadCommand
@@ -166,6 +167,8 @@ class GroundingModel:
             command = heard(parse_command, command, self.symbols.keys(), world.objects)
         if not hasattr(command, "readings"):
             raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
+        if self.variant.related:
+            command, world = about_the_speaker(command, world)
         if not command.readings:
             return Solution(None, world, problem=command.problem)
         readings = worth_grounding(command, world, self.learner.readings)

@@ -83,6 +83,8 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     rest = said.words[len(named.words) :] if said.words[: len(named.words)] == named.words else ()
     if rest and (lists.portions.issuperset(rest) or _says_kind(rest, named)):
         return "name: class is head", "kind: same"  # "marker pen", "pizza slice"
+    if rest and lists.packages.issuperset(rest):
+        return "name: class is head", "kind: strange"  # "milk carton" for milk, but a carton is one as well
     if said.head not in lists.purposeful:
         return None
     *_, word = before = said.words[:-1]
@@ -229,12 +231,22 @@ def _relation(noun: str, name: str) -> str:
         return "strange"
     if said.senses & named.senses:
         return "same"
+    if _is_whoever(noun) and not _is_whoever(name) and nouns().senses(_PERSON, 1)[0] in named.above[1]:
+        return "same"  # a "guy" may be a waiter
     for reach, relation in ((0, "kind"), (1, "far kind")):
         if said.above[reach] & named.senses:
             return f"noun is {relation}"
         if named.above[reach] & said.senses:
             return f"class is {relation}"
     return "sibling" if said.direct & named.direct else "apart"
+
+
+def _is_whoever(noun: str) -> bool:
+    """Is it a name of a person, whoever that is: "guy", "lady", "kid"?"""
+    return _share_a_name(noun, _PERSON)
+
+
+_PERSON: Final = "person"
 
 
 @functools.lru_cache(maxsize=8192)

@@ -220,7 +220,9 @@ AT_END, TOWARDS, AWAY_FROM = "at the end of", "on the side towards", "on the sid
 OF_OUTLINE = frozenset({AT_END, TOWARDS, AWAY_FROM})
 OF_BOTH = OF_TWO | OF_OUTLINE | {NEARER_OF_TWO, NEARER_THAN}
 """Prepositions of which several landmarks are no several places."""
-LIKE_RELATION |= {AT_END: "at", TOWARDS: "next to", AWAY_FROM: "next to"}
+BESIDE_THE_WAY = "beside the way on"
+"""Where a thing is on the side of a way on which somebody looks ahead, and what is counted there begins."""
+LIKE_RELATION |= {BESIDE_THE_WAY: "on", AT_END: "at", TOWARDS: "next to", AWAY_FROM: "next to"}
 PICKED_FROM = {"in the middle of": "middle", "left of": "leftmost", "right of": "rightmost"}
 PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom of": "bottom"}
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER
+from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER, layout
 from dcg_torch.scene.places import places, scene_bounds
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import wrap_angle
@@ -53,9 +54,41 @@ def seen_facing(world: WorldModel, thing: Object, *, away: bool = False) -> Worl
     if math.hypot(*ahead) < world.unit / 2.0:
         return None
     yaw = _straight_at(thing, ahead)
-    viewer = Pose(*thing.position[:2], yaw + math.pi) if away else Pose(x, y, yaw)
+    if away:
+        return _standing(world, Pose(*thing.position[:2], wrap_angle(yaw + math.pi)))
+    viewer = Pose(x, y, yaw)
     turned = _turned(world, viewer)
     return replace(turned, places=_bordered_anew(turned.places, world, viewer))
+
+
+def seen_before(world: WorldModel, ids: Collection[str]) -> WorldModel | None:
+    """The world as who stands before some things sees it, in a room where nobody knows who stands where.
+
+    Args:
+        ids: of two things or more.
+
+    Returns:
+        None where most of them are not looked at from one side, and where somebody is known to look.
+    """
+    middle = _middle(world)
+    outlook = layout(world).outlook if world.robot is None and world.viewer is None else None
+    angles = [] if outlook is None else [float(a) for o, a in zip(world.objects, outlook, strict=False) if o.id in ids]
+    if middle is None or len(angles) < 2:
+        return None
+    alike = [[a for a in angles if abs(wrap_angle(a - one)) < _ALIKE] for one in angles]
+    most = max(alike, key=len)
+    if len(most) < 2 or 2 * len(most) <= len(angles):
+        return None
+    viewer = Pose(*middle, math.atan2(sum(map(math.sin, most)), sum(map(math.cos, most))))
+    turned = _turned(world, viewer)
+    return replace(turned, places=_bordered_anew(turned.places, world, viewer))
+
+
+def _standing(world: WorldModel, at: Pose) -> WorldModel:
+    """The world as if the robot stood somewhere, and had its own left and right there."""
+    there = [o.position for o in world.objects if o.position is not None]
+    edges = any(place.type in _OF_A_BOX for place in world.places)
+    return replace(world, robot=at, viewer=None, places=places(scene_bounds(there, at) if edges else None, at, None))
 
 
 def _bordered_anew(found: tuple[Object, ...], world: WorldModel, viewer: Pose) -> tuple[Object, ...]:

@@ -34,6 +34,22 @@ class Grid:
     rows: int
     columns: int
 
+    def central(self) -> set[Cell]:
+        """The cell in the middle, or those around it."""
+        rows, columns = ({(n - 1) // 2, n // 2} for n in (self.rows, self.columns))
+        return {(r, c) for r in rows for c in columns}
+
+    def rim(self) -> set[Cell]:
+        """The cells at the ends of rows or columns."""
+        return {(r, c) for r, c in self._all() if r in (0, self.rows - 1) or c in (0, self.columns - 1)}
+
+    def corners(self) -> set[Cell]:
+        """The cells at the ends of both."""
+        return {(r, c) for r, c in self._all() if r in (0, self.rows - 1) and c in (0, self.columns - 1)}
+
+    def _all(self) -> set[Cell]:
+        return {(r, c) for r in range(self.rows) for c in range(self.columns)}
+
 
 def grid_of(objects: Sequence[Object], viewer: Pose | None = None) -> Grid | None:
     """The grid in which all things stand, as the viewer sees it; None where they stand in none.

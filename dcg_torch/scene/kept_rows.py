@@ -25,35 +25,27 @@ class KeptRows:
     def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], count: int) -> None:
         self._find = find
         self._count = count
-        self._kept: dict[int, tuple[Arrays, int]] = {}
+        self._row: dict[int, int] = {}
+        self._block: Arrays = ()
         self._together: dict[tuple[int, ...], Arrays] = {}
 
     def of(self, numbers: Sequence[int]) -> Arrays:
-        """The rows of some numbers; not to be written to."""
+        """The rows of some numbers, one at least; not to be written to."""
         found = self._together.get(tuple(numbers))
         return self._looked_up(numbers) if found is None else found
 
     def _looked_up(self, numbers: Sequence[int]) -> Arrays:
-        new = [j for j in dict.fromkeys(numbers) if j not in self._kept]
-        step = len(new) or 1 if self._count <= _MANY else 1
-        for start in range(0, len(new), step):
-            part = new[start : start + step]
-            found = self._find(np.array(part))
-            self._together[tuple(part)] = found
-            self._kept |= {j: (found, row) for row, j in enumerate(part)}
-        if len(new) == len(numbers) and (whole := self._together.get(tuple(numbers))) is not None:
-            return whole  # as is usual
-        whole = self._joined([self._kept[j] for j in numbers])
+        new = [j for j in dict.fromkeys(numbers) if j not in self._row]
+        if new:
+            step = len(new) if self._count <= _MANY else 1
+            parts = [self._find(np.array(new[start : start + step])) for start in range(0, len(new), step)]
+            blocks = [self._block, *parts] if self._row else parts
+            joined = [np.concatenate(of, axis=-2) for of in zip(*blocks, strict=True)] if blocks[1:] else blocks[0]
+            self._block = tuple(joined)
+            self._row |= zip(new, range(len(self._row), len(self._row) + len(new)), strict=True)
+        rows = [self._row[j] for j in numbers]
+        all_of_them = rows == list(range(len(self._row)))
+        whole = self._block if all_of_them else tuple([of.take(rows, axis=-2) for of in self._block])
         if self._count <= _MANY:
             self._together[tuple(numbers)] = whole  # the same are mostly asked for several times in a row
         return whole
-
-    @staticmethod
-    def _joined(kept: Sequence[tuple[Arrays, int]]) -> Arrays:
-        """The rows of some blocks as one block."""
-        block = kept[0][0]
-        if all(one is block for one, _ in kept):
-            rows = [row for _, row in kept]
-            return tuple([one.take(rows, axis=-2) for one in block])
-        slices = [[one[..., row : row + 1, :] for one in found] for found, row in kept]
-        return tuple([np.concatenate(parts, axis=-2) for parts in zip(*slices, strict=True)])

@@ -107,6 +107,8 @@ def ranks(where: Layout, members: Bools | None = None, *, ordinal: int | None = 
     """
     compared = np.ones(len(where.things), dtype=np.bool_) if members is None else members
     code = np.where(compared & ~where.place, where.group.astype(np.int64), -1)
+    if code.max(initial=-1) < 0:  # "your left": places have no ranks
+        return np.full((len(code), 1), -1)
     alike = Alike(code, [np.flatnonzero(code == k) for k in range(2)])
     values = _values(where)
     values[AXES.index("middle")] = _from_middle(where, alike)
