@@ -30,9 +30,10 @@ from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.on_the_ground import on_the_ground
+from dcg_torch.grounding.opposite import opposite
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.overhead import by_height
-from dcg_torch.grounding.reach import means_all, of_all, of_denied
+from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied
 from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
@@ -85,24 +86,22 @@ def modifier_factor(
         compared: (things,) those among which it ranks; None: all of a kind.
     """
     several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
-    denied = NOT in tree.phrase.words
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     first = [of[0] for of in combos.things]
-    having = of_having(tree.phrase, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
+    having = of_having(tree, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
     log_psi = log_psi if having is None else having
-    of_each = several > 0 and len(combos) >= several
-    if of_each:
+    if of_each := several > 0 and len(combos) >= several:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
         log_psi = log_psi[np.array(chosen)].mean(axis=1)  # said once, it counts once
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each and having is None:
-        name, to = tree.phrase.words[0], [of[0] for of in landmarks]
-        far = of_denied(name, log_psi, to, scores, encoder, denied=denied)
+        name = tree.phrase.words[0]
+        far = of_denied(name, log_psi, first, scores, encoder, denied=NOT in tree.phrase.words)
         if far is not None:
             log_psi = far
         elif not means_all(tree.phrase):
-            log_psi = by_nearness(name, log_psi, to, scores, compared, encoder)
+            log_psi = by_nearness(name, log_psi, first, scores, compared, encoder)
     if of_each or (len(beams) > 1 and tree.phrase.words[0] not in MEASURED):
         scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)
@@ -129,14 +128,15 @@ def _log_psi(
         return log_psi
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = by_side_upon(tree.phrase, log_psi, landmarks, encoder)
-    log_psi = by_levels_of_stacks(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = opposite(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = by_levels_of_stacks(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
-    log_psi = by_bearing(tree.phrase, log_psi, [of[0] for of in landmarks], compared, encoder)
-    log_psi = by_compass(tree, log_psi, [of[0] for of in landmarks], compared, encoder)
-    if name in _MEMBER:
-        row = counted(tree.children[0].phrase.words)
-        log_psi = of_members(log_psi, [of[0] for of in landmarks], encoder, row=row is not None)
-    return log_psi
+    first = [of[0] for of in landmarks]
+    log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)
+    log_psi = by_compass(tree, log_psi, first, compared, encoder)
+    if name not in _MEMBER:
+        return log_psi
+    return of_members(log_psi, first, encoder, row=counted(tree.children[0].phrase.words) is not None)
 
 
 def _fewer(beams: Sequence[Beam]) -> Sequence[tuple[int, ...]] | None:
@@ -192,7 +192,7 @@ def comparison_set(
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
     again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables)
-    again = again + nothing_near(phrase.words, encoder)
+    again += nothing_near(phrase.words, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
@@ -251,8 +251,7 @@ def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     if not (tiers or cells) and not any(word.startswith(f"{NOT} ") for word in phrase.words):
         return np.zeros(len(encoder.all))
     elsewhere = [not tiers <= o.attributes or any(map(o.attributes.isdisjoint, cells)) for o in encoder.all]
-    denied = [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
-    out = np.array(elsewhere) | denied
+    out = np.array(elsewhere) | [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
     return np.where(out, -_BEHIND - 1.0, 0.0)
 
 

@@ -55,6 +55,7 @@ def first_few(
     if values is None:
         return phrase, log
     ahead = (values[None, :] > values[:, None] + _EVEN).sum(axis=1)
+    log[:] = -_BY_PLACE * len(at)
     log[at] = -_BY_PLACE * np.maximum(0, ahead + 1 - count)
     return replace(phrase, words=tuple(word for word in phrase.words if word not in words)), log
 

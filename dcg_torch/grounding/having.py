@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.reach import alike_by, gaps
+from dcg_torch.names.relations import listed
 from dcg_torch.scene.order import numbered
-from dcg_torch.types import NOT, Phrase
+from dcg_torch.types import NOT, ParseTree, Phrase
 
 Floats = NDArray[np.float64]
 
@@ -26,11 +27,12 @@ _NOT_ITS = -8.0
 
 
 def of_having(
-    phrase: Phrase, log_psi: Floats, landmarks: Sequence[int], scores: Floats, several: int, encoder: WorldEncoder
+    tree: ParseTree, log_psi: Floats, landmarks: Sequence[int], scores: Floats, several: int, encoder: WorldEncoder
 ) -> Floats | None:
     """(landmarks, things) of "with" and "without" among things that have extents.
 
     Args:
+        tree: of the modifier, with one landmark.
         log_psi: what is learned, which stays for what has no extents.
         scores: (landmarks,) of the landmarks.
         several: how many landmarks are counted; 0 for one.
@@ -38,12 +40,14 @@ def of_having(
     Returns:
         None where nobody says how large the landmarks are, and of all other relations.
     """
-    bodies = encoder.layout.bodies
-    if phrase.words[0] != _WITH or bodies is None:
+    bodies, phrase = encoder.layout.bodies, tree.phrase
+    counted = several > 0 or not _NUMBERS.isdisjoint(tree.children[0].phrase.words)
+    on_it = counted and phrase.words[0] in listed("straight under") and phrase.text.startswith(_SAYS_HAS)
+    if (phrase.words[0] != _WITH and not on_it) or bodies is None:
         return None
-    alike = np.flatnonzero(alike_by(scores))
+    alike = np.flatnonzero(alike_by(scores) & encoder.perceived[list(landmarks)])
     mark = [landmarks[k] for k in alike.tolist()]
-    if max(mark) >= len(bodies.half) or not np.isfinite(bodies.half[mark]).all():
+    if max(mark, default=len(bodies.half)) >= len(bodies.half) or not np.isfinite(bodies.half[mark]).all():
         return None
     count = max(1, several)
     if len(mark) < count:
@@ -57,9 +61,40 @@ def of_having(
     best: Floats = np.maximum(np.sort(own, axis=0)[-count:].mean(axis=0), _NOT_ITS)
     if NOT in phrase.words:
         best = np.maximum(np.log(-np.expm1(np.minimum(_of_its_kind(best, encoder), -1e-4))), _NOT_ITS)
+    else:
+        best = np.maximum(best + _of_number(tree.children[0].phrase, (own > _OWN).sum(axis=0), encoder), _NOT_ITS)
     found = log_psi.copy()
     found[alike] = np.where(np.isfinite(where.position[:, 0]) & where.solid, best, log_psi[alike])
     return found
+
+
+def _of_number(phrase: Phrase, counts: NDArray[np.int64], encoder: WorldEncoder) -> Floats:
+    """(things,) what those lose that have more or fewer than is said: "with two mugs", "with the most mugs".
+
+    Args:
+        phrase: of the landmark.
+        counts: (things,) how many of the landmarks each has; compared with others of its type.
+    """
+    number = phrase.count if phrase.plural or _ONLY in phrase.words else None
+    if _MOST in phrase.words or not _LEAST.isdisjoint(phrase.words):
+        sign, kind = (-1 if _MOST in phrase.words else 1), encoder.type_number
+        values = np.where(counts > 0, sign * counts, np.iinfo(np.int64).max)
+        best = np.full(kind.max(initial=0) + 1, np.iinfo(np.int64).max)
+        np.minimum.at(best, kind, values)
+        return np.where(counts > 0, -_MISCOUNTED * (sign * counts - best[kind]), _NOT_ITS)
+    if number is None or number not in counts:
+        return np.zeros(len(counts))
+    return np.where(counts > number, -_MISCOUNTED * (counts - number), 0.0)
+
+
+_OWN = -0.5
+"""Nats above which what stands so has the landmark."""
+_MISCOUNTED = 3.0
+"""Nats that a thing loses for each by which it has more than is said, or fewer than the most."""
+_ONLY, _MOST, _LEAST = "only", "most", frozenset({"fewest", "least"})
+_NUMBERS = _LEAST | {_ONLY, _MOST}
+_SAYS_HAS = ("with", "ha")
+"""What begins the text of "with two mugs on it", "has two mugs on it", which is under them."""
 
 
 def _of_its_kind(best: Floats, encoder: WorldEncoder) -> Floats:

@@ -16,7 +16,8 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.vocabulary import NUMBER_WORDS, ORDINALS, is_superlative
-from dcg_torch.types import NOT, Phrase
+from dcg_torch.scene.bodies import bulk
+from dcg_torch.types import NOT, Object, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -67,12 +68,21 @@ def measured(
         taken |= {word, *(ORDINALS if compared else ())}
     for word in phrase.words:
         most = word.removeprefix(f"{NOT} ")
-        if most != word and most.endswith("est") and most in dimensions():
-            values = np.array([-math.inf if (v := measure(o, most)) is None else v for o in encoder.all])
+        if most != word and most.endswith("est") and (most in dimensions() or most in _BULKY):
+            sizes = [measure(o, most) if most in dimensions() else _bulk(o, _BULKY[most]) for o in encoder.all]
+            values = np.array([-math.inf if size is None else size for size in sizes])
             log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= 2.0 * _BY_PLACE
             taken.add(word)
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
+
+
+_BULKY = {"biggest": 1.0, "largest": 1.0, "smallest": -1.0}
+"""Words for what has the most of its whole size, or the least."""
+
+
+def _bulk(thing: Object, sign: float) -> float | None:
+    return None if thing.size is None or not bulk(thing.size) > 0.0 else sign * math.log(bulk(thing.size))
 
 
 def _counted_along(
@@ -96,9 +106,10 @@ def _counted_along(
     numbers = numbers if first is None else numbers or list(called.values())
     if not len(numbers) == len(sides) == 1 or len(at) < numbers[0] or (phrase.among == "row" and first is None):
         return None
-    log = np.zeros(len(among))
     along = where.position[at, :2] @ np.array(sides[0])
-    log[at] = -behind(-along if last else along, numbers[0], phrase.count or 1)
+    lost = behind(-along if last else along, numbers[0], phrase.count or 1)
+    log = np.full(len(among), 0.0 if first is None else -lost.max())  # no place is the first of a line
+    log[at] = -lost
     return log
 
 

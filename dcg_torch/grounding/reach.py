@@ -32,6 +32,11 @@ def means_all(phrase: Phrase) -> bool:
     return phrase.plural and (whole or around)
 
 
+def means_several(phrase: Phrase) -> bool:
+    """Is a modifier said of all that stand so, however many: "everything above the red box"?"""
+    return phrase.plural and phrase.count is None
+
+
 def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
     """A modifier of a noun phrase that ranks: "the farthest cup behind the lamp" is one of all that are behind it."""
     words, phrase = noun.phrase.words, modifier.phrase

@@ -32,13 +32,14 @@ _LEVEL = 0.01
 
 
 def by_levels_of_stacks(
-    name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
+    name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, whole: bool = False
 ) -> Floats:
     """(combos, things) how well things stand over, under and between the things of stacks.
 
     Args:
         name: of the relation.
         log_psi: what is learned; it stays for other relations, and where nothing is straight over or under a landmark.
+        whole: is all meant that lies that way, and not the next one?
     """
     up = 1.0 if name in _OVER else -1.0 if name in _UNDER else 0.0
     if up == 0.0 and name != _BETWEEN:
@@ -52,7 +53,7 @@ def by_levels_of_stacks(
             lost = _levels_off(of[0], up, where)
             if lost is not None:
                 found = found.copy() if found is log_psi else found
-                found[k] += lost
+                found[k] = np.where(lost <= 0.0, _AMONG, found[k]) if whole else found[k] + np.nan_to_num(lost)
         else:
             inside = _inside(of[0], of[1], where)
             if inside.any():
@@ -73,7 +74,7 @@ def _straight(landmark: int, where: Layout) -> Bools:
 
 
 def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
-    """(things,) what those lose that lie beyond the next one; None where fewer than two lie that way."""
+    """(things,) what those lose that lie beyond the next one, NaN for all else; None where fewer than two do."""
     lifted = _lifted(landmark, up, where)
     higher = lifted > _LEVEL
     if not higher.any():  # all stands on one level
@@ -84,7 +85,7 @@ def _levels_off(landmark: int, up: float, where: Layout) -> Floats | None:
     heights, types = lifted[that_way], [where.things[j].type for j in that_way.tolist()]
     alike = np.array([[one == other for other in types] for one in types])
     nearer = (alike & (heights[None] < heights[:, None] - _LEVEL)).sum(axis=1)
-    lost = np.zeros(len(lifted))
+    lost = np.full(len(lifted), np.nan)
     lost[that_way] = _FARTHER * np.minimum(nearer, _MANY)
     return lost
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.relations import listed
+from dcg_torch.names.vocabulary import GROUP_WORDS, SIDED
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _WITH, _SAME, _AS = "with", "same", "as"
@@ -25,16 +26,19 @@ def by_bearers(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
 def _by_bearers(tree: ParseTree) -> ParseTree:
     children = [_by_bearers(child) for child in tree.children]
     for k, (place, after) in enumerate(itertools.pairwise(children)):
-        borne = _borne(place, after)
+        borne = _borne(place, after, tree.phrase)
         if tree.phrase.kind is PhraseKind.NOUN and borne is not None:
             bearer = place.children[0]
             words = tuple(word for word in bearer.phrase.words if word != _SAME)
-            bearer = ParseTree(replace(bearer.phrase, words=words), (*bearer.children, borne))
+            if bearer.phrase.noun in GROUP_WORDS and (number := borne.children[0].phrase.count) is not None:
+                words, borne = (*words, f"of {number}"), None  # "in the row with five mugs"
+            more = () if borne is None else (borne,)
+            bearer = ParseTree(replace(bearer.phrase, words=words), (*bearer.children, *more))
             return replace(tree, children=(*children[:k], replace(place, children=(bearer,)), *children[k + 2 :]))
     return replace(tree, children=tuple(children))
 
 
-def _borne(place: ParseTree, after: ParseTree) -> ParseTree | None:
+def _borne(place: ParseTree, after: ParseTree, head: Phrase) -> ParseTree | None:
     """What is said of the landmark of a place by what comes after: "with the lamp on it"; None where nothing is."""
     if not _is_place(place) or not _is_place(after) or place.phrase.words[0] not in listed("on a thing"):
         return None
@@ -43,6 +47,9 @@ def _borne(place: ParseTree, after: ParseTree) -> ParseTree | None:
         it = ParseTree(Phrase(PhraseKind.NOUN, "it"))
         on_it = ParseTree(replace(place.phrase, text=place.phrase.words[0]), (it,))
         return ParseTree(Phrase(PhraseKind.PREPOSITION, _WITH, (_WITH,)), (replace(other, children=(on_it,)),))
+    again = after.phrase.words[0] == _WITH and head.noun is not None and other.phrase.noun == head.noun
+    if again and bearer.noun is not None and bearer.noun not in SIDED:
+        return after  # no cup is with two cups: it is the table that is
     if after.phrase.words[0] != _WITH or len(other.children) != 1 or not _is_place(other.children[0]):
         return None
     on_it = other.children[0]
