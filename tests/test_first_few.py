@@ -50,6 +50,18 @@ def test_in_a_column_only_what_is_in_it_is_ranked(rows: int, column: str, at: in
     ]
     assert meant(f"the two nearest barrels in the {column} column", things) == {f"0{at}", f"1{at}"}
     assert meant(f"the two farthest barrels in the {column} column", things) == {f"{rows - 2}{at}", f"{rows - 1}{at}"}
+    assert meant(f"the two barrels nearest the robot in the {column} column", things) == {f"0{at}", f"1{at}"}
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("count", COUNTS)
+def test_the_few_closest_to_a_thing_are_told_by_their_distance(seed: int, count: int) -> None:
+    things, _, _ = strewn(seed)
+    gate = Percept("gate", "gate", None, (12.0, 0.0, 0.0))
+    away = sorted(things, key=lambda o: np.hypot(o.position[0] - 12.0, o.position[1]))
+    said = COUNTS[count]
+    assert meant(f"the {said} crates closest to the gate", [*things, gate]) == {o.id for o in away[:count]}
+    assert meant(f"the {said} crates farthest from the gate", [*things, gate]) == {o.id for o in away[-count:]}
 
 
 @pytest.mark.parametrize("number", [4, 5, 7])

@@ -39,7 +39,7 @@ def by_measure(
     """
     among, fit = described
     phrase, away = counted_away(phrase, modifiers, fit, encoder)
-    phrase, few = first_few(phrase, modifiers, among, encoder)
+    phrase, few = first_few(phrase, modifiers, described, encoder)
     phrase, extent = measured(phrase, told, among, encoder, anchored=is_anchored(modifiers))
     phrase, end = outermost(phrase, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)

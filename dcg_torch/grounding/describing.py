@@ -26,7 +26,7 @@ from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured import measured
-from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group
+from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.on_the_ground import on_the_ground
@@ -314,5 +314,8 @@ def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...
 
 
 def ranks(tree: ParseTree) -> bool:
-    """Is it a noun phrase with words that may rank?"""
-    return tree.phrase.kind is PhraseKind.NOUN and ranking(tree.phrase) is not None
+    """Is it a noun phrase with words that may rank, or one of several that a modifier ranks?"""
+    if tree.phrase.kind is not PhraseKind.NOUN:
+        return False
+    several = tree.phrase.plural and (tree.phrase.count or 1) > 1
+    return ranking(tree.phrase) is not None or (several and any(map(ranks_from, tree.children)))

@@ -6,6 +6,7 @@ measured among what the rest of a noun phrase describes.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -16,7 +17,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.vocabulary import ORDINALS, TOGETHER, is_superlative
+from dcg_torch.names.vocabulary import NEAREST, ORDINALS, TOGETHER, is_superlative
 from dcg_torch.types import Phrase
 
 Floats = NDArray[np.float64]
@@ -29,35 +30,55 @@ _EVEN = 0.02
 _FIRST, _LAST = "first", "last"
 _WAYS = {"left": (0.0, 1.0), "right": (0.0, -1.0), "back": (1.0, 0.0), "front": (-1.0, 0.0)}
 """Side -> its direction, as who looks sees it."""
+_ALIKE = math.log(0.5)
+"""Of a thing that is described about as well as the best."""
+_FROM_A_THING = {NEAREST: -1.0, "farthest from": 1.0}
+"""Relations by which things are ranked from a landmark, and whether far or near is first."""
 _AWAY = {"closest": -1.0, "farthest": 1.0}
 """Words by which things are ranked from the robot, and whether far or near is first."""
 
 
 def first_few(
-    phrase: Phrase, modifiers: Sequence[ModifierFactor], among: Bools, encoder: WorldEncoder
+    phrase: Phrase, modifiers: Sequence[ModifierFactor], described: tuple[Bools, Floats], encoder: WorldEncoder
 ) -> tuple[Phrase, Floats]:
     """What a noun phrase that counts says of things.
 
     Args:
-        modifiers: of the noun phrase; where one of them ranks as well, the place is left to what is learned.
-        among: (things,) what the rest of the phrase describes.
+        modifiers: of the noun phrase; the one that ranks from a landmark is measured in the place of what is learned.
+        described: (things,) what the rest of the phrase describes, and the log-factor of how well it does.
 
     Returns:
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
-    log, count = np.zeros(len(among)), phrase.count or 1
-    at = np.flatnonzero(among & encoder.layout.solid & np.isfinite(encoder.layout.position).all(axis=1))
-    ranked = in_group(phrase) or any(ranks_from(m.tree) or picks_a_side(m.tree) for m in modifiers)
-    if not phrase.plural or count < 2 or len(at) <= count or ranked:
+    (among, fit), count = described, phrase.count or 1
+    log, ranked = np.zeros(len(among)), [m for m in modifiers if ranks_from(m.tree)]
+    own = in_group(phrase) or len(ranked) > 1 or any(picks_a_side(m.tree) for m in modifiers)
+    if not phrase.plural or count < 2 or own or any(w.startswith(TOGETHER) for w in phrase.words):
         return phrase, log
     words = [w for w in phrase.words if w in ORDINALS or w == _LAST or is_superlative(w) or w.startswith("from ")]
-    values = None if any(w.startswith(TOGETHER) for w in phrase.words) else _places(words, at, encoder)
-    if values is None:
+    if ranked and (words or ranked[0].tree.phrase.words[0] not in _FROM_A_THING):
+        return phrase, log
+    if ranked:
+        fit = fit - ranked[0].log_psi
+        among = (fit >= fit.max() + _ALIKE) & encoder.perceived
+    at = np.flatnonzero(among & encoder.layout.solid & np.isfinite(encoder.layout.position).all(axis=1))
+    values = _away(ranked[0], at, encoder) if ranked else _places(words, at, encoder)
+    if values is None or len(at) <= count:
         return phrase, log
     ahead = (values[None, :] > values[:, None] + _EVEN).sum(axis=1)
     log[:] = -_BY_PLACE * len(at)
     log[at] = -_BY_PLACE * np.maximum(0, ahead + 1 - count)
+    if ranked:
+        log[at] -= ranked[0].log_psi[at]  # it is measured, and not said twice
     return replace(phrase, words=tuple(word for word in phrase.words if word not in words)), log
+
+
+def _away(ranked: ModifierFactor, at: NDArray[np.int64], encoder: WorldEncoder) -> Floats | None:
+    """(at,) the higher, the earlier from the likeliest landmark of a modifier; None where that is nowhere."""
+    position = encoder.layout.position[:, :2]
+    landmark = ranked.combos.things[int(ranked.log_prior.argmax())][0]
+    away: Floats = _FROM_A_THING[ranked.tree.phrase.words[0]] * np.hypot(*(position[at] - position[landmark]).T)
+    return away if len(ranked.combos.beams) == 1 and np.isfinite(away).all() else None
 
 
 def _places(words: Sequence[str], at: NDArray[np.int64], encoder: WorldEncoder) -> Floats | None:
