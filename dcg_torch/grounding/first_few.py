@@ -62,8 +62,10 @@ def first_few(
         fit = fit - ranked[0].log_psi
         among = (fit >= fit.max() + _ALIKE) & encoder.perceived
     at = np.flatnonzero(among & encoder.layout.solid & np.isfinite(encoder.layout.position).all(axis=1))
+    if len(at) <= count:
+        return phrase, log
     values = _away(ranked[0], at, encoder) if ranked else _places(words, at, encoder)
-    if values is None or len(at) <= count:
+    if values is None:
         return phrase, log
     ahead = (values[None, :] > values[:, None] + _EVEN).sum(axis=1)
     log[:] = -_BY_PLACE * len(at)
