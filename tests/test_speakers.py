@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -91,3 +92,11 @@ def test_evaluate_counts_the_speaker(tmp_path: Path, capsys: pytest.CaptureFixtu
     rows = [json.loads(line) for line in (run / "predictions.jsonl").read_text().splitlines()]
     assert [row["predicted"] for row in rows] == [["a"], [], []]
     assert [row["refused"] is None for row in rows] == [True, False, False]
+
+
+def test_who_is_ruled_out_is_not_meant() -> None:
+    """The speaker is one of the things: what has been ruled out is so for "me" as well."""
+    world = scene()
+    others = frozenset(o.id for o in world.objects) - {"own"}
+    assert "own" not in meant("drive towards me", replace(world, meant=others))
+    assert "own" not in meant("follow me", replace(world, meant=others))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from dataclasses import replace
 
-from dcg_torch.grounding.solution import target_of
+from dcg_torch.grounding.solution import target_of, with_target
 from dcg_torch.names.vocabulary import DEFINITE, EXCEPT, ORDINALS, is_superlative
 from dcg_torch.types import ParseTree, WorldModel
 
@@ -30,20 +30,13 @@ def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]
         by_color = not (of.phrase.words or of.children or any(map(_counts, named)))  # "all but the red cups"
         color = None if by_color else of.phrase.color
         kept = ParseTree(replace(kept.phrase, noun=of.phrase.noun, color=color), kept.children + of.children)
-    return _about(tree, noun, kept), tuple(_about(tree, noun, _of_those(out, kept)) for out in named)
+    return with_target(tree, kept), tuple(with_target(tree, _of_those(out, kept)) for out in named)
 
 
 def without(world: WorldModel, ids: frozenset[str]) -> WorldModel:
     """A world in which some things are there and are not meant."""
     may_be = frozenset(o.id for o in world.things) if world.meant is None else world.meant
     return replace(world, meant=may_be - ids)
-
-
-def _about(tree: ParseTree, noun: ParseTree, other: ParseTree) -> ParseTree:
-    """A command about another noun phrase."""
-    if tree is noun:
-        return other
-    return replace(tree, children=tuple(_about(child, noun, other) for child in tree.children))
 
 
 def _is_definite(out: ParseTree) -> bool:

@@ -182,6 +182,20 @@ def target_of(tree: ParseTree) -> ParseTree | None:
     return next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), None)
 
 
+def with_target(tree: ParseTree, other: ParseTree) -> ParseTree:
+    """A tree about another noun phrase in the place of the one that `target_of` finds.
+
+    It is found by its place: equal trees may have been met, and a node that is kept of one is none of another.
+    """
+    if tree.phrase.kind is PhraseKind.NOUN:
+        return other
+    at = next((k for k, child in enumerate(tree.children) if target_of(child) is not None), None)
+    if at is None:
+        return tree
+    children = (*tree.children[:at], with_target(tree.children[at], other), *tree.children[at + 1 :])
+    return replace(tree, children=children)
+
+
 def several_there(solution: Solution) -> Solution:
     """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
     best, other = solution.best, solution.runner_up

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from dcg_torch.grounding.exceptions import without
-from dcg_torch.grounding.solution import target_of
+from dcg_torch.grounding.solution import target_of, with_target
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading
 from dcg_torch.names.normal import read_data
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
@@ -21,6 +21,8 @@ from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 _SAME_PLACE = 0.1  # metres
 _ME = "me"
 _NAMELESS = Phrase(PhraseKind.NOUN, "that one")
+_ORDER = ParseTree(Phrase(PhraseKind.VERB, ""), (ParseTree(Phrase(PhraseKind.NOUN, _ME, noun=_ME)),))
+"""What an order about "me" comes to that a parser refuses."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,29 +55,15 @@ def about_the_speaker(command: ReadCommand, world: WorldModel) -> tuple[ReadComm
         The command, and the world in which only what may be meant is meant.
     """
     body = body_of_speaker(world)
-    if body is None:
+    if body is None or (world.meant is not None and body.id not in world.meant):
         return command, world
-    own = [tree for reading in command.readings[:1] if (tree := _as_a_thing(reading.tree)) is not None]
-    if not command.readings and _orders().search(command.text):
-        own = [ParseTree(Phrase(PhraseKind.VERB, ""), (ParseTree(_NAMELESS),))]
-    if own:
-        return _Command(command.text, [_Reading(own[0])]), replace(world, meant=frozenset({body.id}))
+    tree = command.readings[0].tree if command.readings else _ORDER if _orders().search(command.text) else None
+    target = None if tree is None else target_of(tree)
+    if tree is not None and target is not None and target.phrase.noun == _ME:
+        said = _Command(command.text, [_Reading(with_target(tree, ParseTree(_NAMELESS)))])
+        return said, replace(world, meant=frozenset({body.id}))
     alike = any(o.type == body.type for o in world.objects if o is not body and not o.hypothetical)
     return command, without(world, frozenset({body.id})) if alike else world
-
-
-def _as_a_thing(tree: ParseTree) -> ParseTree | None:
-    """A tree that is about "me", with a noun phrase that names nothing; None of any other."""
-    target = target_of(tree)
-    if target is None or target.phrase.noun != _ME:
-        return None
-    return _with(tree, target)
-
-
-def _with(tree: ParseTree, target: ParseTree) -> ParseTree:
-    if tree is target:
-        return ParseTree(_NAMELESS)
-    return replace(tree, children=tuple(_with(child, target) for child in tree.children))
 
 
 @functools.cache
