@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.measured import behind
+from dcg_torch.interpretation.plain_words import COUNTED_FROM
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import ORDINALS, is_superlative
 from dcg_torch.types import Phrase
@@ -24,13 +25,8 @@ _ALIKE = 0.7
 """Nats by which what is counted may be described less well than the best, apart from where it is."""
 _TWICE = 2.0
 """The place counts against what is learned of the side as well."""
-_SIDES = {
-    "left of": (1, 1.0, "from the right"),
-    "right of": (1, -1.0, "from the left"),
-    "behind": (0, 1.0, "from the front"),
-    "in front of": (0, -1.0, "from the back"),
-}
-"""Relation -> axis and sign of the side, as who looks sees it; and from where what is there is counted."""
+_SIDES = {"left of": (1, 1.0), "right of": (1, -1.0), "behind": (0, 1.0), "in front of": (0, -1.0)}
+"""Relation -> axis and sign of the side, as who looks sees it."""
 _AMONG = listed("counted among")
 
 
@@ -61,7 +57,7 @@ def counted_away(
     name, *more = anchor.tree.phrase.words
     if more or name not in _SIDES:
         return nothing
-    axis, sign, start = _SIDES[name]
+    (axis, sign), start = _SIDES[name], COUNTED_FROM.get(name)
     if any((w.startswith("from ") and w != start) or is_superlative(w) for w in phrase.words):
         return nothing
     landmark = anchor.combos.things[int(anchor.log_prior.argmax())][0]

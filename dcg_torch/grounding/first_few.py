@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
+from dcg_torch.grounding.measured import behind
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import NEAREST, ORDINALS, TOGETHER, is_superlative
@@ -67,9 +68,8 @@ def first_few(
     values = _away(ranked[0], at, encoder) if ranked else _places(words, at, encoder)
     if values is None:
         return phrase, log
-    ahead = (values[None, :] > values[:, None] + _EVEN).sum(axis=1)
     log[:] = -_BY_PLACE * len(at)
-    log[at] = -_BY_PLACE * np.maximum(0, ahead + 1 - count)
+    log[at] = -behind(values, 1, count, even=_EVEN, nats=_BY_PLACE)
     if ranked:
         log[at] -= ranked[0].log_psi[at]  # it is measured, and not said twice
     return replace(phrase, words=tuple(word for word in phrase.words if word not in words)), log

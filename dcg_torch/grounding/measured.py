@@ -146,10 +146,15 @@ _ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
 """From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""
 
 
-def behind(values: Floats, number: int, count: int) -> Floats:
-    """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing."""
-    ahead: Floats = (values[None, :] > values[:, None] + _EVEN).sum(axis=1).astype(np.float64)
-    return _BY_PLACE * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))
+def behind(values: Floats, number: int, count: int, *, even: float = _EVEN, nats: float = _BY_PLACE) -> Floats:
+    """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing.
+
+    Args:
+        even: values that differ by less are of one place.
+        nats: lost for each place.
+    """
+    ahead: Floats = (values[None, :] > values[:, None] + even).sum(axis=1).astype(np.float64)
+    return nats * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))
 
 
 def _by_degree(values: Floats) -> Floats:

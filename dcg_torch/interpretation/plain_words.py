@@ -135,9 +135,9 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         return tree
     for k, place in enumerate(tree.children):
         side = place.children[0] if len(place.children) == 1 else tree
-        if place.phrase.words[:1] and place.phrase.words[0] in _COUNTED_FROM and side.phrase.noun not in PLACE_WORDS:
+        if place.phrase.words[:1] and place.phrase.words[0] in COUNTED_FROM and side.phrase.noun not in PLACE_WORDS:
             # "The second one to the right of the cup" is the second that one comes to.
-            return replace(tree, phrase=replace(phrase, words=(*phrase.words, _COUNTED_FROM[place.phrase.words[0]])))
+            return replace(tree, phrase=replace(phrase, words=(*phrase.words, COUNTED_FROM[place.phrase.words[0]])))
         if place.phrase.words[:1] == ("from",) and _is_a_thing(side):  # "the second chair from the door"
             nearest = replace(place, phrase=replace(place.phrase, words=(NEAREST, *place.phrase.words[1:])))
             return replace(tree, children=(*tree.children[:k], nearest, *tree.children[k + 1 :]))
@@ -162,7 +162,8 @@ def _is_a_thing(landmark: ParseTree) -> bool:
 
 
 _NTH = {str(number): word for word, number in ORDINALS.items()}
-_COUNTED_FROM = {"left of": "from the right", "right of": "from the left"}
+COUNTED_FROM = {"left of": "from the right", "right of": "from the left"}
+"""Side of a landmark -> from where what stands there is counted: its nearest is the first."""
 
 
 def _sided(tree: ParseTree) -> ParseTree:
