@@ -238,3 +238,16 @@ def test_what_is_on_a_thing_is_a_set_to_rank_in() -> None:
     yard = [*GARAGE, percept("gate", "gate", 8.5, 0.0, (0.1, 1.5, 2.0))]
     assert likeliest("the helmet closest to the gate", yard, 1) == {"helmet2"}
     assert likeliest("of the helmets on the cart with two helmets, the one closest to the gate", yard, 1) == {"helmet1"}
+
+
+def test_what_nobody_says_how_large_it_is_stays_comparable() -> None:
+    """One cup has no extents: how near it is to the counter's far side is not known, and no score becomes NaN."""
+    cups = [percept(f"cup{k}", "cup", 2.0 + 0.8 * k, 0.0, (0.1, 0.1, 0.1)) for k in range(2)]
+    lost = Percept("lost", "cup", None, (2.4, 0.5, 0.0))
+    counter = percept("counter", "counter", 2.4, 0.0, (0.6, 2.0, 0.9))
+    model = pretrained()
+    world = model.world_model([*cups, lost, counter], robot=Pose(0.0, 0.0), looked=True)
+    with np.errstate(invalid="raise"):
+        answer = model.ground("take the cup on the far side of the counter", world)
+    assert answer.object is not None and answer.object.id == "cup1"
+    assert np.isfinite(list(answer.probabilities.values())).all()

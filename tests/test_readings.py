@@ -13,7 +13,7 @@ import pytest
 
 import dcg_torch
 from dcg_torch import Percept, Pose
-from dcg_torch.grounding.readings import Reading, sense, worth_grounding
+from dcg_torch.grounding.readings import Reading, sense, sum_over, worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson
@@ -129,6 +129,19 @@ def test_what_is_taken_of_several_readings_has_the_runner_up_of_its_own(model: G
     assert solution.tree is not None
     assert solution.runner_up is not None
     assert solution.runner_up == model.solve(solution.tree, solution.world).runner_up
+
+
+def test_a_group_that_one_reading_alone_speaks_of_keeps_its_share(model: GroundingModel) -> None:
+    cups = [Percept(f"c{k}", "cup", None, (2.0, 0.4 * k, 0.0)) for k in range(3)]
+    world = model.world_model([*cups, Percept("k", "kettle", None, (1.0, 3.0, 0.0))], robot=None, looked=True)
+    row, kettle = (model.ground(text, world) for text in ("go to the row of cups", "go to the kettle"))
+    assert row.object is not None and row.object.members
+    assert kettle.world.groups == ()
+    for first, second in ((row, kettle), (kettle, row)):
+        found = sum_over([first, second], [0.1, 0.0])
+        assert sum(found.probabilities.values()) == pytest.approx(1.0)
+        assert set(found.probabilities) <= {o.id for o in found.world.meanable}
+        assert found.probabilities[row.object.id] > 0.1
 
 
 def test_an_unheard_noun_names_a_thing_and_hardly_a_place(model: GroundingModel) -> None:

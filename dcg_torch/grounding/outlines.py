@@ -62,8 +62,9 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
                 way[k] = _SEEN[next(iter(seen))]
         by = _out_to_a_side(offset, way if name == TOWARDS else -way)
     found = log_psi.copy()
-    there = encoder.layout.solid[None] & np.isfinite(by)
-    stands = _at_least(np.where(there, by, 0.0)) + within_reach(mark.tolist(), encoder, _REACH)
+    reach = within_reach(mark.tolist(), encoder, _REACH)
+    there = encoder.layout.solid[None] & np.isfinite(by) & np.isfinite(reach)
+    stands = _at_least(np.where(there, by, 0.0)) + np.where(there, reach, 0.0)
     found[known] = np.where(there, np.maximum(stands, _ELSEWHERE), log_psi[known])
     found[known, mark] = log_psi[known, mark]
     return found

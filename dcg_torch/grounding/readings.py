@@ -14,7 +14,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
 from dcg_torch.grounding.frames import as_viewed
 from dcg_torch.grounding.search import Search
-from dcg_torch.grounding.solution import Solution, several_there
+from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.interpretation.containers import in_what_holds_it
@@ -220,7 +220,6 @@ def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Se
     solution = sum_over([s for of in found for s in of], [w for of in weights for w in of])
     for search, _ in searches if brief else ():
         solution = search.with_runner_up(solution)
-    solution = several_there(solution)
     if len(searches) == 1:
         return solution
     told = [
@@ -266,9 +265,14 @@ def sum_over(solutions: Sequence[Solution], log_weights: Sequence[float]) -> Sol
         return solutions[0]
     # Of several that one reading means alike any may be the likeliest.
     best = max(grounded, key=lambda k: (max(total[id_] for id_ in meant[k]), shares[k]))
-    own = solutions[best].probabilities
-    own = total if isinstance(total, ByThing) else {id_: total[id_] for id_ in own}
-    return replace(solutions[best], probabilities=own)
+    return replace(solutions[best], probabilities=total, world=_with_groups_of(solutions[best].world, solutions))
+
+
+def _with_groups_of(world: WorldModel, solutions: Sequence[Solution]) -> WorldModel:
+    """A world with the groups that some readings alone speak of, which have their probability too."""
+    own = {group.id for group in world.groups}
+    more = {group.id: group for s in solutions for group in s.world.groups if group.id not in own}
+    return replace(world, groups=(*world.groups, *more.values())) if more else world
 
 
 def _mixed(parts: Sequence[Mapping[str, float]], shares: Sequence[float]) -> Mapping[str, float]:

@@ -73,8 +73,8 @@ class Search:
             return Solution(tree, world, problem="there is nothing here to mean")
         root = self._picked(tree, landmark=False)
         number, totals = self.encoder.number, root.totals()[: self._meanable]
-        best = self._nearest_best(root, totals)
         found = target_of(tree)
+        best = self._nearest_best(root, totals, several=found is not None and found.phrase.plural)
         noun = None if found is None else self._picked(found, landmark=False)
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
         odds = (
@@ -109,21 +109,32 @@ class Search:
         found = self._best(root, 1, scores)[0]
         return found if math.isfinite(found.log_score) else None
 
-    def _nearest_best(self, root: Scored, totals: Floats) -> Hypothesis:
-        """The best configuration; where names count, one of the nearest thing of those that are as good as equal."""
-        best, robot = self._best(root, 1)[0], self.encoder.world.robot
+    def _nearest_best(self, root: Scored, totals: Floats, *, several: bool) -> Hypothesis:
+        """The best configuration; where names count, one of the nearest thing of those that are as good as equal.
+
+        There something that is there is meant if that is twice as likely as that nothing is; of several, if it is
+        likelier.
+        """
+        best, robot, named = self._best(root, 1)[0], self.encoder.world.robot, judges_absence(self.encoder)
         things = self.encoder.world.objects
-        if robot is None or not judges_absence(self.encoder) or best.meant.hypothetical or best.meant.members:
+        if best.meant.hypothetical and (named or several):
+            least = math.log(0.5 if several else 2.0 / 3.0) + np.logaddexp.reduce(totals)
+            totals = np.where(self.encoder.perceived[: len(totals)], totals, -np.inf)
+            if np.logaddexp.reduce(totals) > least:
+                best = self._best_about(self.encoder.all[int(totals.argmax())].id, root) or best
+        if robot is None or not named or best.meant.hypothetical or best.meant.members:
             return best
         least = totals.max() + _EQUAL
         equal = [o for o, total in zip(things, totals.tolist(), strict=False) if total >= least]
         away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
         near = min(away, key=away.__getitem__, default=best.meant.id)
-        if near == best.meant.id:
-            return best
-        scores = np.where(root.about(near, self.encoder.number), root.scores, -np.inf)
+        return best if near == best.meant.id else self._best_about(near, root) or best
+
+    def _best_about(self, id_: str, root: Scored) -> Hypothesis | None:
+        """The best configuration about a thing; None if there is none."""
+        scores = np.where(root.about(id_, self.encoder.number), root.scores, -np.inf)
         found = self._best(root, 1, scores)[0]
-        return found if math.isfinite(found.log_score) else best
+        return found if math.isfinite(found.log_score) else None
 
     def _picked(self, tree: ParseTree, *, landmark: bool) -> Scored:
         """The scores of a phrase that picks one grounding.

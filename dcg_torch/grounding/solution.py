@@ -194,15 +194,3 @@ def with_target(tree: ParseTree, other: ParseTree) -> ParseTree:
         return tree
     children = (*tree.children[:at], with_target(tree.children[at], other), *tree.children[at + 1 :])
     return replace(tree, children=children)
-
-
-def several_there(solution: Solution) -> Solution:
-    """A solution for "all the fruits": several that are there are meant, if any of them is likelier than none."""
-    best, other = solution.best, solution.runner_up
-    if best is None or other is None or not best.meant.hypothetical or other.meant.hypothetical:
-        return solution
-    noun = solution.noun
-    unseen = sum(solution.probabilities[o.id] for o in solution.world.objects if o.hypothetical)
-    if noun is None or not noun.plural or unseen >= 0.5:
-        return solution
-    return replace(solution, best=other, runner_up=best)

@@ -202,10 +202,7 @@ def _stacks(kind: str, spots: Sequence[Spot], rng: np.random.Generator) -> Itera
         names += (
             [f"the {word} of {NUMBERS[len(stack)]} {kind}s"] if [len(s) for s in stacks].count(len(stack)) == 1 else []
         )
-        if len(stacks) > 1:
-            for name, axis, sign in (("left", 1, 1.0), ("right", 1, -1.0), ("top", 0, 1.0), ("bottom", 0, -1.0)):
-                if all(sign * (stack[0].position[axis] - s[0].position[axis]) > 0.8 for s in stacks if s is not stack):
-                    names.append(f"the {name} {word}")
+        names += _of_several(word, stack, stacks, rng)
         for name in names:
             only = frozenset({stack[-1].id})
             yield f"go to the top {kind} of {name}", only
@@ -215,6 +212,24 @@ def _stacks(kind: str, spots: Sequence[Spot], rng: np.random.Generator) -> Itera
             if near is not None:
                 yield from ((f"go to the {kind} {by} {name}", near) for by in ("closest to", "next to", "near"))
             yield from _beside(kind, name, stack, spots)
+
+
+def _of_several(word: str, stack: Spot, stacks: Sequence[Spot], rng: np.random.Generator) -> Iterator[str]:
+    """What tells a stack from the others by where it stands."""
+    if len(stacks) < 2:
+        return
+    for name, axis, sign in (("left", 1, 1.0), ("right", 1, -1.0), ("top", 0, 1.0), ("bottom", 0, -1.0)):
+        if all(sign * (stack[0].position[axis] - s[0].position[axis]) > 0.8 for s in stacks if s is not stack):
+            yield f"the {name} {word}"
+            yield f"the {word} on the {name}" if axis else f"the {word} at the {name}"
+            yield f"the {word} closest to the {name} edge of the board"
+    for (depth, side), compass in _COMPASS.items():
+        corner = (_DEEP / 2 * (1.0 + depth), _HALF * side)
+        meant = _least(stacks, lambda s, corner=corner: math.dist(s[0].position[:2], corner), 0.8)  # type: ignore[misc]
+        if meant == frozenset({stack[-1].id}):
+            lateral = "left" if side > 0.0 else "right"
+            yield f"the {word} in the {rng.choice(_DEPTHS[depth])} {lateral}{rng.choice(('', ' corner'))}"
+            yield f"the {word} closest to the {compass} corner"
 
 
 _WAYS = {
