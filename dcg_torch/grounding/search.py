@@ -31,6 +31,9 @@ Bools = NDArray[np.bool_]
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
+_WELL, _WIDER = math.log(0.05), 4
+"""Log of the share of the likeliest one's probability from which others are considered beyond the beam, and up to how
+many beams."""
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""
 
@@ -147,8 +150,18 @@ class Search:
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> Beam:
         found = self._found_of(tree, landmark)
         if found.beam is None:
-            found.beam = self._best(found.scored, self._beam)
+            found.beam = self._best(found.scored, self._wide(found.scored))
         return found.beam
+
+    def _wide(self, scored: Scored) -> int:
+        """How many hypotheses are considered: the beam, and where names count what may well be meant beyond it.
+
+        Among very many things that would take too long.
+        """
+        if not self._beam < scored.scores.shape[1] <= FEW or not judges_absence(self.encoder):
+            return self._beam
+        likely = int((scored.scores >= scored.scores.max() + _WELL).sum())
+        return max(self._beam, min(likely, _WIDER * self._beam))
 
     def _found_of(self, tree: ParseTree, landmark: bool) -> _Found:
         key = (tree, landmark)

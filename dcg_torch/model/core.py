@@ -38,7 +38,7 @@ from dcg_torch.model.stored import Stored, write
 from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.teacher import Told, forgotten, interpret, settled
 from dcg_torch.model.variant import Variant, initial_features, restrict
-from dcg_torch.scene.upsilon import with_known, world_model
+from dcg_torch.scene.upsilon import nearest_first, with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
 
@@ -149,7 +149,7 @@ class GroundingModel:
             speaker=speaker,
             unseen=frozenset({LOOKED_ROUND} if looked and Group.OPEN in self.variant.groups else ()),
         )
-        return with_places(world, workspace) if self.variant.related else world
+        return with_places(nearest_first(world), workspace) if self.variant.related else world
 
     def ground(self, command: str | ParseTree | ReadCommand, world: WorldModel) -> Solution:
         """[phi*, gamma*] of a command in a world (line 11).

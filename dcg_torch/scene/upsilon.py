@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable
 from dataclasses import replace
 
@@ -32,6 +33,21 @@ def perceive_objects(
         for p in checked(percepts)
     )
     return [o for o in seen if o.known or unknown]
+
+
+def nearest_first(world: WorldModel) -> WorldModel:
+    """The world with what is perceived in the order of its distance to the robot, or to the origin.
+
+    Recognisers give objects in any order, and the first of equals is taken: so that order has to mean something.
+    """
+    x, y = (0.0, 0.0) if world.robot is None else (world.robot.x, world.robot.y)
+
+    def how_far(thing: Object) -> tuple[float, tuple[float, ...], str]:
+        at = thing.position
+        return math.inf if at is None else math.hypot(at[0] - x, at[1] - y), at or (), thing.id
+
+    seen = sorted((o for o in world.objects if not o.hypothetical), key=how_far)
+    return replace(world, objects=(*seen, *(o for o in world.objects if o.hypothetical)))
 
 
 def with_known(world: WorldModel, known_types: Collection[str]) -> WorldModel:
