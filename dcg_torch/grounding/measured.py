@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.counting import EVEN, WAYS, behind, start_of_line
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.vocabulary import NUMBER_WORDS, ORDINALS, is_superlative
@@ -24,8 +25,8 @@ Bools = NDArray[np.bool_]
 
 _EVEN = 0.04
 """Logarithms of measures that differ by less are even."""
-_BY_PLACE = 3.0
-"""Nats for each place by which a thing stays behind "the second widest"."""
+_NOT_THE = 6.0
+"""Nats that the largest loses where something is called not the largest."""
 _COUNTED_ALONE = 2.0
 """So many times more where no words of the phrase are left that say the same."""
 _BY_DEGREE = 5.0
@@ -62,7 +63,9 @@ def measured(
         if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
             continue
         compared = word.endswith(("er", "est"))
-        loss = behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
+        loss = (
+            behind(values[known], number or 1, phrase.count or 1, even=_EVEN) if compared else _by_degree(values[known])
+        )
         log[known] -= loss
         log[~known] -= loss.max()
         taken |= {word, *(ORDINALS if compared else ())}
@@ -71,7 +74,7 @@ def measured(
         if most != word and most.endswith("est") and (most in dimensions() or most in _BULKY):
             sizes = [measure(o, most) if most in dimensions() else _bulk(o, _BULKY[most]) for o in encoder.all]
             values = np.array([-math.inf if size is None else size for size in sizes])
-            log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= 2.0 * _BY_PLACE
+            log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= _NOT_THE
             taken.add(word)
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
     return (phrase if kept == phrase.words else replace(phrase, words=kept)), log
@@ -124,37 +127,21 @@ def _number(phrase: Phrase, told: Collection[str]) -> dict[str, int]:
 def _first_in_line(phrase: Phrase, position: Floats, *, picture: bool) -> tuple[float, float] | None:
     """Towards the first of things in a line that are counted from nowhere; None where they stand in no line.
 
-    A queue begins at its near end, a column of a picture at its top. What stands side by side is read from the left.
-
     Args:
         position: (things, 3) of all that are of the kind of what is counted, as who looks sees them.
     """
     if len(position) < _LINE or any(word.startswith("from ") or is_superlative(word) for word in phrase.words):
         return None
-    for axis, first in ((0, _TOP_FIRST if picture else _NEAR_FIRST), (1, _LEFT_FIRST)):
-        along, across = position[:, axis], position[:, 1 - axis]
-        if np.ptp(across) < _STRAIGHT * np.ptp(along) and np.diff(np.sort(along)).min() > _EVEN:
-            return first
-    return None
+    side, wide = start_of_line(position, picture=picture)
+    apart = np.diff(np.sort(position[:, :2] @ np.array(WAYS[side]))).min()
+    return WAYS[side] if wide < _STRAIGHT and apart > EVEN else None
 
 
 _LINE, _STRAIGHT = 3, 0.25
 """Things at least that make a line, and how wide it is at most for its length."""
-_NEAR_FIRST, _TOP_FIRST, _LEFT_FIRST = (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
-_DEEP = {"from the back": (1.0, 0.0), "from the front": (-1.0, 0.0)}
-_ALONG = {"from the left": (0.0, 1.0), "from the right": (0.0, -1.0), **_DEEP}
-"""From where things are counted -> the direction of the first, as who looks sees it; up and down in a picture."""
-
-
-def behind(values: Floats, number: int, count: int, *, even: float = _EVEN, nats: float = _BY_PLACE) -> Floats:
-    """What is lost by the places from the most: the first `count` of them, or the one with a number, lose nothing.
-
-    Args:
-        even: values that differ by less are of one place.
-        nats: lost for each place.
-    """
-    ahead: Floats = (values[None, :] > values[:, None] + even).sum(axis=1).astype(np.float64)
-    return nats * (np.abs(ahead + 1 - number) if number > 1 else np.maximum(0.0, ahead + 1 - count))
+_ALONG = {f"from the {side}": way for side, way in WAYS.items()}
+_DEEP = {"from the back", "from the front"}
+"""From where things are counted -> the direction of the first; in the depth only in a picture, as up and down."""
 
 
 def _by_degree(values: Floats) -> Floats:
