@@ -9,7 +9,7 @@ import pytest
 from dcg_torch import GroundingModel, pretrained
 from dcg_torch.language import default_parser
 from dcg_torch.names.weights import log_odds
-from dcg_torch.scene.layout import layout
+from dcg_torch.scene.laying_out import layout
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 

@@ -16,41 +16,11 @@ from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
+from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
 from dcg_torch.scene.views import views
 
-DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
-"""The bounds of the distance features, in units of the world."""
-VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
-SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
-FRAMES = ("side", "side seen", "side spoken")
-"""Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = ("closest", "farthest")
-"""Orders by distance, of which `NEAREST` ranks each are features."""
-
-
-def _names() -> dict[str, list[str]]:
-    """Family of relation features -> the names of its values."""
-    bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
-    families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
-    families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for order in _ORDERS:
-        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
-    families["itself"] = ["itself"]
-    families["between"] = ["between", "not between"]
-    families["line"] = ["in line across", "in line along"]
-    families["direction"] = ["along", "rather along", "aslant", "against"]
-    families["part"] = ["in that part", "in another part"]
-    families["member"] = ["member", "no member"]
-    families["member top"] = ["top member", "lower member"]
-    families["member place"] = ["end member", "middle member", "inner member"]
-    return families
-
-
-RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for family, names in _names().items()}
-"""Family of relation features -> the names of its values; at most one value of a family fires."""
-RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
-_COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
+_COMPARED = [list(RELATIONS).index(order) for order in ORDERS]
 _BETWEEN = list(RELATIONS).index("between")
 
 
@@ -127,12 +97,7 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     exists = np.isfinite(distance) & ~itself
     # A line of the whole scene has everything near it: a thing is in it or not.
     alone = exists & ~where.line[first][:, None] if where.members else exists
-    near = distance
-    if covers is not None and apart is not None:
-        near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
-        near = np.where(covers, np.minimum(near, 0.0), near)
-    if where.picture:
-        near = np.where(place | ~where.solid[None], near, np.maximum(near, _BESIDE_IT))
+    near = _nearness(where, distance, place, covers, apart)
     steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),
@@ -156,6 +121,17 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
             of_family[:] = found[family]
     out += _STARTS * (out >= 0)
     return out, distance, alone
+
+
+def _nearness(where: Layout, distance: Floats, place: Bools, covers: Bools | None, apart: Bools | None) -> Floats:
+    """(c, n) the distance by which things are near: none of what is over or under, some of what is beside."""
+    near = distance
+    if covers is not None and apart is not None:
+        near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
+        near = np.where(covers, np.minimum(near, 0.0), near)
+    if where.picture:
+        near = np.where(place | ~where.solid[None], near, np.maximum(near, _BESIDE_IT))
+    return near
 
 
 _BOUNDS = np.array(DISTANCES)
