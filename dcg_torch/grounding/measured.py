@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.counting import EVEN, WAYS, behind, start_of_line
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.interpretation.dimensions import dimensions, measure
-from dcg_torch.names.vocabulary import NUMBER_WORDS, ORDINALS, is_superlative
+from dcg_torch.names.vocabulary import ORDINALS, cardinal, is_superlative
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Object, Phrase
 
@@ -120,8 +120,8 @@ def _number(phrase: Phrase, told: Collection[str]) -> dict[str, int]:
     """The number that one thing is called by, if no attribute answers it: "door 3", "lane two"."""
     if phrase.plural or phrase.count is not None:
         return {}
-    numbers = {w: int(w) if w.isdecimal() else NUMBER_WORDS.get(w, 0) for w in phrase.words if w not in told}
-    return {word: number for word, number in numbers.items() if number > 0}
+    numbers = ((word, cardinal(word)) for word in phrase.words if word not in told)
+    return {word: number for word, number in numbers if number is not None}
 
 
 def _first_in_line(phrase: Phrase, position: Floats, *, picture: bool) -> tuple[float, float] | None:
