@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import ON_A_SIDE, TOUCHING, inside_of, within_reach
-from dcg_torch.names.vocabulary import AT_END, BESIDE_WHOM, OF_OUTLINE, TOWARDS
+from dcg_torch.grounding.reach import inside_of, within_reach
+from dcg_torch.names.vocabulary import AT_END, OF_OUTLINE, TOWARDS
 from dcg_torch.scene.layout import HEADINGS
 
 Floats = NDArray[np.float64]
@@ -41,8 +41,6 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
         log_psi: what is learned; it stays for other relations, and where nobody says how large a landmark is.
     """
     bodies = encoder.layout.bodies
-    if name in BESIDE_WHOM and bodies is not None:
-        return _on_a_half(ON_A_SIDE[name], log_psi, landmarks, encoder)
     if name not in OF_OUTLINE or bodies is None:
         outside = inside_of(name, landmarks, encoder)
         return log_psi if outside is None else log_psi + outside
@@ -65,25 +63,6 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
     stands = _at_least(np.where(there, by, 0.0)) + within_reach(mark.tolist(), encoder, _REACH)
     found[known] = np.where(there, np.maximum(stands, _ELSEWHERE), log_psi[known])
     found[known, mark] = log_psi[known, mark]
-    return found
-
-
-def _on_a_half(
-    way: tuple[float, float], log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
-) -> Floats:
-    """(combos, things) what lies on a thing is left of it where it lies on its left half; the rest as it was."""
-    where, bodies = encoder.layout, encoder.layout.bodies
-    if bodies is None or where.outlook is not None or any(of[0] >= len(bodies.half) for of in landmarks):
-        return log_psi
-    mark, at = np.array([of[0] for of in landmarks]), where.position[: len(bodies.half), :2]
-    offset = at[None] - at[mark][:, None]
-    with np.errstate(invalid="ignore"):
-        upon = (np.abs(offset) < bodies.half[mark][:, None]).all(axis=2)
-        upon &= bodies.half.prod(axis=1)[None] < bodies.half[mark].prod(axis=1)[:, None]
-        upon &= bodies.bottom[None] > bodies.bottom[mark][:, None] + TOUCHING
-        by = (offset / bodies.half[mark][:, None] * way).sum(axis=2) - _SIDE
-    found = log_psi.copy()
-    found[:, : len(at)] = np.where(upon, _at_least(np.where(upon, by, 0.0)), log_psi[:, : len(at)])
     return found
 
 
