@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +20,8 @@ from dcg_torch.scene.order import before as lower
 from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
 from dcg_torch.scene.views import views
 
+_Over: TypeAlias = tuple[Bools, Bools] | None
+"""See `Bodies.over`; None where of nothing it is known how large it is."""
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
 _COMPARED = [list(RELATIONS).index(order) for order in ORDERS]
 _BETWEEN = list(RELATIONS).index("between")
@@ -72,7 +75,7 @@ class Relations:
 
     def _orders(self, first: Ints, alike: Alike, ordinal: int | None = None, count: int | None = None) -> Ints:
         _, distance, may = self.standing.of(first.tolist())
-        return _orders(self._where, first, distance, may, alike, ordinal, count)
+        return _orders(self._where, first, (distance, may), alike, ordinal, count)
 
 
 def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bools]:
@@ -84,10 +87,8 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     """
     position, place = where.position, where.place[first][:, None]
     x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
-    covers = apart = touches = None
-    offset = x, y
-    if where.bodies is not None:
-        covers, apart = where.bodies.over(first, np.stack([x, y], axis=2))
+    touches, offset = None, (x, y)
+    over = None if where.bodies is None else where.bodies.over(first, np.stack([x, y], axis=2))
     if where.wide is not None:
         half = where.half[first][:, None, :] + where.wide[first][:, None, :] + where.wide[None]
         x, y = (np.sign(v) * np.maximum(np.abs(v) - half[..., k], 0.0) for k, v in enumerate((x, y)))
@@ -97,11 +98,11 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     exists = np.isfinite(distance) & ~itself
     # A line of the whole scene has everything near it: a thing is in it or not.
     alone = exists & ~where.line[first][:, None] if where.members else exists
-    near = _nearness(where, distance, place, covers, apart)
+    near = _nearness(where, distance, place, over)
     steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),
-        "vertical": _vertical(where, first, near, up, exists, covers, apart),
+        "vertical": _vertical(where, first, near, up, exists, over),
         "itself": (itself & ~place) - 1,
     }
     aside = exists & (near >= SAME_SPOT)
@@ -123,10 +124,11 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     return out, distance, alone
 
 
-def _nearness(where: Layout, distance: Floats, place: Bools, covers: Bools | None, apart: Bools | None) -> Floats:
+def _nearness(where: Layout, distance: Floats, place: Bools, over: _Over) -> Floats:
     """(c, n) the distance by which things are near: none of what is over or under, some of what is beside."""
     near = distance
-    if covers is not None and apart is not None:
+    if over is not None:
+        covers, apart = over
         near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
         near = np.where(covers, np.minimum(near, 0.0), near)
     if where.picture:
@@ -152,11 +154,11 @@ _BESIDE_IT = 0.7
 """Units at least between things that are known to cover no part of one another."""
 
 
-def _vertical(
-    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools | None
-) -> Ints:
+def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, over: _Over) -> Ints:
+    """(c, n) which of `VERTICAL`, by heights, or by feet and tops where these are known."""
     step = _UP.searchsorted(up)  # 2 is on a level
-    if where.bodies is not None and covers is not None and apart is not None:
+    if where.bodies is not None and over is not None:
+        covers, apart = over
         step = np.where(covers | apart, where.bodies.steps(first, covers) + 2, step)
     value = _VERTICAL[(distance < SAME_SPOT).astype(np.int64), np.minimum(step, 4)]
     if where.ground[first].any():
@@ -182,15 +184,15 @@ def _sector(angle: Floats, kept: Bools) -> Ints:
 
 
 def _orders(
-    where: Layout,
-    first: Ints,
-    distance: Floats,
-    exists: Bools,
-    alike: Alike,
-    ordinal: int | None = None,
-    count: int | None = None,
+    where: Layout, first: Ints, measured: tuple[Floats, Bools], alike: Alike, ordinal: int | None, count: int | None
 ) -> Ints:
-    """(2, c, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
+    """(2, c, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way.
+
+    Args:
+        measured: (c, n) how far things are from the landmarks, and which of them may be the closest.
+        ordinal, count: see `Relations.to`.
+    """
+    distance, exists = measured
     value = distance
     towards = where.direction[first].nonzero()[0]
     if len(towards):
