@@ -37,7 +37,7 @@ from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denie
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.grounding.upon import by_side_upon
-from dcg_torch.interpretation.measuring import MORE_THAN, log_more
+from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side

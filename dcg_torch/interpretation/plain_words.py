@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.interpretation.measuring import compared_twice, compared_with
+from dcg_torch.interpretation.comparatives import compared_twice, compared_with
 from dcg_torch.interpretation.nearer import nearer_of_two
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
