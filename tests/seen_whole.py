@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import functools
+from asked import shipped
 
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 HERE = Pose(0.0, 0.0)
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def meant(text: str, things: list[Percept], robot: Pose | None = HERE) -> list[str]:
     """The ids of what a command means in a scene that is seen as a whole."""
-    world = _model().world_model(things, robot=robot, looked=True, workspace=Workspace.of(things))
-    return sorted(o.id for o in _model().ground(text, world).objects)
+    world = shipped().world_model(things, robot=robot, looked=True, workspace=Workspace.of(things))
+    return sorted(o.id for o in shipped().ground(text, world).objects)
 
 
 def thing(

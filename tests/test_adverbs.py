@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 import cmath
-import functools
 import math
 import random
 
 import pytest
+from asked import shipped
 
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 SIDES = {"ahead": 0.0, "left": 90.0, "behind": 180.0, "right": -90.0}
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
 
 
 def _scene(seed: int) -> tuple[Pose, list[Percept]]:
@@ -49,7 +42,7 @@ def test_sides_of_a_robot_among_the_things(text: str, side: str) -> None:
     right = 0
     for seed in range(10):
         robot, things = _scene(seed)
-        right += [o.id for o in _model().ground(text, _model().world_model(things, robot=robot)).objects] == [side]
+        right += [o.id for o in shipped().ground(text, shipped().world_model(things, robot=robot)).objects] == [side]
     assert right >= 8  # by chance 2.5 are
 
 
@@ -57,8 +50,8 @@ def test_in_front_of_a_robot_at_a_table_is_the_tables_own_side() -> None:
     things = [
         Percept(f"c{k}", "cup", "red", (x, y, 0.0)) for k, (x, y) in enumerate([(0.4, 0.1), (0.9, 0.0), (0.7, -0.3)])
     ]
-    world = _model().world_model(things, robot=Pose(0.0, 0.0))
-    assert [o.id for o in _model().ground("take the cup at the front", world).objects] == ["c0"]
+    world = shipped().world_model(things, robot=Pose(0.0, 0.0))
+    assert [o.id for o in shipped().ground("take the cup at the front", world).objects] == ["c0"]
 
 
 @pytest.mark.parametrize(
@@ -74,22 +67,22 @@ def test_the_nearest_on_a_side_is_meant_where_the_robot_stands_among_things(text
         for name, (away, angle) in at.items():
             spot = cmath.rect(away, robot.yaw + math.radians(angle + rng.uniform(-15.0, 15.0)))
             things.append(Percept(name, "barrel", "green", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
-        right += [o.id for o in _model().ground(text, _model().world_model(things, robot=robot)).objects] == ["near"]
+        right += [o.id for o in shipped().ground(text, shipped().world_model(things, robot=robot)).objects] == ["near"]
     assert right >= 9  # the one farthest to the left was taken
 
 
 def test_the_left_of_a_robot_outside_is_a_side_of_the_scene() -> None:
     things = [Percept(f"j{k}", "jar", "red", (1.5, y, 0.0)) for k, y in enumerate([0.9, 0.3, -0.4, -0.9])]
-    world = _model().world_model(things, robot=Pose(0.0, 0.0))
-    assert [o.id for o in _model().ground("the jar on your left", world).objects] == ["j0"]
+    world = shipped().world_model(things, robot=Pose(0.0, 0.0))
+    assert [o.id for o in shipped().ground("the jar on your left", world).objects] == ["j0"]
 
 
 def test_what_ranks_among_all_in_front_is_not_the_nearest_in_front() -> None:
     spots = {"a": (5.0, 2.5), "b": (4.0, 0.1), "c": (4.5, -2.0), "back": (-4.0, 3.0)}
     things = [Percept(name, "trolley", "grey", (*spot, 0.0)) for name, spot in spots.items()]
-    world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True)
+    world = shipped().world_model(things, robot=Pose(0.0, 0.0), looked=True)
     for text, meant in (("the leftmost trolley in front of the robot", "a"), ("the trolley in front of you", "b")):
-        assert [o.id for o in _model().ground(text, world).objects] == [meant]
+        assert [o.id for o in shipped().ground(text, world).objects] == [meant]
 
 
 def test_all_on_a_side_and_those_that_are_counted_there() -> None:
@@ -106,7 +99,7 @@ def test_all_on_a_side_and_those_that_are_counted_there() -> None:
     for name, (away, angle) in spots.items():
         spot = cmath.rect(away, robot.yaw + math.radians(angle))
         things.append(Percept(name, "barrel", "green", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
-    world = _model().world_model(things, robot=robot, looked=True)
+    world = shipped().world_model(things, robot=robot, looked=True)
     for text, meant in (
         ("the barrels on your left", {"l1", "l2"}),
         ("all barrels to your left", {"l1", "l2"}),
@@ -116,4 +109,4 @@ def test_all_on_a_side_and_those_that_are_counted_there() -> None:
         ("the barrels behind you", {"back1", "back2"}),
         ("turn to the barrel at your back", {"back1"}),
     ):
-        assert {o.id for o in _model().ground(text, world).objects} == meant, text
+        assert {o.id for o in shipped().ground(text, world).objects} == meant, text

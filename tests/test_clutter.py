@@ -19,7 +19,7 @@ from dcg_torch.language import Parser
 from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.model import GroundingModel
-from dcg_torch.scene.layout import layout
+from dcg_torch.scene.laying_out import layout
 from dcg_torch.scene.upright import laid_flat
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import Object, ParseTree, Percept, Pose, WorldModel

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import functools
 import math
 
 import pytest
+from asked import shipped
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import Object, Percept, Pose, WorldModel
@@ -24,15 +22,10 @@ SHELF = (  # id, class, x, y, extents
 )
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str) -> set[str]:
     percepts = [Percept(id_, kind, None, (x, y, size[2] / 2.0), size=size) for id_, kind, x, y, size in SHELF]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize(
@@ -74,8 +67,8 @@ def _picture(text: str, sizes: dict[str, list[float]]) -> Episode:
 @pytest.mark.parametrize(("text", "meant"), [("biggest horse", "b"), ("the tiny horse", "c"), ("tallest horse", "b")])
 def test_boxes_without_depth_have_a_size(text: str, meant: str) -> None:
     episode = _picture(text, {"a": [0.0, 0.3, 0.2], "b": [0.0, 0.4, 0.5], "c": [0.0, 0.1, 0.1]})
-    world = _model().world_model(episode.percepts(), episode.pose, looked=True, workspace=Workspace())
-    assert [o.id for o in _model().ground(text, world).objects] == [meant]
+    world = shipped().world_model(episode.percepts(), episode.pose, looked=True, workspace=Workspace())
+    assert [o.id for o in shipped().ground(text, world).objects] == [meant]
 
 
 def test_one_extent_of_zero_is_unknown_where_others_are_known() -> None:
@@ -112,5 +105,5 @@ def test_whose_left_it_is_where_one_faces_a_thing(text: str) -> None:
     things = [("rug", "rug", 3.0, 3.0), ("left", "urn", -1.2, 1.0), ("right", "urn", 1.4, -1.0)]
     things += [("mop", "mop", -3.0, -2.9), ("tub", "tub", 2.4, 2.6), ("jar", "jar", -2.6, -3.0)]
     percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
-    world = _model().world_model(percepts, looked=True, workspace=Workspace())
-    assert [o.id for o in _model().ground(text, world).objects] == ["left"]
+    world = shipped().world_model(percepts, looked=True, workspace=Workspace())
+    assert [o.id for o in shipped().ground(text, world).objects] == ["left"]

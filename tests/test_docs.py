@@ -69,6 +69,25 @@ def test_every_room_has_its_line_in_the_architecture() -> None:
     assert {room for line in lines for room in re.findall(r"`(\w+)`", line)} == there
 
 
+def named_in(*pages: str) -> set[str]:
+    """The parts of the names that stand in backquotes in pages of the documentation."""
+    found = (re.findall(r"`(\w+(?:\.\w+)*)`", (ROOT / "docs" / page).read_text("utf-8")) for page in pages)
+    return {part for names in found for name in names for part in name.split(".")}
+
+
+@pytest.mark.parametrize("room", ["interpretation", "grounding"])
+def test_every_step_between_a_text_and_an_object_has_its_place(room: str) -> None:
+    there = {p.stem for p in (ROOT / "dcg_torch" / room).glob("*.py")} - {"__init__"}
+    assert there - named_in("order.md", "architecture.md") == set()
+
+
+def test_the_steps_that_are_named_are_there() -> None:
+    sources = list((ROOT / "dcg_torch").rglob("*.py"))
+    there = {p.stem for p in sources} | {p.name for p in (ROOT / "dcg_torch").iterdir()}
+    there |= {name for p in sources for name in re.findall(r"(?:def|class) (\w+)", p.read_text("utf-8"))}
+    assert named_in("order.md") - there == set()
+
+
 @pytest.mark.parametrize(
     "name", ["dcg_torch.nothing", "dcg_torch.model.core.Nothing", "dcg_torch.types.Object.nothing"]
 )

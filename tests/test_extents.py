@@ -10,8 +10,9 @@ from dcg_torch.lessons.sized import THING
 from dcg_torch.lessons.table_tops import table_top_scene
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
-from dcg_torch.scene.layout import layout
-from dcg_torch.scene.relations import RELATION_NAMES, Relations
+from dcg_torch.scene.laying_out import layout
+from dcg_torch.scene.relation_names import RELATION_NAMES
+from dcg_torch.scene.relations import Relations
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 Three = tuple[float, float, float]

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Any
 
 import pytest
+from asked import shipped
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
 from dcg_torch.interpretation.people import of_people
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import looks_like
 from dcg_torch.types import Percept
 
@@ -20,15 +18,10 @@ Thing = dict[str, Any]
 GRAYS = {"black": 20, "dark grey": 80, "grey": 138, "light grey": 204}
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, things: list[Thing]) -> set[str]:
     robot = {"x": -0.2, "y": 0.0, "yaw": 0.0}
     episode = Episode.model_validate({"id": "a", "text": text, "objects": things, "target": [], "robot": robot})
-    (answer,) = answers(_model(), [episode], default_parser().parse)
+    (answer,) = answers(shipped(), [episode], default_parser().parse)
     return set(answer.predicted)
 
 

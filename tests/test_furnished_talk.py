@@ -2,27 +2,20 @@
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
-from dcg_torch import GroundingModel, pretrained
 from dcg_torch.language import default_parser
 from dcg_torch.names.weights import log_odds
-from dcg_torch.scene.layout import layout
+from dcg_torch.scene.laying_out import layout
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 
-@functools.cache
-def model() -> GroundingModel:
-    return pretrained()
-
-
 def meant(text: str, percepts: tuple[Percept, ...], at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> set[str]:
     """The ids of what a text means among things of a room."""
-    world = model().world_model(percepts, Pose(*at), looked=True, workspace=Workspace(None, 0.5))
-    return {o.id for o in model().ground(text, world).objects if not o.hypothetical}
+    world = shipped().world_model(percepts, Pose(*at), looked=True, workspace=Workspace(None, 0.5))
+    return {o.id for o in shipped().ground(text, world).objects if not o.hypothetical}
 
 
 def thing(

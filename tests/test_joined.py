@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
 from dcg_torch.interpretation.factor_tree import coordinated
 from dcg_torch.language import default_parser, parse_command, target_phrase
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 KITCHEN = (  # id, class, x, y
@@ -22,15 +19,10 @@ KITCHEN = (  # id, class, x, y
 LINE = tuple((str(k), "cone", 3.0, 2.0 - k) for k in range(5))
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, things: tuple[tuple[str, str, float, float], ...]) -> tuple[set[str], float | None]:
     percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
-    solution = _model().ground(
-        default_parser().parse(text), _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    solution = shipped().ground(
+        default_parser().parse(text), shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
     )
     return {o.id for o in solution.objects if not o.hypothetical}, solution.probability
 

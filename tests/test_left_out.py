@@ -5,13 +5,10 @@ Scenes and commands are ours.
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser, target_phrase
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 BENCH = (  # id, class, colour, x, y
@@ -23,15 +20,10 @@ BENCH = (  # id, class, colour, x, y
 )
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, things: tuple[tuple[str, str, str, float, float], ...] = BENCH) -> set[str]:
     percepts = [Percept(id_, kind, color, (x, y, 0.0)) for id_, kind, color, x, y in things]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize(

@@ -2,22 +2,14 @@
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 STACKS = {"a": (1.8, 0.8, 2), "b": (2.6, -0.4, 4), "c": (1.4, -1.0, 3)}  # x, y, how many
 SINGLE = (("d", 2.4, 0.5), ("e", 1.2, 0.1))
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
 
 
 def _meant(text: str) -> set[str]:
@@ -28,8 +20,8 @@ def _meant(text: str) -> set[str]:
         for z in range(count)
     ]
     percepts += [Percept(name, "block", "red", (x, y, 0.04), (0.08,) * 3) for name, x, y in SINGLE]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize(

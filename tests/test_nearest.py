@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-import functools
 import math
 import random
 from collections.abc import Callable, Sequence
 
 import pytest
+from asked import shipped
 
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 Point = tuple[float, float]
 Measure = Callable[[Point, Sequence[Point]], float]
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
 
 
 def _scene(seed: int, measure: Measure, margin: float) -> tuple[str, list[Percept]]:
@@ -80,7 +73,7 @@ def test_of_several_landmarks_the_nearest_and_places_without_a_workspace(
     right = 0
     for seed in range(8):
         meant, things = _scene(seed, measure, margin)
-        answer = _model().ground(text, _model().world_model(things, robot=Pose(-1.5, 0.0, 0.0)))
+        answer = shipped().ground(text, shipped().world_model(things, robot=Pose(-1.5, 0.0, 0.0)))
         right += [o.id for o in answer.objects] == [meant]
     assert right >= 7
 
@@ -93,6 +86,6 @@ def test_the_nearer_of_the_two_is_the_likelier_however_small_the_difference() ->
             Percept("left", "lamp", "white", (3.0, 2.0, 0.0)),
             Percept("right", "lamp", "white", (3.0, -2.0, 0.0)),
         ]
-        answer = _model().ground("take the mug closest to a lamp", _model().world_model(things, robot=Pose(0.0, 0.0)))
+        answer = shipped().ground("take the mug closest to a lamp", shipped().world_model(things, robot=Pose(0.0, 0.0)))
         assert [o.id for o in answer.objects] == ["near"], gap
         assert answer.probabilities["near"] > answer.probabilities["far"]

@@ -4,16 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from asked import meant
 
-from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 ODD = ("the odd one out", "take the one that is different from the others", "the one that doesn't match the others")
-
-
-def meant(text: str, things: list[Percept]) -> set[str]:
-    model = pretrained()
-    return {o.id for o in model.ground(text, model.world_model(things, Pose(0.0, 0.0))).objects}
 
 
 def strewn(seed: int, number: int) -> list[tuple[float, float, float]]:

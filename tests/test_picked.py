@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import random
 from collections.abc import Callable
 
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser, target_phrase
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 TOLD = (
@@ -27,11 +25,6 @@ PICKS: dict[str, Callable[[int], int]] = {
 }
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _row_and_others(seed: int) -> tuple[int, list[Percept]]:
     """So many red cones side by side, the rightmost first, and red cones far from them on either side and ahead."""
     rng = random.Random(seed)
@@ -46,8 +39,8 @@ def _row_and_others(seed: int) -> tuple[int, list[Percept]]:
 def test_what_is_named_again_is_one_of_those_told_of(told: str, pick: str) -> None:
     for seed in range(4):
         n, things = _row_and_others(seed)
-        world = _model().world_model(things, robot=Pose(-1.5, 0.0, 0.0))
-        answer = _model().ground(told.format(n={3: "three", 5: "five"}[n], pick=pick), world)
+        world = shipped().world_model(things, robot=Pose(-1.5, 0.0, 0.0))
+        answer = shipped().ground(told.format(n={3: "three", 5: "five"}[n], pick=pick), world)
         assert [o.id for o in answer.objects] == [f"c{PICKS[pick](n)}"], seed
 
 
@@ -75,6 +68,6 @@ def test_all_of_that_name_may_be_meant_all_the_same() -> None:
 def test_a_row_that_leads_away_has_a_near_and_a_far_end(said: str, end: str, k: int) -> None:
     spots = [(2.0, 0.0), (3.0, 0.0), (4.0, 0.0), (3.0, 5.5), (3.0, -5.5), (8.5, 0.0)]
     things = [Percept(f"c{n}", "cone", "red", (*spot, 0.0)) for n, spot in enumerate(spots)]
-    world = _model().world_model(things, robot=Pose(-1.0, 0.0, 0.0))
-    answer = _model().ground(f"There are three red cones in a row. Take the {said} at the {end} end.", world)
+    world = shipped().world_model(things, robot=Pose(-1.0, 0.0, 0.0))
+    answer = shipped().ground(f"There are three red cones in a row. Take the {said} at the {end} end.", world)
     assert [o.id for o in answer.objects] == [f"c{k}"]

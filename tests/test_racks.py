@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from asked import meant
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.bodies import boards
-from dcg_torch.types import Object, Percept, Pose
+from dcg_torch.types import Object, Percept
 
 HEIGHTS = (0.2, 0.65, 1.1, 1.55)
 
@@ -23,11 +23,6 @@ CASE = [  # one bookcase; three tins on each of its boards
     Percept("case", "bookcase", None, (3.1, 0.0, 0.0), (0.5, 2.0, 1.9)),
     *(_jar(f"{k}{j}", 0.6 - 0.6 * j, z, "tin") for k, z in enumerate(HEIGHTS[:3]) for j in range(3)),
 ]
-
-
-def _meant(text: str, things: list[Percept]) -> set[str]:
-    model = pretrained()
-    return {o.id for o in model.ground(text, model.world_model(things, Pose(0.0, 0.0))).objects}
 
 
 @pytest.mark.parametrize(
@@ -49,7 +44,7 @@ def _meant(text: str, things: list[Percept]) -> set[str]:
     ],
 )
 def test_boards_of_a_rack_are_numbered_in_it(text: str, things: list[Percept], ids: set[str]) -> None:
-    assert _meant(text, things) == ids
+    assert meant(text, things) == ids
 
 
 def test_what_stands_under_and_on_a_table_makes_no_boards_of_it() -> None:

@@ -5,16 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from asked import meant
 
-from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 COLORS = ("red", "green", "blue", "yellow")
-
-
-def meant(text: str, things: list[Percept]) -> set[str]:
-    model = pretrained()
-    return {o.id for o in model.ground(text, model.world_model(things, Pose(0.0, 0.0))).objects}
 
 
 def field(rows: int, columns: int, *, sized: bool = True) -> list[Percept]:

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import functools
 import math
 
 import pytest
+from asked import shipped
 
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Object, Percept, Pose
 
 THINGS = (
@@ -21,11 +19,6 @@ THINGS = (
     ("cylinder", "red", 0.1, "metal"),
     ("cylinder", "yellow", 0.205, "rubber"),
 )
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
 
 
 @pytest.mark.parametrize(
@@ -48,8 +41,8 @@ def test_what_is_like_a_landmark(text: str, number: str) -> None:
         )
         for k, (type_, color, size, m) in enumerate(THINGS)
     ]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    found = _model().ground(default_parser().parse(text), world).object
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    found = shipped().ground(default_parser().parse(text), world).object
     assert found is not None
     assert found.id == number
 

@@ -5,29 +5,21 @@ Scenes and commands are ours.
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import color_features
 from dcg_torch.types import Percept, Pose
 
 GREEN, RED, BROWN, PURPLE = (20, 110, 40), (190, 30, 30), (120, 70, 30), (110, 40, 150)
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, things: tuple[tuple[str, str, float, float, tuple[int, int, int]], ...]) -> tuple[str, ...]:
     percepts = [Percept(id_, kind, None, (x, y, 0.0), rgb=rgb) for id_, kind, x, y, rgb in things]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return tuple(o.id for o in _model().ground(default_parser().parse(text), world).objects)
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return tuple(o.id for o in shipped().ground(default_parser().parse(text), world).objects)
 
 
 @pytest.mark.parametrize("kind", ["bottle", "tree", "egg", "wine bottle"])

@@ -5,33 +5,26 @@ Scenes and commands are ours.
 
 from __future__ import annotations
 
-import functools
 import math
 import random
 from collections.abc import Sequence
 
 import pytest
+from asked import shipped
 
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _ground(text: str, things: Sequence[Percept]) -> Solution:
-    world = _model().world_model(things, robot=Pose(0.0, 0.0), looked=True, workspace=Workspace.of(things))
-    return _model().ground(text, world)
+    world = shipped().world_model(things, robot=Pose(0.0, 0.0), looked=True, workspace=Workspace.of(things))
+    return shipped().ground(text, world)
 
 
 def _told(text: str, things: list[Percept]) -> list[str]:
-    world = _model().world_model(things, robot=Pose(0.0, 0.0))
-    return [o.id for o in _model().ground(text, world).objects]
+    world = shipped().world_model(things, robot=Pose(0.0, 0.0))
+    return [o.id for o in shipped().ground(text, world).objects]
 
 
 def _percept(id_: str, type_: str, color: str | None, x: float, y: float, *attributes: str, z: float = 0.0) -> Percept:
@@ -45,7 +38,7 @@ def test_a_word_of_a_class_name_is_no_strange_mark(text: str) -> None:
         _percept("s2", "zimlo crate", None, 1.0, 0.0, "state: opened"),
         _percept("j1", "jar", None, 1.2, -0.3, "filling: lentils"),
     ]
-    found = _model().ground(text, _model().world_model(things, robot=Pose(0.0, 0.0))).tree
+    found = shipped().ground(text, shipped().world_model(things, robot=Pose(0.0, 0.0))).tree
     assert found is not None
     assert not any("zimlo" in word for node in found.walk() for word in node.phrase.words)
 

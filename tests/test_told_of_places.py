@@ -5,13 +5,10 @@ Scenes and commands are ours.
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser, target_phrase
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 HALL = (  # id, class, colour, x, y
@@ -30,15 +27,10 @@ BOARD = tuple(
 )
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, things: tuple[tuple[str, str, str | None, float, float], ...]) -> set[str]:
     percepts = [Percept(id_, kind, color, (x, y, 0.0)) for id_, kind, color, x, y in things]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize(
@@ -105,8 +97,8 @@ def test_what_a_text_is_about_where_it_tells_what_stands_by_it(text: str, noun: 
 def test_places_in_a_picture_are_counted_along_it_however_high_things_are(text: str, meant: str) -> None:
     kites = [("k0", 0.7, 0.9, 0.1), ("k1", 0.3, -0.7, 0.3), ("k2", -0.1, 0.8, 0.05), ("k3", -0.6, -0.2, 0.2)]
     percepts = [Percept(id_, "kite", None, (2.0, y, z), size=(0.0, size, size)) for id_, y, z, size in kites]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    assert [o.id for o in _model().ground(text, world).objects] == [meant]
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in shipped().ground(text, world).objects] == [meant]
 
 
 @pytest.mark.parametrize(
@@ -127,8 +119,8 @@ def test_what_is_ahead_and_what_is_closer(text: str, meant: str) -> None:
     things = [("front", "gate", 4.0, 0.2), ("side", "gate", 2.9, -1.1), ("alone", "gate", 2.0, 5.5)]
     things += [("well", "well", 2.0, -1.9), ("cart", "cart", 4.6, 1.0)]
     percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    assert [o.id for o in _model().ground(text, world).objects] == [meant]
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in shipped().ground(text, world).objects] == [meant]
 
 
 @pytest.mark.parametrize("verb", ["move", "push", "relocate", "haul"])

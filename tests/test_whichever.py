@@ -5,14 +5,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from asked import meant
 
-from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose
-
-
-def meant(text: str, things: list[Percept]) -> set[str]:
-    model = pretrained()
-    return {o.id for o in model.ground(text, model.world_model(things, Pose(0.0, 0.0))).objects}
+from dcg_torch.types import Percept
 
 
 def tins(seed: int) -> list[Percept]:

@@ -19,7 +19,8 @@ from dcg_torch.names.palette import LISTED
 def lines() -> list[str]:
     """The lines of the file."""
     named = [*CSS4_COLORS.items(), *XKCD_COLORS.items()]
-    return [f"{code} {name.removeprefix('xkcd:')}".lower() for name, code in named]
+    header = "# Colours by name, made by tools/color_names.py: of CSS, then of the XKCD survey (public domain)."
+    return [header, *(f"{code} {name.removeprefix('xkcd:')}".lower() for name, code in named)]
 
 
 if __name__ == "__main__":

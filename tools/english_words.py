@@ -53,12 +53,19 @@ def irregular(folder: Path) -> list[tuple[str, str, str]]:
     return out
 
 
+OF_WORDS = """\
+# Words of WordNet 3.0 (WORDNET-LICENSE.txt), made by tools/english_words.py: a word, a tab, and for each part of
+# speech (n noun, v verb, a adjective, r adverb) how often it is that: the power of two, from 0 to 9."""
+OF_FORMS = """\
+# Irregular forms of WordNet 3.0 (WORDNET-LICENSE.txt), made by tools/english_words.py: form, part of speech, base."""
+
+
 def main(source: str, target: str) -> None:
     """Write both lists."""
     rows = [f"{word}\t{kinds}" for word, kinds in sorted(words(Path(source)).items())]
-    Path(target, "english.tsv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    Path(target, "english.tsv").write_text("\n".join([OF_WORDS, *rows]) + "\n", encoding="utf-8")
     forms = ["\t".join(form) for form in sorted(irregular(Path(source)))]
-    Path(target, "irregular.tsv").write_text("\n".join(forms) + "\n", encoding="utf-8")
+    Path(target, "irregular.tsv").write_text("\n".join([OF_FORMS, *forms]) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -56,10 +56,10 @@ def run_trial(
             robot,
             parse=parse,
             spin_step=spin_step,
-            explorer=None if explorer is None else explorer(),
+            explorer=explorer and explorer(),
             asking=asking,
             listener=truthful(command.target),
-            watch=None if watch is None else functools.partial(watch, command),
+            watch=watch and functools.partial(watch, command),
             stopwatch=clock,
         )
         with clock("train"):

@@ -11,9 +11,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.counting import behind
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
-from dcg_torch.grounding.measured import behind
+from dcg_torch.grounding.reach import ON_A_SIDE
 from dcg_torch.interpretation.plain_words import COUNTED_FROM
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import ORDINALS, is_superlative
@@ -25,8 +26,6 @@ _ALIKE = 0.7
 """Nats by which what is counted may be described less well than the best, apart from where it is."""
 _TWICE = 2.0
 """The place counts against what is learned of the side as well."""
-_SIDES = {"left of": (1, 1.0), "right of": (1, -1.0), "behind": (0, 1.0), "in front of": (0, -1.0)}
-"""Relation -> axis and sign of the side, as who looks sees it."""
 _AMONG = listed("counted among")
 
 
@@ -55,17 +54,16 @@ def counted_away(
         return nothing
     anchor, where = anchors[0], encoder.layout
     name, *more = anchor.tree.phrase.words
-    if more or name not in _SIDES:
+    if more or name not in ON_A_SIDE:
         return nothing
-    (axis, sign), start = _SIDES[name], COUNTED_FROM.get(name)
+    way, start = np.array(ON_A_SIDE[name]), COUNTED_FROM.get(name)
     if any((w.startswith("from ") and w != start) or is_superlative(w) for w in phrase.words):
         return nothing
     landmark = anchor.combos.things[int(anchor.log_prior.argmax())][0]
     off = where.position - where.position[landmark]
     rest = fit - anchor.log_psi
     there = where.solid & np.isfinite(off).all(axis=1) & encoder.perceived & (rest >= rest.max() - _ALIKE)
-    across = np.abs(off[:, 1 - axis])
-    at = np.flatnonzero(there & (sign * off[:, axis] > across))
+    at = np.flatnonzero(there & (off[:, :2] @ way > np.abs(off[:, :2] @ way[::-1])))  # rather there than across
     if len(at) < max(2, *numbers):
         return nothing
     log = np.zeros(len(fit))

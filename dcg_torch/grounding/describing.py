@@ -32,13 +32,12 @@ from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.opposite import opposite
 from dcg_torch.grounding.outlines import by_outline
-from dcg_torch.grounding.overhead import by_height
+from dcg_torch.grounding.over_under import by_height
 from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied
-from dcg_torch.grounding.stacked import by_levels_of_stacks
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import shaded, shades_among, so_many
 from dcg_torch.grounding.upon import by_side_upon
-from dcg_torch.interpretation.measuring import MORE_THAN, log_more
+from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
@@ -128,8 +127,8 @@ def _log_psi(
         return log_psi
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = by_side_upon(tree.phrase, log_psi, landmarks, encoder)
-    log_psi = opposite(name, by_height(name, log_psi, landmarks, encoder), landmarks, encoder)
-    log_psi = by_levels_of_stacks(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
+    log_psi = by_height(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
+    log_psi = opposite(name, log_psi, landmarks, encoder)
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     first = [of[0] for of in landmarks]
     log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)

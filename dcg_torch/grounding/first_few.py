@@ -13,9 +13,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.grounding.counting import WAYS, behind, start_of_line
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
-from dcg_torch.grounding.measured import behind
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import NEAREST, ORDINALS, TOGETHER, is_superlative
@@ -26,11 +26,7 @@ Bools = NDArray[np.bool_]
 
 _BY_PLACE = 5.0
 """Nats that a thing loses for each place by which it stays behind the few."""
-_EVEN = 0.02
-"""Units by which places differ that are no one place."""
 _FIRST, _LAST = "first", "last"
-_WAYS = {"left": (0.0, 1.0), "right": (0.0, -1.0), "back": (1.0, 0.0), "front": (-1.0, 0.0)}
-"""Side -> its direction, as who looks sees it."""
 _ALIKE = math.log(0.5)
 """Of a thing that is described about as well as the best."""
 _FROM_A_THING = {NEAREST: -1.0, "farthest from": 1.0}
@@ -69,7 +65,7 @@ def first_few(
     if values is None:
         return phrase, log
     log[:] = -_BY_PLACE * len(at)
-    log[at] = -behind(values, 1, count, even=_EVEN, nats=_BY_PLACE)
+    log[at] = -behind(values, 1, count, nats=_BY_PLACE)
     if ranked:
         log[at] -= ranked[0].log_psi[at]  # it is measured, and not said twice
     return replace(phrase, words=tuple(word for word in phrase.words if word not in words)), log
@@ -90,14 +86,13 @@ def _places(words: Sequence[str], at: NDArray[np.int64], encoder: WorldEncoder) 
     along = None
     if len(told) == 1 and (word := words[0]) in _AWAY:
         along = _AWAY[word] * np.hypot(*(position - where.robot).T)
-    elif len(told) == 1 and (side := words[0].removesuffix("most")) in _WAYS:
-        along = position @ np.array(_WAYS[side])
+    elif len(told) == 1 and (side := words[0].removesuffix("most")) in WAYS:
+        along = position @ np.array(WAYS[side])
     elif len(told & {_FIRST, _LAST}) == 1:
         ends = told - {_FIRST, _LAST}
-        across, deep = np.ptp(position[:, 1]), np.ptp(position[:, 0])
-        start = "left" if across >= deep else "back" if where.picture else "front"
+        start, _ = start_of_line(position, picture=where.picture)
         side = "".join(ends).removeprefix("from the ") if len(ends) == 1 else start
-        along = position @ np.array(_WAYS[side]) if len(ends) < 2 and side in _WAYS else None
+        along = position @ np.array(WAYS[side]) if len(ends) < 2 and side in WAYS else None
         if along is not None and _LAST in told:
             along = -along
     return along

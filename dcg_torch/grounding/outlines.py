@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import TOUCHING, inside_of, within_reach
+from dcg_torch.grounding.reach import inside_of, within_reach
 from dcg_torch.names.vocabulary import AT_END, OF_OUTLINE, TOWARDS
+from dcg_torch.scene.layout import HEADINGS
 
 Floats = NDArray[np.float64]
 
@@ -26,8 +27,6 @@ _VAGUE = 0.15
 """How many half extents that is vague."""
 _SQUARE = 2.0
 """How many times as far that way as across a thing stands that one side alone faces."""
-_SEEN = {"left side": (0.0, 1.0), "right side": (0.0, -1.0), "far side": (1.0, 0.0), "near side": (-1.0, 0.0)}
-"""Attribute of a side of all that is there -> the way to it, as who looks sees it."""
 _REACH = 0.8
 """Units from an outline up to which things are at it."""
 _ELSEWHERE = -8.0
@@ -42,8 +41,6 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
         log_psi: what is learned; it stays for other relations, and where nobody says how large a landmark is.
     """
     bodies = encoder.layout.bodies
-    if name in _HALVES and bodies is not None:
-        return _on_a_half(_HALVES[name], log_psi, landmarks, encoder)
     if name not in OF_OUTLINE or bodies is None:
         outside = inside_of(name, landmarks, encoder)
         return log_psi if outside is None else log_psi + outside
@@ -57,9 +54,9 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
         by = _out_to_an_end(offset, half)
     else:
         way = _ways(at[others[0]] - at[mark], half, _halves(bodies.half, others[0]))
-        for k, seen in enumerate(encoder.all[j].attributes & _SEEN.keys() for j in others[0].tolist()):
+        for k, seen in enumerate(encoder.all[j].attributes & HEADINGS.keys() for j in others[0].tolist()):
             if len(seen) == 1 and not encoder.layout.solid[others[0][k]]:
-                way[k] = _SEEN[next(iter(seen))]
+                way[k] = HEADINGS[next(iter(seen))]
         by = _out_to_a_side(offset, way if name == TOWARDS else -way)
     found = log_psi.copy()
     reach = within_reach(mark.tolist(), encoder, _REACH)
@@ -68,28 +65,6 @@ def by_outline(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]],
     found[known] = np.where(there, np.maximum(stands, _ELSEWHERE), log_psi[known])
     found[known, mark] = log_psi[known, mark]
     return found
-
-
-def _on_a_half(
-    way: tuple[float, float], log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
-) -> Floats:
-    """(combos, things) what lies on a thing is left of it where it lies on its left half; the rest as it was."""
-    where, bodies = encoder.layout, encoder.layout.bodies
-    if bodies is None or where.outlook is not None or any(of[0] >= len(bodies.half) for of in landmarks):
-        return log_psi
-    mark, at = np.array([of[0] for of in landmarks]), where.position[: len(bodies.half), :2]
-    offset = at[None] - at[mark][:, None]
-    with np.errstate(invalid="ignore"):
-        upon = (np.abs(offset) < bodies.half[mark][:, None]).all(axis=2)
-        upon &= bodies.half.prod(axis=1)[None] < bodies.half[mark].prod(axis=1)[:, None]
-        upon &= bodies.bottom[None] > bodies.bottom[mark][:, None] + TOUCHING
-        by = (offset / bodies.half[mark][:, None] * way).sum(axis=2) - _SIDE
-    found = log_psi.copy()
-    found[:, : len(at)] = np.where(upon, _at_least(np.where(upon, by, 0.0)), log_psi[:, : len(at)])
-    return found
-
-
-_HALVES = {"left of": (0.0, 1.0), "right of": (0.0, -1.0)}
 
 
 def _at_least(by: Floats) -> Floats:

@@ -17,7 +17,8 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
-from dcg_torch.scene.relations import RELATION_NAMES, between
+from dcg_torch.scene.relation_names import RELATION_NAMES
+from dcg_torch.scene.relations import between
 from dcg_torch.types import NOT, ParseTree, Phrase
 
 Floats = NDArray[np.float64]

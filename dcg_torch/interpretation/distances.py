@@ -8,7 +8,7 @@ import re
 from typing import NamedTuple
 
 from dcg_torch.names.normal import read_data
-from dcg_torch.names.vocabulary import NUMBER_WORDS
+from dcg_torch.names.vocabulary import cardinal
 from dcg_torch.types import Phrase
 
 _SHARE = 0.3
@@ -25,7 +25,7 @@ def said_turn(phrase: Phrase) -> float | None:
     if found is None:
         return None
     hour = found[1]
-    number = NUMBER_WORDS.get(hour) or (int(hour) if hour.isdecimal() else _patterns()[1].get(hour, _HOURS))
+    number = cardinal(hour) or _patterns()[1].get(hour, _HOURS)
     return -2.0 * math.pi * (number % _HOURS) / _HOURS
 
 

@@ -13,7 +13,7 @@ from dataclasses import replace
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import CELL, CELL_STEPS, INSIDE, LINE_ENDS, LINE_OF, NUMBER_WORDS, ORDINALS
+from dcg_torch.names.vocabulary import CELL, CELL_STEPS, INSIDE, LINE_ENDS, LINE_OF, ORDINALS, cardinal
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.grids import Cell, Grid, grid_of
 from dcg_torch.types import LOOKED_ROUND, NOT, Object, ParseTree, Phrase, PhraseKind, WorldModel
@@ -21,8 +21,9 @@ from dcg_torch.types import LOOKED_ROUND, NOT, Object, ParseTree, Phrase, Phrase
 _WITHIN = INSIDE | listed("in a cell")
 _BESIDE = listed("beside in a grid")
 _DIAGONAL = "diagonal to"
-_ANY, _FEW = 3, 6
-"""Neighbours at least of what is surrounded, and landmarks up to which "left of the white one" is read in a grid."""
+_ANY, _FEW, _MOST_LINES = 3, 6, 100
+"""Neighbours at least of what is surrounded, landmarks up to which "left of the white one" is read in a grid, and what
+number is no row's."""
 _AROUND: tuple[Cell, ...] = ((-1, 0), (1, 0), (0, -1), (0, 1))
 _ASLANT: tuple[Cell, ...] = ((-1, -1), (-1, 1), (1, -1), (1, 1))
 _MIDDLES = listed("middle")
@@ -314,8 +315,5 @@ def _is_aside(word: str, axis: int) -> bool:
 
 def _number(words: Iterable[str]) -> int | None:
     """What words count to: "third", "3", "three"."""
-    for word in words:
-        number = ORDINALS.get(word) or NUMBER_WORDS.get(word) or (int(word) if word.isdecimal() else None)
-        if number is not None and number < 100:
-            return number
-    return None
+    numbers = (ORDINALS.get(word) or cardinal(word) for word in words)
+    return next((number for number in numbers if number is not None and number < _MOST_LINES), None)

@@ -21,21 +21,27 @@ from dcg_torch.interpretation.whichever import by_whichever
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
-    *(by_passages, by_pairs, by_members, by_others, by_rooms, by_compounds, by_faces, by_corners, by_walls),
-    *(
-        by_bearers,
-        by_whichever,
-        by_nothing,
-        by_heights,
-        by_levels,
-        by_shelves,
-        by_middles,
-        one_pair,
-        few_together,
-        lines_from_here,
-    ),
+    by_passages,
+    by_pairs,
+    by_members,
+    by_others,
+    by_rooms,
+    by_compounds,
+    by_faces,
+    by_corners,
+    by_walls,
+    by_bearers,
+    by_whichever,
+    by_nothing,
+    by_heights,
+    by_levels,
+    by_shelves,
+    by_middles,
+    one_pair,
+    few_together,
+    lines_from_here,
 )
-"""What turns words into others that say the same in a scene."""
+"""What turns words into others that say the same in a scene, in the order in which they are tried."""
 
 
 def in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:

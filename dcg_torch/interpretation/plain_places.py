@@ -11,7 +11,9 @@ from dcg_torch.names.vocabulary import (
     INSIDE,
     LATERAL,
     NEAREST,
+    OF_TWO,
     ORDINALS,
+    OWNERS,
     PLACE_WORDS,
     SIDED,
     VERTICAL,
@@ -20,6 +22,10 @@ from dcg_torch.names.vocabulary import (
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 MIDDLES = listed("middle")
+_OF_A_PLACE = {"on top of": ("top", "behind"), "above": ("top", "behind"), "under": ("bottom", "in front of")}
+"""Relation to the edge of a place -> the end of it that is meant, and the relation where that is not said."""
+_NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
+"""What is in none of the corners is near none: it is not merely no nearest one."""
 
 
 def is_of_all(place: ParseTree) -> bool:
@@ -96,3 +102,38 @@ def closest(noun: str, words: tuple[str, ...] = ()) -> ParseTree:
     return ParseTree(
         Phrase(PhraseKind.PREPOSITION, "", (NEAREST,)), (ParseTree(Phrase(PhraseKind.NOUN, noun, words, noun)),)
     )
+
+
+def at_a_place(name: str, phrase: Phrase, landmark: ParseTree, text: str) -> tuple[str, Phrase]:
+    """A relation to a place of all that is there, and that place: sides, ends, corners, middles of sides.
+
+    Args:
+        name: of the relation.
+        phrase: the landmark in plain words, as far as they have been found.
+        landmark: with all that is said of it.
+        text: of the preposition.
+    """
+    inside = name in listed("on a side of the scene")
+    side = None if landmark.children else side_with_a_middle((phrase.noun or "", *phrase.words))
+    side = side_itself(phrase) or side if name in OF_TWO else side
+    if side is not None and (inside or name in OF_TWO or name == NEAREST):
+        name, phrase = NEAREST, replace(phrase, noun=f"{side} middle", words=())
+    if phrase.noun in PLACE_WORDS and name in _OF_A_PLACE:
+        end, beyond = _OF_A_PLACE[name]
+        side = side_itself(phrase)
+        if side in LATERAL and end in text:  # "on the top of the left side"
+            name, phrase = NEAREST, replace(phrase, noun="corner", words=(end, side))
+        elif end not in text:  # "below the upper left corner"
+            name = beyond
+    if phrase.noun == "end" and not landmark.children and inside and (side := one_side(phrase.words, ())) is not None:
+        name, phrase = NEAREST, replace(phrase, noun=side, words=())  # "the mug at the left end" is the leftmost
+    if phrase.noun in SIDED:
+        sides = tuple(word for word in phrase.words if word not in DEGREES)
+        corner = told_sides((*sides, phrase.noun), ())
+        if len(corner) == 2 and not set(sides) & OWNERS.keys():
+            phrase = replace(phrase, noun="corner", words=corner)
+        elif len(sides) < len(phrase.words) and inside:
+            name, phrase = NEAREST, replace(phrase, words=sides)
+    if phrase.noun in ("corner", "middle", "center") and not landmark.children:
+        name = NEAREST if inside else _NOT_AT.get(name, name)
+    return name, phrase

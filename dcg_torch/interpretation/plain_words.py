@@ -5,19 +5,18 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.interpretation.measuring import compared_twice, compared_with
+from dcg_torch.interpretation.comparatives import compared_twice, compared_with
 from dcg_torch.interpretation.nearer import nearer_of_two
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
     MIDDLES,
+    at_a_place,
     closest,
     in_one_corner,
     is_of_all,
     near_side,
-    one_side,
     over_and_beyond,
     picks_by_place,
-    side_itself,
     side_with_a_middle,
     told_sides,
 )
@@ -28,7 +27,6 @@ from dcg_torch.names.vocabulary import (
     BESIDE_WHOM,
     BY_COMPASS,
     COMPASS,
-    DEGREES,
     FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
@@ -37,9 +35,7 @@ from dcg_torch.names.vocabulary import (
     LIKE_RELATION,
     NEAREST,
     OF_BOTH,
-    OF_TWO,
     ORDINALS,
-    OWNERS,
     PICKED_FROM,
     PLACE_WORDS,
     QUANTIFIERS,
@@ -81,12 +77,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if any(child.phrase.words[:1] == (THAN,) for child in children):
         return told
     picks = tuple(word for child in below if (word := _picks(child)) is not None)
-    words = tuple(
-        dict.fromkeys(
-            plain for word in (*phrase.words, *picks) for plain in COMPASS.get(word, (SYNONYMS.get(word, word),))
-        )
-    )
-    words = levels_of_stack(read_along(words, children), children)
+    words = levels_of_stack(read_along(_plain((*phrase.words, *picks)), children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
@@ -105,6 +96,12 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     if not any(map(is_superlative, words)) and counted(words) is None:
         children = in_one_corner(children)
     return together(ParseTree(replace(phrase, words=words), children))
+
+
+def _plain(words: tuple[str, ...]) -> tuple[str, ...]:
+    """Words in those that are used for several of one meaning, each once; those of a map are sides."""
+    plain = (said for word in words for said in COMPASS.get(word, (SYNONYMS.get(word, word),)))
+    return tuple(dict.fromkeys(plain))
 
 
 def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
@@ -226,7 +223,6 @@ _SEEN_FROM_IT = {
 }
 
 
-_OF_A_PLACE = {"on top of": ("top", "behind"), "above": ("top", "behind"), "under": ("bottom", "in front of")}
 _ANYWHERE = listed("anywhere in")
 _WITHIN = listed("at a side")
 _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
@@ -255,8 +251,6 @@ def _of_all(tree: ParseTree) -> ParseTree:
 
 
 _ROOM = listed("whole of a room")
-_NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
-"""What is in none of the corners is near none: it is not merely no nearest one."""
 
 
 def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
@@ -291,29 +285,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
             phrase = replace(phrase, noun=GROUND_WORD)
     if _picks(tree) is not None or (name == "of" and in_group(phrase)):
         name = "in"  # "the middle one of the stack"
-    inside = name in listed("on a side of the scene")
-    side = None if landmark.children else side_with_a_middle((phrase.noun or "", *phrase.words))
-    side = side_itself(phrase) or side if name in OF_TWO else side
-    if side is not None and (inside or name in OF_TWO or name == NEAREST):
-        name, phrase = NEAREST, replace(phrase, noun=f"{side} middle", words=())
-    if phrase.noun in PLACE_WORDS and name in _OF_A_PLACE:
-        end, beyond = _OF_A_PLACE[name]
-        side = side_itself(phrase)
-        if side in LATERAL and end in tree.phrase.text:  # "on the top of the left side"
-            name, phrase = NEAREST, replace(phrase, noun="corner", words=(end, side))
-        elif end not in tree.phrase.text:  # "below the upper left corner"
-            name = beyond
-    if phrase.noun == "end" and not landmark.children and inside and (side := one_side(phrase.words, ())) is not None:
-        name, phrase = NEAREST, replace(phrase, noun=side, words=())  # "the mug at the left end" is the leftmost
-    if phrase.noun in SIDED:
-        sides = tuple(word for word in phrase.words if word not in DEGREES)
-        corner = told_sides((*sides, phrase.noun), ())
-        if len(corner) == 2 and not set(sides) & OWNERS.keys():
-            phrase = replace(phrase, noun="corner", words=corner)
-        elif len(sides) < len(phrase.words) and inside:
-            name, phrase = NEAREST, replace(phrase, words=sides)
-    if phrase.noun in ("corner", "middle", "center") and not landmark.children:
-        name = NEAREST if inside else _NOT_AT.get(name, name)
+    name, phrase = at_a_place(name, phrase, landmark, tree.phrase.text)
     name = SAME_RELATION.get(name, name)
     like = (LIKE_RELATION[name],) if name in LIKE_RELATION else ()
     words = (name, *like, *tree.phrase.words[1:])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from dcg_torch.interpretation.measuring import COMPARING
+from dcg_torch.interpretation.comparatives import COMPARING
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.palette import region
 from dcg_torch.names.vocabulary import OR, THAN

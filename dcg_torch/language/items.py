@@ -11,8 +11,19 @@ from typing import Final
 from dcg_torch.english.forms import parts
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 
-Kind = enum.Enum("Kind", "VERB PREPOSITION NOUN RELATIVE NEGATION AND COMMA STOP ADVERB")
-"""What an item of a command is; RELATIVE is "which", "that" or "who"."""
+
+class Kind(enum.Enum):
+    """What an item of a command is, with the tag of what is one by itself."""
+
+    VERB = "V"
+    PREPOSITION = "P"
+    NOUN = "N"
+    RELATIVE = "REL"  # which, that, who
+    NEGATION = "NEG"
+    AND = "AND"  # or, but as well
+    COMMA = "COMMA"
+    STOP = "STOP"  # the end of a sentence
+    ADVERB = "ADV"
 
 
 @dataclass(slots=True, eq=False)

@@ -33,6 +33,8 @@ def listed(names: Iterable[str]) -> frozenset[str]:
     return frozenset().union(*({**VERBS, **SETS}[name] for name in names))
 
 
+TAGS: Final = {name: frozenset(text.split()) for name, text in GRAMMAR["tag_sets"].items()}
+"""Tags by what they do in a phrase."""
 PLACING: Final[Mapping[str, frozenset[str]]] = {
     name: frozenset(part.strip() for part in text.split(";")) for name, text in GRAMMAR["prepositions"].items()
 }
@@ -76,6 +78,8 @@ def _replacement(new: str) -> str | Callable[[re.Match[str]], str]:
     return lambda match: match.expand(_ASKED.sub(lambda asked: _mapped(match[asked[1]], asked[2]), new))
 
 
+QUOTES: Final = str.maketrans(_PATTERNS["quotes"])
+"""Typographic quotes, dashes and the ellipsis, as they are typed on a keyboard."""
 REWRITES: Final = tuple(
     (re.compile(_filled(old)), _replacement(new), tuple(needs[0].split("|")) if needs else ("",))
     for old, new, *needs in _PATTERNS["rewrite"]

@@ -4,25 +4,22 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from typing import Final
 
 from dcg_torch.english.forms import parts, singular
 from dcg_torch.language.items import Item, Kind, normal_words
-from dcg_torch.language.lexicon import NORMAL, NUMBERS, SETS
+from dcg_torch.language.lexicon import GRAMMAR, NORMAL, NUMBERS, SETS, TAGS
 from dcg_torch.language.tagging import Token
 
-_HEADS = frozenset({"N", "SIDE", "ONE"})
-_DESCRIBING = frozenset({"COL", "MOD"})
-_NOUNS = frozenset({"ORD", "NM", "ONE", "N", "SIDE"})
-_STARTS = frozenset({"DET", "Q", "NUM", "ORD", "MOD", "COL", "NM", "N", "SIDE"})
-NOMINAL = _STARTS | {"ONE"}
 _LONGEST_NUMBER = 3
+_ROLES: Final = {tag: f"_{role}" for tag, role in GRAMMAR["noun_phrase"].items()}
 
 
 class NounPhrase:
     """Reads the noun phrase that begins at a token; `at` is the token behind it.
 
-    `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one. A method for each tag
-    says how many tokens it takes: 0 where the noun phrase ends.
+    `alone`: no noun phrase stands before it in its sentence, so that "biggest" by itself is one. A method for each role
+    that a token plays says how many tokens it takes: 0 where the noun phrase ends.
     """
 
     def __init__(self, tokens: Sequence[Token], start: int, alone: bool) -> None:
@@ -33,14 +30,10 @@ class NounPhrase:
         self.of: int | None = None  # how many a group has: "the row of five cubes"
         self.picked = False  # "the bigger of the ...": what follows tells what it is picked from
         self.closed = self.is_measure = self.is_group = False
-        parts = {"DET": self._determiner, "Q": self._quantifier, "NUM": self._number, "ORD": self._describe,
-                 "MOD": self._describe, "COL": self._color, "NM": self._noun, "N": self._noun, "SIDE": self._noun,
-                 "ONE": self._one, "NAME": self._name, "POS": self._possessive, "P": self._of, "NEG": self._denial,
-                 "AND": self._joint, "COMMA": self._joint, "PRO": self._them}  # fmt: skip
         while self.at < len(tokens) and not self.closed:
             tag = tokens[self.at].tag
-            late = self.headed if tag in _DESCRIBING | _NOUNS else self.nouns and tag in _STARTS
-            taken = 0 if late or tag not in parts else parts[tag](tokens[self.at])
+            late = self.headed if tag in TAGS["before_heads"] else self.nouns and tag in TAGS["starts"]
+            taken = 0 if late or tag not in _ROLES else getattr(self, _ROLES[tag])(tokens[self.at])
             if not taken:
                 break
             self.at += taken
@@ -49,7 +42,7 @@ class NounPhrase:
     @property
     def headed(self) -> bool:
         """Whether the noun has its last word."""
-        return bool(self.nouns) and self.nouns[-1].tag in _HEADS
+        return bool(self.nouns) and self.nouns[-1].tag in TAGS["heads"]
 
     def _determiner(self, token: Token) -> int:
         if self.at > self.start and self.tokens[self.at - 1].tag not in {"Q", "DET", "P"}:
@@ -75,15 +68,15 @@ class NounPhrase:
             return 1
         if not self.item.determined and singular(self.tokens[self.at + 1].text) in SETS["measures"]:
             behind = self.tokens[self.at + 2].tag
-            if behind not in _STARTS - {"DET", "SIDE"} or self.tokens[self.at + 2].text in SETS["directions"]:
+            if behind not in TAGS["starts"] - {"DET", "SIDE"} or self.tokens[self.at + 2].text in SETS["directions"]:
                 self.is_measure = self.closed = True
                 return 2
         self.item.count = self.item.count if self.picked else number
-        if token.text == "one" and self.tokens[self.at + 1].tag not in _STARTS:
+        if token.text == "one" and self.tokens[self.at + 1].tag not in TAGS["starts"]:
             self.item.pronoun = self.closed = True
         return 1
 
-    def _describe(self, token: Token) -> int:
+    def _description(self, token: Token) -> int:
         if self.item.words or token.text not in SETS["color_fillers"]:
             self.item.words += token.value
         return 1
@@ -100,7 +93,7 @@ class NounPhrase:
 
     def _noun(self, token: Token) -> int:
         described = self.item.words or self.item.color  # "the dark coloured ball"
-        if not (described and token.text in SETS["color_fillers"] and self.tokens[self.at + 1].tag in _STARTS):
+        if not (described and token.text in SETS["color_fillers"] and self.tokens[self.at + 1].tag in TAGS["starts"]):
             self.nouns.append(token)
         return 1
 
@@ -125,7 +118,7 @@ class NounPhrase:
     def _denial(self, token: Token) -> int:
         """ "The not blue cube", "a non red one"."""
         after = self.tokens[self.at + 1].tag
-        if not (self.item.determined or self.item.words) or self.nouns or after not in _DESCRIBING:
+        if not (self.item.determined or self.item.words) or self.nouns or after not in TAGS["describing"]:
             return 0
         self.item.words += (f"not {self.tokens[self.at + 1].value[0]}",)
         return 2
@@ -135,12 +128,12 @@ class NounPhrase:
         if self.nouns or not (self.item.color or self.item.words) or self.picked:
             return 0
         at = self.at + 1 + (self.tokens[self.at + 1].text == "and")
-        follows = self.tokens[at + 1].tag in {"N", "NM", "AND", "ONE", "COMMA", *_DESCRIBING}
-        return at - self.at if self.tokens[at].tag in _DESCRIBING and follows else 0
+        follows = self.tokens[at + 1].tag in {"N", "NM", "AND", "ONE", "COMMA", *TAGS["describing"]}
+        return at - self.at if self.tokens[at].tag in TAGS["describing"] and follows else 0
 
     def _possessive(self, token: Token) -> int:
         """ "The robot's cube" is the cube."""
-        if not self.nouns or self.tokens[self.at + 1].tag not in _STARTS:
+        if not self.nouns or self.tokens[self.at + 1].tag not in TAGS["starts"]:
             return 0
         self.nouns, self.item.color = [], None
         return 1
@@ -150,7 +143,7 @@ class NounPhrase:
         return (self._group_of() or self._pick_of()) if token.text == "of" else 0
 
     def _group_of(self) -> int:
-        if not self.headed or self.tokens[self.at + 1].tag not in _STARTS:
+        if not self.headed or self.tokens[self.at + 1].tag not in TAGS["starts"]:
             return 0
         unit = singular(self.nouns[-1].text)
         crossing = any(token.text in SETS["lines"] for token in self.tokens[self.at + 2 : self.at + 4])
@@ -174,16 +167,15 @@ class NounPhrase:
 
     def _pick_of(self) -> int:
         """ "One of the cubes", "all of the cubes", "the leftmost of the cubes"."""
-        picker = self.tokens[self.at - 1]
+        picker, first, after = self.tokens[self.at - 1], self.tokens[self.at + 1], self._behind_determiners()
         # "The middle of the three cones", but "the middle of the table".
-        counted = self.tokens[self._behind_determiners()].tag == "NUM" and picker.text in SETS["counted_middles"]
+        counted = self.tokens[after].tag == "NUM" and picker.text in SETS["counted_middles"]
         bare = not self.nouns and picker.tag in {"Q", "NUM", "ORD", "MOD", "ONE"}
         if not (picker.tag == "SIDE" and counted if self.headed else bare):
             return 0
-        after = self._behind_determiners()
         pair = self.tokens[after].text in SETS["pairs"] and self.tokens[after + 1].text == "of"
         bare_group = self.tokens[after].text in SETS["groups"] and not pair
-        several = self.tokens[self.at + 1].tag in _STARTS or self.tokens[self.at + 1].text in SETS["group_pronouns"]
+        several = first.tag in TAGS["starts"] or first.text in SETS["group_pronouns"]
         if bare_group or not several:
             self.closed = True  # "the last of the row": the row is no such thing
             return 0

@@ -7,12 +7,9 @@ from collections.abc import Sequence
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS
-from dcg_torch.language.noun_phrases import NOMINAL, NounPhrase
+from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, TAGS
+from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import BEHIND, Token
-
-_SIMPLE = {"REL": Kind.RELATIVE, "NEG": Kind.NEGATION, "AND": Kind.AND, "COMMA": Kind.COMMA, "STOP": Kind.STOP}
-_VERBAL = frozenset({"V", "VG", "BE", "HAVE"})
 
 
 def items(tokens: Sequence[Token]) -> list[Item]:
@@ -29,12 +26,12 @@ class _Phrases:
         self.tokens = tokens
         self.out: list[Item] = []
         self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
-        self.parts |= dict.fromkeys(_VERBAL, self.verb) | dict.fromkeys(NOMINAL, self.nominal)
+        self.parts |= dict.fromkeys(TAGS["verbal"], self.verb) | dict.fromkeys(TAGS["nominal"], self.nominal)
 
     def step(self, i: int) -> int:
         tag = self.tokens[i].tag
-        if tag in _SIMPLE:
-            self.add(_SIMPLE[tag], i, i + 1)
+        if tag in TAGS["joints"]:
+            self.add(Kind(tag), i, i + 1)
         return self.parts[tag](i) if tag in self.parts else i + 1
 
     def add(self, kind: Kind, i: int, j: int, words: tuple[str, ...] = ()) -> Item:

@@ -37,7 +37,8 @@ def settle(clause: Clause, pending: list[Item], supplied: bool, decisions: Decis
             continue  # "find it for me" says nothing of the thing
         owner: Item | None = None
         if place is not goal and place.before:
-            if place.beside and last is not None and not place.forced and not (target is None and _is_path(place)):
+            apart = place.forced or (target is None and place.name in PLACING["ways"])
+            if place.beside and last is not None and not apart:
                 owner = last
             elif not _belongs_to_verb(place, clause, target, full):
                 owner = _nearest(place, decisions)
@@ -101,10 +102,6 @@ def _goal(clause: Clause, full: list[Item], supplied: bool, decisions: Decisions
     return next(strong, None) if clause.action in VERBS["take"] | VERBS["go"] else None
 
 
-def _is_path(place: Item) -> bool:
-    return place.name in PLACING["strong"] | PLACING["paths"] - PLACING["no_paths"]
-
-
 def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: list[Item]) -> bool:
     """Whether a phrase after a noun phrase still says where the motion goes."""
     if clause.verb is None or place.forced:
@@ -114,7 +111,7 @@ def _belongs_to_verb(place: Item, clause: Clause, target: Item | None, full: lis
         sideways = place.name in PLACING["toward"] and place.children[0].is_a("sided_place")
         return moved or (sideways and place.beside and clause.action in VERBS["put"])
     goals = any(other.name in PLACING["goals"] for other in full[: full.index(place)])
-    return (_is_path(place) and not _about_noun(place)) or not goals
+    return (place.name in PLACING["ways"] and not _about_noun(place)) or not goals
 
 
 def _unnamed(clause: Clause) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 
-from dcg_torch.language.clauses import Clause
+from dcg_torch.language.clauses import BEFORE_VERB, Clause
 from dcg_torch.language.items import Item, Kind
 from dcg_torch.language.lexicon import REFUSALS, SETS, TALK, VERBS
 
-_BEFORE = frozenset({Kind.AND, Kind.COMMA, Kind.ADVERB})
 NO_THING = "it names no thing"
 NONE = "it asks for none of them"
 MOTION = "it says how to move and names no thing to go to"
@@ -34,7 +33,7 @@ def refuse(clause: Clause, items: Sequence[Item], parts: Sequence[tuple[int, int
 
     A clause is within one of the `parts`, unless an order begins in it; or it is talk by itself.
     """
-    first = next((item for item in items if item.kind not in _BEFORE), items[0])
+    first = next((item for item in items if item.kind not in BEFORE_VERB - {Kind.NEGATION}), items[0])
     own = not first.start or words[first.start - 1] not in SETS["subordinates"]
     for start, stop, reason in parts:
         if start <= first.start < stop:

@@ -14,10 +14,6 @@ from dcg_torch.language import lexicon as lx
 from dcg_torch.language.candidates import is_plain_noun
 from dcg_torch.language.colors import COLOR_NAMES, SINGLE_COLORS
 
-# Typographic quotes, dashes and the ellipsis, by code point.
-_QUOTES = str.maketrans(
-    {0x2018: "'", 0x2019: "'", 0x60: "'", 0xB4: "'", 0x201C: '"', 0x201D: '"', 0x2013: "-", 0x2014: ",", 0x2026: "."}
-)
 _HYPHENATED = re.compile(r"\b([a-z]+)-([a-z]+)\b")
 _NAME = re.compile(r"(?<=[a-z,] )[A-Z][a-z]+\b")
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
@@ -31,7 +27,7 @@ def tokens(text: str) -> list[str]:
     >>> tokens("Um, go to the red_cube, please!")
     ['go', 'to', 'the', 'red', 'cube', ',', 'please', '!']
     """
-    text = unicodedata.normalize("NFKC", text).translate(_QUOTES).lower()
+    text = unicodedata.normalize("NFKC", text).translate(lx.QUOTES).lower()
     text = text if text.isprintable() else "".join(" " if unicodedata.category(c)[0] == "C" else c for c in text)
     text = _HYPHENATED.sub(_swap, text)
     for old, new, needs in lx.REWRITES:

@@ -16,13 +16,12 @@ from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.fit import FitResult, fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
+from dcg_torch.grounding.command import ground_command
 from dcg_torch.grounding.encode import WorldEncoder, encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
-from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.graph import FactorGraph
-from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, told_where, worth_grounding
+from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.grounding.speakers import about_the_speaker
 from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.interpretation.marks import heard
 from dcg_torch.interpretation.spoken import ReadCommand
@@ -167,19 +166,10 @@ class GroundingModel:
             command = heard(parse_command, command, self.symbols.keys(), world.objects)
         if not hasattr(command, "readings"):
             raise TypeError(f"a command is text, a parse tree or what a parser made of it, not {command!r:.60}")
-        if self.variant.related:
-            command, world = about_the_speaker(command, world)
-        if not command.readings:
-            return Solution(None, world, problem=command.problem)
-        readings = worth_grounding(command, world, self.learner.readings)
-        world = told_where(world, readings)
-        frames = self.learner.frames if self.variant.related else None
-        search = self._search(world)
-        facing = None if frames is None else faced(readings[0].tree, search.ground)
-        seen = views(command.text, world, None if frames is None else frames.speakers)
-        seen = seen if facing is None else [(facing, 0.0)]
-        searches = [(search if view is world else self._search(view), frame) for view, frame in seen]
-        return sum_over_frames(searches, readings if self.variant.related else readings[:1])
+        related = self.variant.related
+        frames = self.learner.frames if related else None
+        speakers = None if frames is None else frames.speakers
+        return ground_command(command, world, self._search, self.learner.readings, speakers, related=related)
 
     def _search(self, world: WorldModel) -> SharedSearch:
         encoder = self._kept.last.encoder(self.features, world)

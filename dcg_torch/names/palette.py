@@ -71,7 +71,7 @@ def listed_colors() -> dict[str, tuple[float, float, float]]:
 
 @functools.cache
 def _listed_rgb() -> dict[str, tuple[float, float, float]]:
-    lines = (DATA / LISTED).read_text(encoding="utf-8").splitlines()
+    lines = (line for line in (DATA / LISTED).read_text(encoding="utf-8").splitlines() if line[:2] != "# ")
     named = {normalise(name): code for code, _, name in (line.partition(" ") for line in lines)}
     return {name: _triple(np.array(list(bytes.fromhex(code[1:])), dtype=np.float64)) for name, code in named.items()}
 

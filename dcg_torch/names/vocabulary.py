@@ -233,6 +233,11 @@ def is_superlative(word: str) -> bool:
     return word.endswith(("est", "most")) or word == "middle"
 
 
+def cardinal(word: str) -> int | None:
+    """What a number says that counts: 3 for "three" and "3"; None for other words, and for nought."""
+    return NUMBER_WORDS.get(word) or (int(word) if word.isdecimal() else None) or None
+
+
 def counted(words: Iterable[str], of: str = "of ") -> int | None:
     """How many the words of a noun phrase say that there are: 5 for "of 5"; None where they do not."""
     return next((int(word[len(of) :]) for word in words if word.startswith(of) and word[len(of) :].isdecimal()), None)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,41 +17,13 @@ from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
+from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
 from dcg_torch.scene.views import views
 
-DISTANCES = (0.6, 1.2, 1.6, 2.5, 4.0, 6.0)
-"""The bounds of the distance features, in units of the world."""
-VERTICAL = ("level", "on top", "higher over", "right under", "lower under", "above", "below")
-SECTORS = ("ahead", "ahead left", "left", "behind left", "behind", "behind right", "right", "ahead right")
-FRAMES = ("side", "side seen", "side spoken")
-"""Whose left it is: the robot's as it stands, the robot's as it looks at the landmark, the speaker's as they do."""
-_ORDERS = ("closest", "farthest")
-"""Orders by distance, of which `NEAREST` ranks each are features."""
-
-
-def _names() -> dict[str, list[str]]:
-    """Family of relation features -> the names of its values."""
-    bounds = [f"to {d:g}" for d in DISTANCES] + ["farther"]
-    families = {"vertical": list(VERTICAL), "distance": bounds, "place distance": bounds}
-    families |= {frame: [f"{frame} {s}" for s in SECTORS] for frame in FRAMES}
-    for order in _ORDERS:
-        families[order] = [f"{order} {k}" for k in range(1, NEAREST + 1)]
-    families["itself"] = ["itself"]
-    families["between"] = ["between", "not between"]
-    families["line"] = ["in line across", "in line along"]
-    families["direction"] = ["along", "rather along", "aslant", "against"]
-    families["part"] = ["in that part", "in another part"]
-    families["member"] = ["member", "no member"]
-    families["member top"] = ["top member", "lower member"]
-    families["member place"] = ["end member", "middle member", "inner member"]
-    return families
-
-
-RELATIONS = {family: [f"relation: {family}, {name}" for name in names] for family, names in _names().items()}
-"""Family of relation features -> the names of its values; at most one value of a family fires."""
-RELATION_NAMES = [name for names in RELATIONS.values() for name in names]
+_Over: TypeAlias = tuple[Bools, Bools] | None
+"""See `Bodies.over`; None where of nothing it is known how large it is."""
 _STARTS = np.cumsum([0, *map(len, RELATIONS.values())][:-1], dtype=np.int16)[:, None, None]
-_COMPARED = [list(RELATIONS).index(order) for order in _ORDERS]
+_COMPARED = [list(RELATIONS).index(order) for order in ORDERS]
 _BETWEEN = list(RELATIONS).index("between")
 
 
@@ -102,7 +75,7 @@ class Relations:
 
     def _orders(self, first: Ints, alike: Alike, ordinal: int | None = None, count: int | None = None) -> Ints:
         _, distance, may = self.standing.of(first.tolist())
-        return _orders(self._where, first, distance, may, alike, ordinal, count)
+        return _orders(self._where, first, (distance, may), alike, ordinal, count)
 
 
 def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bools]:
@@ -114,10 +87,8 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     """
     position, place = where.position, where.place[first][:, None]
     x, y, up = position.T[:, None, :] - position[first].T[:, :, None]  # (c, n) each
-    covers = apart = touches = None
-    offset = x, y
-    if where.bodies is not None:
-        covers, apart = where.bodies.over(first, np.stack([x, y], axis=2))
+    touches, offset = None, (x, y)
+    over = None if where.bodies is None else where.bodies.over(first, np.stack([x, y], axis=2))
     if where.wide is not None:
         half = where.half[first][:, None, :] + where.wide[first][:, None, :] + where.wide[None]
         x, y = (np.sign(v) * np.maximum(np.abs(v) - half[..., k], 0.0) for k, v in enumerate((x, y)))
@@ -127,16 +98,11 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     exists = np.isfinite(distance) & ~itself
     # A line of the whole scene has everything near it: a thing is in it or not.
     alone = exists & ~where.line[first][:, None] if where.members else exists
-    near = distance
-    if covers is not None and apart is not None:
-        near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
-        near = np.where(covers, np.minimum(near, 0.0), near)
-    if where.picture:
-        near = np.where(place | ~where.solid[None], near, np.maximum(near, _BESIDE_IT))
+    near = _nearness(where, distance, place, over)
     steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),
-        "vertical": _vertical(where, first, near, up, exists, covers, apart),
+        "vertical": _vertical(where, first, near, up, exists, over),
         "itself": (itself & ~place) - 1,
     }
     aside = exists & (near >= SAME_SPOT)
@@ -158,6 +124,18 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     return out, distance, alone
 
 
+def _nearness(where: Layout, distance: Floats, place: Bools, over: _Over) -> Floats:
+    """(c, n) the distance by which things are near: none of what is over or under, some of what is beside."""
+    near = distance
+    if over is not None:
+        covers, apart = over
+        near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
+        near = np.where(covers, np.minimum(near, 0.0), near)
+    if where.picture:
+        near = np.where(place | ~where.solid[None], near, np.maximum(near, _BESIDE_IT))
+    return near
+
+
 _BOUNDS = np.array(DISTANCES)
 _VERTICAL = np.array(
     [
@@ -176,11 +154,11 @@ _BESIDE_IT = 0.7
 """Units at least between things that are known to cover no part of one another."""
 
 
-def _vertical(
-    where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, covers: Bools | None, apart: Bools | None
-) -> Ints:
+def _vertical(where: Layout, first: Ints, distance: Floats, up: Floats, exists: Bools, over: _Over) -> Ints:
+    """(c, n) which of `VERTICAL`, by heights, or by feet and tops where these are known."""
     step = _UP.searchsorted(up)  # 2 is on a level
-    if where.bodies is not None and covers is not None and apart is not None:
+    if where.bodies is not None and over is not None:
+        covers, apart = over
         step = np.where(covers | apart, where.bodies.steps(first, covers) + 2, step)
     value = _VERTICAL[(distance < SAME_SPOT).astype(np.int64), np.minimum(step, 4)]
     if where.ground[first].any():
@@ -206,15 +184,15 @@ def _sector(angle: Floats, kept: Bools) -> Ints:
 
 
 def _orders(
-    where: Layout,
-    first: Ints,
-    distance: Floats,
-    exists: Bools,
-    alike: Alike,
-    ordinal: int | None = None,
-    count: int | None = None,
+    where: Layout, first: Ints, measured: tuple[Floats, Bools], alike: Alike, ordinal: int | None, count: int | None
 ) -> Ints:
-    """(2, c, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way."""
+    """(2, c, n) indices of the closest and the farthest of those alike; in a direction, of the farthest that way.
+
+    Args:
+        measured: (c, n) how far things are from the landmarks, and which of them may be the closest.
+        ordinal, count: see `Relations.to`.
+    """
+    distance, exists = measured
     value = distance
     towards = where.direction[first].nonzero()[0]
     if len(towards):

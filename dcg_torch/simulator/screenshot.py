@@ -65,19 +65,6 @@ def pair_pictures(world: World, size: tuple[int, int] = (640, 480)) -> Iterator[
             yield item.id, shot.picture(item.id)
 
 
-def close_up(type: str, color: str, side: int = 220) -> Pixels:
-    """One object by itself, uint8 of shape (side, side, 3).
-
-    Raises:
-        ValueError: unknown type or colour.
-    """
-    item = WorldObject(id=type, type=type, color=color, position=(0.5, 0.5))  # in the middle of a tile
-    with Stage(World(name=type, objects=(item,))) as stage:
-        stage.put(None)
-        picture, _ = stage.render(_near(item, math.radians(50.0), side * _OVERSAMPLING))
-    return np.asarray(Image.fromarray(picture).reduce(_OVERSAMPLING))
-
-
 class _Screenshot:
     """One world, rendered once; `picture` adds the highlight of one object."""
 

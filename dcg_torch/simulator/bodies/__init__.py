@@ -76,23 +76,13 @@ def add_model(client: int, looks: Model, color: RGB, position: tuple[float, floa
         )
         for part in _prepared(looks)
     ]
-    low, high = looks.bounds
-    middle = ((low + high) / 2).tolist()
-    height = float(high[2] - low[2])
-    if looks.round_hull:
-        hull = {"radius": looks.radius, "height": height, "collisionFramePosition": [0.0, 0.0, middle[2]]}
-        shape = pybullet.GEOM_CYLINDER
-    else:
-        hull = {"halfExtents": ((high - low) / 2).tolist(), "collisionFramePosition": middle}
-        shape = pybullet.GEOM_BOX
-    collision = pybullet.createCollisionShape(shape, physicsClientId=client, **hull)
     # One body may have one mesh made in memory per link, so the accents hang on fixed links without a shape to
     # collide with; masks without the link flag show all of them under the body's id.
     links = len(visuals) - 1
     return int(
         pybullet.createMultiBody(
             baseMass=0,
-            baseCollisionShapeIndex=collision,
+            baseCollisionShapeIndex=_hull(client, looks),
             baseVisualShapeIndex=visuals[0],
             basePosition=[position[0], position[1], 0.0],
             baseOrientation=[0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)],
@@ -109,6 +99,22 @@ def add_model(client: int, looks: Model, color: RGB, position: tuple[float, floa
             physicsClientId=client,
         )
     )
+
+
+def _hull(client: int, looks: Model) -> int:
+    """The shape that a model collides with: a box around it, or a cylinder."""
+    from dcg_torch.simulator.engine import pybullet  # as above
+
+    low, high = looks.bounds
+    middle = ((low + high) / 2).tolist()
+    if looks.round_hull:
+        height = float(high[2] - low[2])
+        hull = {"radius": looks.radius, "height": height, "collisionFramePosition": [0.0, 0.0, middle[2]]}
+        shape = pybullet.GEOM_CYLINDER
+    else:
+        hull = {"halfExtents": ((high - low) / 2).tolist(), "collisionFramePosition": middle}
+        shape = pybullet.GEOM_BOX
+    return int(pybullet.createCollisionShape(shape, physicsClientId=client, **hull))
 
 
 @functools.cache

@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import functools
-
 import pytest
+from asked import shipped
 
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 THINGS = (  # id, class, x, y, extents, gray
@@ -20,18 +17,13 @@ THINGS = (  # id, class, x, y, extents, gray
 )
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _meant(text: str, *, known: bool = True) -> tuple[set[str], float | None]:
     percepts = [
         Percept(id_, kind, None, (x, y, 0.0), size=size if known else None, rgb=(gray,) * 3 if known else None)
         for id_, kind, x, y, size, gray in THINGS
     ]
-    solution = _model().ground(
-        default_parser().parse(text), _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    solution = shipped().ground(
+        default_parser().parse(text), shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
     )
     return {o.id for o in solution.objects if not o.hypothetical}, solution.probability
 
