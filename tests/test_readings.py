@@ -135,7 +135,8 @@ def test_a_group_that_one_reading_alone_speaks_of_keeps_its_share(model: Groundi
     cups = [Percept(f"c{k}", "cup", None, (2.0, 0.4 * k, 0.0)) for k in range(3)]
     world = model.world_model([*cups, Percept("k", "kettle", None, (1.0, 3.0, 0.0))], robot=None, looked=True)
     row, kettle = (model.ground(text, world) for text in ("go to the row of cups", "go to the kettle"))
-    assert row.object is not None and row.object.members
+    assert row.object is not None
+    assert row.object.members
     assert kettle.world.groups == ()
     for first, second in ((row, kettle), (kettle, row)):
         found = sum_over([first, second], [0.1, 0.0])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
@@ -17,6 +18,9 @@ Bools = NDArray[np.bool_]
 
 FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
+_WELL, _WIDER = math.log(0.05), 4
+"""Log of the share of the likeliest one's probability from which others are kept beyond the beam, and up to how many
+beams."""
 
 
 class Scored(NamedTuple):
@@ -75,6 +79,13 @@ class Scored(NamedTuple):
         if columns is not None:
             things = columns[things].tolist()
         return Highest([k // (m * n) for k in at], things, [self.meant[k % m] for k in at], flat[best].tolist())
+
+    def worth_keeping(self, beam: int) -> int:
+        """How many configurations are kept where more than a beam may well be meant; of very many things a beam."""
+        if not beam < self.scores.shape[1] <= FEW:
+            return beam
+        likely = int((self.scores >= self.scores.max() + _WELL).sum())
+        return max(beam, min(likely, _WIDER * beam))
 
     def about(self, meant: str, number: Mapping[str, int]) -> Bools:
         """(combos, groundings, 1) or what broadcasts to it: which configurations are about an object.

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.contrary import of_missing_marks
+from dcg_torch.grounding.decision import instead_of
 from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, of_kind, ranks
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
@@ -29,11 +30,6 @@ from dcg_torch.types import Correspondence, ParseTree, Phrase, PhraseKind
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
 
-_EQUAL = math.log(0.9)
-"""Log of the share of the best thing's probability from which another is as good."""
-_WELL, _WIDER = math.log(0.05), 4
-"""Log of the share of the likeliest one's probability from which others are considered beyond the beam, and up to how
-many beams."""
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""
 
@@ -77,7 +73,9 @@ class Search:
         root = self._picked(tree, landmark=False)
         number, totals = self.encoder.number, root.totals()[: self._meanable]
         found = target_of(tree)
-        best = self._nearest_best(root, totals, several=found is not None and found.phrase.plural)
+        best = self._best(root, 1)[0]
+        id_ = instead_of(best.meant, totals, self.encoder, several=found is not None and found.phrase.plural)
+        best = best if id_ == best.meant.id else self._best_about(id_, root) or best
         noun = None if found is None else self._picked(found, landmark=False)
         fits = None if noun is None or noun.log_fit is None else np.exp(noun.log_fit)
         odds = (
@@ -112,27 +110,6 @@ class Search:
         found = self._best(root, 1, scores)[0]
         return found if math.isfinite(found.log_score) else None
 
-    def _nearest_best(self, root: Scored, totals: Floats, *, several: bool) -> Hypothesis:
-        """The best configuration; where names count, one of the nearest thing of those that are as good as equal.
-
-        There something that is there is meant if that is twice as likely as that nothing is; of several, if it is
-        likelier.
-        """
-        best, robot, named = self._best(root, 1)[0], self.encoder.world.robot, judges_absence(self.encoder)
-        things = self.encoder.world.objects
-        if best.meant.hypothetical and (named or several):
-            least = math.log(0.5 if several else 2.0 / 3.0) + np.logaddexp.reduce(totals)
-            totals = np.where(self.encoder.perceived[: len(totals)], totals, -np.inf)
-            if np.logaddexp.reduce(totals) > least:
-                best = self._best_about(self.encoder.all[int(totals.argmax())].id, root) or best
-        if robot is None or not named or best.meant.hypothetical or best.meant.members:
-            return best
-        least = totals.max() + _EQUAL
-        equal = [o for o, total in zip(things, totals.tolist(), strict=False) if total >= least]
-        away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
-        near = min(away, key=away.__getitem__, default=best.meant.id)
-        return best if near == best.meant.id else self._best_about(near, root) or best
-
     def _best_about(self, id_: str, root: Scored) -> Hypothesis | None:
         """The best configuration about a thing; None if there is none."""
         scores = np.where(root.about(id_, self.encoder.number), root.scores, -np.inf)
@@ -150,18 +127,9 @@ class Search:
     def _beam_of(self, tree: ParseTree, *, landmark: bool) -> Beam:
         found = self._found_of(tree, landmark)
         if found.beam is None:
-            found.beam = self._best(found.scored, self._wide(found.scored))
+            wide = judges_absence(self.encoder)
+            found.beam = self._best(found.scored, found.scored.worth_keeping(self._beam) if wide else self._beam)
         return found.beam
-
-    def _wide(self, scored: Scored) -> int:
-        """How many hypotheses are considered: the beam, and where names count what may well be meant beyond it.
-
-        Among very many things that would take too long.
-        """
-        if not self._beam < scored.scores.shape[1] <= FEW or not judges_absence(self.encoder):
-            return self._beam
-        likely = int((scored.scores >= scored.scores.max() + _WELL).sum())
-        return max(self._beam, min(likely, _WIDER * self._beam))
 
     def _found_of(self, tree: ParseTree, landmark: bool) -> _Found:
         key = (tree, landmark)

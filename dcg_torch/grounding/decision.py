@@ -1,0 +1,43 @@
+"""Which thing is meant, of the probabilities of all: where the likeliest configuration is not the answer."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dcg_torch.grounding.absence import judges_absence
+from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.types import Object
+
+_EQUAL = math.log(0.9)
+"""Log of the share of the best thing's probability from which another is as good."""
+_SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
+"""Log of the probability that something is there from which on something is meant that is."""
+
+
+def instead_of(best: Object, totals: NDArray[np.float64], encoder: WorldEncoder, *, several: bool) -> str:
+    """Id of the thing that is meant, which is the likeliest configuration's unless names count, or several are meant.
+
+    There something that is there is meant if that is twice as likely as that nothing is; of several, if it is likelier.
+    Of things that are as good as equal, where names count, the nearest is meant.
+
+    Args:
+        best: what the likeliest configuration is about.
+        totals: (meanable,) log-score of every thing that may be meant, up to a constant.
+        several: does the noun phrase mean several things?
+    """
+    named, robot, id_ = judges_absence(encoder), encoder.world.robot, best.id
+    if best.hypothetical and (named or several):
+        least = np.logaddexp.reduce(totals) + (_SEVERAL_THERE if several else _ONE_THERE)
+        totals = np.where(encoder.perceived[: len(totals)], totals, -np.inf)
+        if np.logaddexp.reduce(totals) > least:
+            best = encoder.all[int(totals.argmax())]
+            id_ = best.id
+    if robot is None or not named or best.hypothetical or best.members:
+        return id_
+    least = totals.max() + _EQUAL
+    equal = [o for o, total in zip(encoder.world.objects, totals.tolist(), strict=False) if total >= least]
+    away = {o.id: math.dist(o.position[:2], (robot.x, robot.y)) for o in equal if o.position is not None}
+    return min(away, key=away.__getitem__, default=id_)
