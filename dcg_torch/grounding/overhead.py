@@ -28,6 +28,9 @@ _REACH = 0.6
 _ASLANT, _FOLD, _NOT_SO = 2.0, 0.7, 3.0
 """Nats that a thing loses for each unit by which it is less straight over or under another than the straightest, for
 each e-fold by which it is farther up or down than the nearest that is so, and where it is neither over nor under."""
+_CLEAR, _BESIDE = 0.03, 2.0
+"""Units of a gap from which on a thing is over or under no part of another, and nats that it loses where others are:
+of two cabinets side by side the one below the printer is under it."""
 
 
 def by_height(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
@@ -79,6 +82,7 @@ def _straight(up: float, mark: NDArray[np.int64], log_psi: Floats, encoder: Worl
     nearest = np.where(so & (aslant <= TOUCHING), rise, np.inf).min(axis=1, keepdims=True)
     farther = np.where(so, rise, 1.0) / np.where(np.isfinite(nearest), nearest, 1.0)
     lost = _ASLANT * aslant + _FOLD * np.log(np.maximum(1.0, farther))
+    lost += np.where((least <= 0.0) & (aslant > _CLEAR), _BESIDE, 0.0)
     found: Floats = np.where(so, np.maximum(log_psi, -lost), log_psi - _NOT_SO)
     return np.where(any_so & where.solid, found, log_psi)
 

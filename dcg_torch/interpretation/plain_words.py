@@ -223,6 +223,7 @@ _SEEN_FROM_IT = {
     **{"on": "under", "on top of": "under", "above": "under", "under": "above"},
     **{"behind": "in front of", "in front of": "behind", "left of": "right of", "right of": "left of"},
     **{relation: relation for relation in ("next to", "beside", "near", "touching")},
+    **dict.fromkeys(("around", "at"), "with"),
 }
 
 
