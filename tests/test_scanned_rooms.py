@@ -115,3 +115,42 @@ def test_left_and_right_on_a_wall_that_leads_away(text: str, id_: str) -> None:
 )
 def test_one_is_what_a_class_is_called(text: str, id_: str) -> None:
     assert meant(text, BRIDGES, Pose(0.0, 0.0)) == [id_]
+
+
+STUDY = [
+    *(put(f"desk {n}", "desk", (2.0 * n, 1.0, 0.37), (1.4, 0.7, 0.74)) for n in range(4)),
+    *(put(f"swivel chair {n}", "swivel chair", (2.0 * n, 1.9, 0.5), (0.6, 0.6, 1.0)) for n in (0, 1, 3)),
+    put("chair", "chair", (3.0, 5.0, 0.45), (0.5, 0.5, 0.9)),
+    put("other chair", "chair", (4.5, 5.0, 0.45), (0.5, 0.5, 0.9)),
+    *(put(f"window {n}", "window", (1.0 + 3.0 * n, 0.0, 1.7), (1.2, 0.1, 1.0)) for n in range(2)),
+    put("door", "door", (3.0, 6.0, 1.0), (0.9, 0.1, 2.0)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("the desk with no chair in front of it", "desk 2"),
+        ("the desk without a chair", "desk 2"),
+        ("facing the window wall, the desk in the far right corner", "desk 0"),
+        ("facing the wall with the windows, the desk on the far left", "desk 3"),
+    ],
+)
+def test_a_study(text: str, id_: str) -> None:
+    assert meant(text, STUDY) == [id_]
+
+
+@pytest.mark.parametrize(
+    ("said", "type_"),
+    [
+        ("the corkboard", "bulletin board"),
+        ("the sink cabinet", "bathroom vanity"),
+        ("the light fixture", "light"),
+        ("the tv console", "tv stand"),
+        ("the copy machine", "copier"),
+        ("the handrail", "railing"),
+    ],
+)
+def test_names_of_what_is_in_scans(said: str, type_: str) -> None:
+    others = [put("crib", "crib", (1.0, 1.0, 0.5)), put("rug", "rug", (2.0, 0.0, 0.0))]
+    assert meant(f"go to {said}", [*others, put("one", type_, (3.0, 1.0, 1.0))]) == ["one"]

@@ -46,3 +46,12 @@ def by_measure(
     phrase, end = outermost(phrase, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)
     return phrase, away + row + few + extent + end + odd
+
+
+def of_some(
+    phrase: Phrase, told: Collection[str], described: tuple[Bools, Floats], encoder: WorldEncoder
+) -> tuple[Phrase, Floats]:
+    """The same of a phrase that says how many it picks from: "the left one of the two on the wall"."""
+    phrase, row = in_a_row_ahead(phrase, described, encoder)
+    phrase, extent = measured(phrase, told, described[0], encoder)
+    return phrase, row + extent

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.apart import MEASURED, log_distance
 from dcg_torch.grounding.bearings import by_bearing
-from dcg_torch.grounding.by_measure import by_measure
+from dcg_torch.grounding.by_measure import by_measure, of_some
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.compass import by_compass
@@ -25,7 +25,6 @@ from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.landmarks import APART, spread
-from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.nothing_near import nothing_near
@@ -200,7 +199,7 @@ def comparison_set(
     counts = np.where(of_color, own if close else fit + log_size, -np.inf)
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
-        phrase, log_extent = measured(phrase, told, among[0], encoder)
+        phrase, log_extent = of_some(phrase, told, (among[0], fit), encoder)
         log_size = log_size + shades_among(shades, among[0], encoder) + log_extent
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)

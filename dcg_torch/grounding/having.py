@@ -46,7 +46,8 @@ def of_having(
     on_it = counted and phrase.words[0] in listed("straight under") and phrase.text.startswith(_SAYS_HAS)
     if (phrase.words[0] != _WITH and not on_it) or bodies is None:
         return None
-    alike = np.flatnonzero(alike_by(scores) & encoder.perceived[list(landmarks)])
+    so_called = scores >= scores.max() - _SO_CALLED if NOT in phrase.words else alike_by(scores)
+    alike = np.flatnonzero(so_called & encoder.perceived[list(landmarks)])
     mark = [landmarks[k] for k in alike.tolist()]
     if max(mark, default=len(bodies.half)) >= len(bodies.half) or not encoder.layout.solid[mark].all():
         return None
@@ -99,6 +100,8 @@ _OWN, _AS_NEAR = -0.5, 1.0
 """Nats above which what stands so has the landmark, and by which others of its landmarks stand farther off."""
 _MISCOUNTED = 3.0
 """Nats that a thing loses for each by which it has more than is said, or fewer than the most."""
+_SO_CALLED = 9.0
+"""Nats by which a name fits less that fits as well: who has no chair has no office chair."""
 _ONLY, _MOST, _LEAST = "only", "most", frozenset({"fewest", "least"})
 _NUMBERS = _LEAST | {_ONLY, _MOST}
 _SAYS_HAS = ("with", "ha")

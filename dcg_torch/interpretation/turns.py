@@ -9,24 +9,33 @@ from __future__ import annotations
 
 import functools
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.normal import read_data, singular
 
 _LABEL = r"(?:(?<=^)|(?<=[\s.!?,'\"]))(?P<who>{})\s?:\s+"
 _ANY = r"[A-Za-z]{1,14}(?: ?\d)?"
 _LONGEST = 1000
 """Characters of a text that is looked at; longer ones are no commands."""
 _SENTENCES = re.compile(r"[^\s.?!][^.?!]*[.?!]*")
-_IT = re.compile(r"\bit\b")
+_SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
+_IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
+_FOLLOWER = "follower"
 
 
 @dataclass(frozen=True, slots=True)
 class Turn:
-    """What somebody says before another speaks."""
+    """What somebody says before another speaks.
+
+    Attributes:
+        anew: is all that was said before it done with?
+        clarifies: does it answer what was asked of the thing that was named before?
+    """
 
     who: str
     text: str
+    anew: bool = False
+    clarifies: bool = False
 
 
 def in_one_voice(text: str) -> str:
@@ -42,7 +51,7 @@ def _told(text: str) -> str:
     while len(turns) > 1 and _is("nothing", turns[-1].text) and not _asks(turns[-2].text):
         turns = turns[:-1]
     said = _of_giver(turns, turns[-1].who)
-    told = _last_first(said) if said else ""
+    told = _last_first(_still_valid(said)) if said else ""
     return told if told.strip(" .") else text
 
 
@@ -61,11 +70,25 @@ def _turns(text: str) -> list[Turn]:
     if quoted:
         said = re.findall(rf"{quoted[1]}(.+?){quoted[1]}(?=[\s,-]|$)", text)
         return [Turn(str((len(said) - k) % 2), part) for k, part in enumerate(said)]
+    return _unlabelled(text)
+
+
+def _unlabelled(text: str) -> list[Turn]:
+    """The turns of a text in which nobody says who speaks, told by what is asked in it, and by what is done with."""
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     if not any(_starts("takes", line) or _starts("denies", line) for line in lines[1:]):
         lines = [text]
-    parts = [part for line in lines for part in _pattern("next").split(line) if part]
-    return [Turn("", part) for part in parts] if len(parts) > 1 else []
+    parts = [(part, k > 0) for line in lines for k, part in enumerate(_pattern("next").split(line)) if part]
+    turns: list[Turn] = []
+    for part, anew in parts:
+        first = len(turns)
+        for said in _SAID.findall(part):
+            who = _FOLLOWER if turns and _is("follows", said) else ""
+            if len(turns) > first and turns[-1].who == who:
+                turns[-1] = replace(turns[-1], text=f"{turns[-1].text} {said}")
+            else:
+                turns.append(Turn(who, said, anew=anew and len(turns) == first))
+    return turns if len(turns) > 1 and turns[-1].who != _FOLLOWER else []
 
 
 def _asks(text: str) -> bool:
@@ -73,20 +96,23 @@ def _asks(text: str) -> bool:
     return "?" in text or _is("asked", text)
 
 
-def _of_giver(turns: list[Turn], giver: str) -> list[str]:
+def _of_giver(turns: list[Turn], giver: str) -> list[Turn]:
     """What the giver says in each turn, with what he takes of what the follower asks."""
-    said: list[str] = []
+    said: list[Turn] = []
     for k, turn in enumerate(turns):
         if turn.who != giver:
             continue
         asked = turns[k - 1].text if k and turns[k - 1].who != giver else ""
         denied = _starts("denies", turn.text)
         if denied is not None and not asked and said and denied.end() < len(turn.text):
-            said[-1] = f"{said[-1].rstrip(' .!')}, no, {turn.text[denied.end() :]}"
+            said[-1] = replace(said[-1], text=f"{said[-1].text.rstrip(' .!')}, no, {turn.text[denied.end() :]}")
             continue
         answer = _answered(asked, turn.text, first=not said)
+        anew = turn.anew or (not _asks(asked) and _starts("anew", turn.text) is not None)
+        named = _is("where", asked) or ((which := _match("which", asked)) is not None and which["what"] != "one")
+        clarifies = "?" in asked and not named and any(_starts(name, answer) for name in ("noun", "place", "denies"))
         if answer:
-            said.append(answer)
+            said.append(Turn(giver, answer, anew, clarifies))
     return said
 
 
@@ -99,6 +125,9 @@ def _answered(asked: str, answer: str, *, first: bool) -> str:
     """
     question = _match("asked", asked) if asked else None
     what = "" if question is None or _is("this", question["what"]) else _definite(question["what"])
+    sides, side = (_match("sides", asked) if asked else None), _match("side", answer)
+    if sides is not None and side is not None and side["side"].lower() in sides[0].lower():
+        return f"the {side['side'].lower()} one"
     denied = _starts("denies", answer)
     if denied is not None:
         return _instead(what, answer[denied.end() :], first=first)
@@ -122,11 +151,13 @@ def _answered(asked: str, answer: str, *, first: bool) -> str:
 
 def _instead(what: str, rest: str, *, first: bool) -> str:
     """What is meant where an offer is turned down: "No, the other one", "No. Look on the desk."."""
-    search = _match("search", rest)
+    search, side = _match("search", rest), _match("side", rest)
     if search is not None:
         return f"it is {search['at'] or 'near'} {search['mark']}"
+    if side is not None:
+        return f"the {side['side'].lower()} one"
     if what and (not rest or _is("other", rest)):
-        place = what.removeprefix("the one ")
+        place = re.sub(r"^the one ", "", what, flags=re.IGNORECASE)
         return f"not {place if _starts('place', place) else what}"
     return f"{what}, no, {rest}" if first and what and rest else rest
 
@@ -178,17 +209,27 @@ def _definite(what: str) -> str:
     return re.sub(r"^(?:an?|any|one)\b", lambda word: "the one" if word[0].lower() == "one" else "the", what)
 
 
-def _last_first(said: list[str]) -> str:
+def _still_valid(said: list[Turn]) -> list[Turn]:
+    """What is left where all before was given up: "Never mind that. Bring the kettle."."""
+    given_up = [k for k, turn in enumerate(said) if _starts("ends", turn.text)]
+    if not given_up:
+        return said
+    at, end = given_up[-1], _starts("ends", said[given_up[-1]].text)
+    rest = _bare(said[at].text[end.end() :]) if end is not None else ""
+    return [turn for turn in (replace(said[at], text=rest), *said[at + 1 :]) if turn.text] or said
+
+
+def _last_first(said: list[Turn]) -> str:
     """The last turn, after those on which it leans."""
-    given_up = [k for k, part in enumerate(said) if _starts("ends", part)]
-    if given_up:
-        at, end = given_up[-1], _starts("ends", said[given_up[-1]])
-        rest = said[at][end.end() :] if end is not None else ""
-        said = [part for part in (_bare(rest), *said[at + 1 :]) if part] or said
     first = len(said) - 1
-    while first > 0 and _leans(". ".join(said[first:])):
+    parts = [turn.text for turn in said]
+    while first > 0 and (said[first].clarifies or _leans(". ".join(parts[first:]))):
+        if said[first].anew and not _pattern("stands").search(parts[first]):
+            # "Take the left crate. Thanks, now the blue one": a crate, and nothing more of it.
+            parts[first] = _ONE.sub(_noun_before(parts[:first]) or "one", parts[first], count=1)
+            break
         first -= 1
-    kept = [sentence for part in said[first:] for sentence in _SENTENCES.findall(part)]
+    kept = [sentence for part in parts[first:] for sentence in _SENTENCES.findall(part)]
     order = _match("order", kept[-2]) if len(kept) > 1 else None
     if order is not None:
         taking = _starts("taking", kept[-1])
@@ -198,6 +239,16 @@ def _last_first(said: list[str]) -> str:
             # "Push the red one. Good, now the blue one next to it": that is pushed, too.
             kept[-2:] = [_IT.sub(order["what"].strip(" .!"), f"{order['verb']}{kept[-1]}", count=1)]
     return " ".join(part if part[-1] in ".?!" else f"{part.rstrip(' ,')}." for part in kept)
+
+
+def _noun_before(said: list[str]) -> str | None:
+    """What the last thing before is called that was told by a noun: "the red card by the lake"."""
+    for part in reversed(said):
+        begin = _pattern("noun").search(part)
+        called = None if begin is None else _pattern("called").match(part, begin.start())
+        if called is not None:
+            return singular(called["noun"])
+    return None
 
 
 def _leans(text: str) -> bool:
