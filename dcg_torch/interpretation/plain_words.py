@@ -257,7 +257,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
-    if phrase.noun in HOME and name in _WITHIN and not any(head.startswith(phrase.noun) for head in there):
+    home = phrase.noun in HOME or (phrase.noun in _ROOM and not (phrase.words or landmark.children))
+    if home and name in _WITHIN and not any(head.startswith(phrase.noun or "") for head in there):
         return ()
     if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")
