@@ -154,3 +154,32 @@ def test_a_study(text: str, id_: str) -> None:
 def test_names_of_what_is_in_scans(said: str, type_: str) -> None:
     others = [put("crib", "crib", (1.0, 1.0, 0.5)), put("rug", "rug", (2.0, 0.0, 0.0))]
     assert meant(f"go to {said}", [*others, put("one", type_, (3.0, 1.0, 1.0))]) == ["one"]
+
+
+PANTRY = [
+    *(put(f"top {n}", "cupboard", (0.8 * n, 5.0, 1.9), (0.7, 0.35, 0.7)) for n in range(4)),
+    *(put(f"base {n}", "cupboard", (0.8 * n, 4.9, 0.45), (0.7, 0.6, 0.9)) for n in range(3)),
+    put("oven", "oven", (3.2, 4.9, 0.45), (0.7, 0.65, 0.9)),
+    put("bench", "table", (2.0, 1.5, 0.37), (1.4, 0.9, 0.74)),
+    put("west stool", "stool", (0.9, 1.5, 0.25), (0.4, 0.4, 0.5)),
+    put("east stool", "stool", (3.1, 1.5, 0.25), (0.4, 0.4, 0.5)),
+    put("south stool", "stool", (2.0, 0.6, 0.25), (0.4, 0.4, 0.5)),
+    put("clock", "clock", (5.5, 2.0, 2.0), (0.05, 0.3, 0.3)),
+    put("door", "door", (-0.6, 2.0, 1.0), (0.1, 0.9, 2.0)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("the upper cupboard on the far right", "top 3"),
+        ("the top cupboard second from the left", "top 1"),
+        ("the rightmost lower cupboard", "base 2"),
+        ("facing the oven, the stool on the left side of the table", "west stool"),
+        ("facing the oven, the stool to the right of the table", "east stool"),
+        ("the smallest stool in the room", "south stool"),
+    ],
+)
+def test_a_pantry(text: str, id_: str) -> None:
+    things = [o if o.id != "south stool" else put(o.id, "stool", (2.0, 0.6, 0.2), (0.3, 0.3, 0.4)) for o in PANTRY]
+    assert meant(text, things) == [id_]

@@ -75,3 +75,18 @@ def test_the_last_turn_decides(text: str, id_: str) -> None:
     model = pretrained()
     answer = model.ground(text, model.world_model(GARAGE, robot=Pose(0.0, 0.0)))
     assert [o.id for o in answer.objects] == [id_], answer.probabilities
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("go past the pump to the kettle. there's a crate, pick it up", "far crate"),
+        ("i'll take the blue crate. you get the pump", "pump"),
+        ("you take the kettle, i will get the rope on the shelf", "kettle"),
+        ("get the other red, the one by the kettle", "far crate"),
+    ],
+)
+def test_who_does_what_and_where_one_is_sent_first(text: str, id_: str) -> None:
+    model = pretrained()
+    answer = model.ground(text, model.world_model(GARAGE, robot=Pose(0.0, 0.0)))
+    assert [o.id for o in answer.objects] == [id_], answer.probabilities

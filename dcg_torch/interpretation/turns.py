@@ -145,6 +145,9 @@ def _answered(asked: str, answer: str, *, first: bool) -> str:
     seen = _match("sees", answer)
     if seen is not None:
         return f"there is {seen['what']}"
+    search = _match("search", answer) if asked and not first else None
+    if search is not None:
+        return f"it is {search['at'] or 'near'} {search['mark']}"
     alone = first and bool(asked) and "?" not in asked and _leans(answer) and not _leans(asked)
     return f"{asked.rstrip(' .')}. {answer}" if alone or (first and what and _leans(answer)) else answer
 
@@ -156,9 +159,11 @@ def _instead(what: str, rest: str, *, first: bool) -> str:
         return f"it is {search['at'] or 'near'} {search['mark']}"
     if side is not None:
         return f"the {side['side'].lower()} one"
+    place = re.sub(r"^the one ", "", what, flags=re.IGNORECASE)
     if what and (not rest or _is("other", rest)):
-        place = re.sub(r"^the one ", "", what, flags=re.IGNORECASE)
         return f"not {place if _starts('place', place) else what}"
+    if what and "other" in rest.lower().split() and _starts("place", place):
+        return f"not {place}. {rest}"  # "The one by the lamp?" - "No, the one on the other side."
     return f"{what}, no, {rest}" if first and what and rest else rest
 
 
