@@ -33,6 +33,11 @@ GARAGE = [
         ("X: take the pump. Y: ok. X: never mind that. bring the kettle", "bring the kettle."),
         ("Y: i can't find the rope. X: check the shelf", "the rope near the shelf."),
         ("get me a cup. this one? no. the one on the left? yes", "get me a cup. the one on the left."),
+        ("lift the black box. not that one. the one in the corner.", "lift the black box. the one in the corner."),
+        (
+            "X: take the rope. Y: on the low shelf? X: no, the shelf by the door",
+            "take the rope. on the shelf by the door.",
+        ),
         ("open the hatch. left or right? left please.", "open the hatch. the left one."),
         ("grab the rope by the pump. thanks, now get the long one", "get the long rope."),
         ("open the red one near the pump. great, now the blue one", "the blue one."),

@@ -80,15 +80,19 @@ def _unlabelled(text: str) -> list[Turn]:
         lines = [text]
     parts = [(part, k > 0) for line in lines for k, part in enumerate(_pattern("next").split(line)) if part]
     turns: list[Turn] = []
+    dropped = False
     for part, anew in parts:
-        first = len(turns)
-        for said in _SAID.findall(part):
+        first, sentences = len(turns), _SAID.findall(part)
+        for said, then in zip(sentences, [*sentences[1:], ""], strict=True):
+            if turns and _is("denies", said) and _starts("the_one", then):
+                dropped = True  # "The red piece. Not that. The one at the top."
+                continue
             who = _FOLLOWER if turns and _is("follows", said) else ""
             if len(turns) > first and turns[-1].who == who:
                 turns[-1] = replace(turns[-1], text=f"{turns[-1].text} {said}")
             else:
                 turns.append(Turn(who, said, anew=anew and len(turns) == first))
-    return turns if len(turns) > 1 and turns[-1].who != _FOLLOWER else []
+    return turns if (len(turns) > 1 or dropped) and turns[-1].who != _FOLLOWER else []
 
 
 def _asks(text: str) -> bool:
@@ -162,6 +166,9 @@ def _instead(what: str, rest: str, *, first: bool) -> str:
     place = re.sub(r"^the one ", "", what, flags=re.IGNORECASE)
     if what and (not rest or _is("other", rest)):
         return f"not {place if _starts('place', place) else what}"
+    of_what = _match("at", place)
+    if of_what is not None and _starts("noun", rest) and of_what["mark"] in rest.lower().split():
+        return f"{of_what['at']} {rest}"  # "On the left wall?" - "No, the wall in front of you."
     if what and "other" in rest.lower().split() and _starts("place", place):
         return f"not {place}. {rest}"  # "The one by the lamp?" - "No, the one on the other side."
     return f"{what}, no, {rest}" if first and what and rest else rest
