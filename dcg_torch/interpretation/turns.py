@@ -15,8 +15,8 @@ from dcg_torch.names.normal import read_data, singular
 
 _LABEL = r"(?:(?<=^)|(?<=[\s.!?,'\"]))(?P<who>{})\s?:\s+"
 _ANY = r"[A-Za-z]{1,14}(?: ?\d)?"
-_LONGEST = 1000
-"""Characters of a text that is looked at; longer ones are no commands."""
+_LONGEST, _LONGEST_QUESTION = 1000, 200
+"""Characters of a text that is looked at, longer ones are no commands; and of a question in it."""
 _SENTENCES = re.compile(r"[^\s.?!][^.?!]*[.?!]*")
 _SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
 _IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
@@ -87,7 +87,7 @@ def _unlabelled(text: str) -> list[Turn]:
             if turns and _is("denies", said) and _starts("the_one", then):
                 dropped = True  # "The red piece. Not that. The one at the top."
                 continue
-            who = _FOLLOWER if turns and _is("follows", said) else ""
+            who = _FOLLOWER if turns and len(said) <= _LONGEST_QUESTION and _is("follows", said) else ""
             if len(turns) > first and turns[-1].who == who:
                 turns[-1] = replace(turns[-1], text=f"{turns[-1].text} {said}")
             else:
@@ -97,7 +97,7 @@ def _unlabelled(text: str) -> list[Turn]:
 
 def _asks(text: str) -> bool:
     """Is a turn one that waits for an answer: "The red one?", "I see two of them."?"""
-    return "?" in text or _is("asked", text)
+    return "?" in text or (len(text) <= _LONGEST_QUESTION and _is("asked", text))
 
 
 def _of_giver(turns: list[Turn], giver: str) -> list[Turn]:
@@ -107,6 +107,7 @@ def _of_giver(turns: list[Turn], giver: str) -> list[Turn]:
         if turn.who != giver:
             continue
         asked = turns[k - 1].text if k and turns[k - 1].who != giver else ""
+        asked = asked if len(asked) <= _LONGEST_QUESTION else ""
         denied = _starts("denies", turn.text)
         if denied is not None and not asked and said and denied.end() < len(turn.text):
             said[-1] = replace(said[-1], text=f"{said[-1].text.rstrip(' .!')}, no, {turn.text[denied.end() :]}")
@@ -137,7 +138,7 @@ def _answered(asked: str, answer: str, *, first: bool) -> str:
         return _instead(what, answer[denied.end() :], first=first)
     for name, told in (("which", _which), ("where", _where)):
         open_question = _match(name, asked) if asked else None
-        if open_question is not None:
+        if open_question is not None and not _is("nothing", answer):
             return told(open_question, _bare(answer))
     taken = _starts("takes", answer)
     if taken is not None and what:
