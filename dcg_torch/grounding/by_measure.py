@@ -11,6 +11,7 @@ from dcg_torch.grounding.counted_away import counted_away, is_anchored
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.first_few import first_few
 from dcg_torch.grounding.hypotheses import ModifierFactor
+from dcg_torch.grounding.leading_away import in_a_row_ahead
 from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.odd import odd_one
 from dcg_torch.grounding.outermost import outermost
@@ -39,8 +40,18 @@ def by_measure(
     """
     among, fit = described
     phrase, away = counted_away(phrase, modifiers, fit, encoder)
+    phrase, row = in_a_row_ahead(phrase, described, encoder)
     phrase, few = first_few(phrase, modifiers, described, encoder)
     phrase, extent = measured(phrase, told, among, encoder, anchored=is_anchored(modifiers))
     phrase, end = outermost(phrase, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)
-    return phrase, away + few + extent + end + odd
+    return phrase, away + row + few + extent + end + odd
+
+
+def of_some(
+    phrase: Phrase, told: Collection[str], described: tuple[Bools, Floats], encoder: WorldEncoder
+) -> tuple[Phrase, Floats]:
+    """The same of a phrase that says how many it picks from: "the left one of the two on the wall"."""
+    phrase, row = in_a_row_ahead(phrase, described, encoder)
+    phrase, extent = measured(phrase, told, described[0], encoder)
+    return phrase, row + extent

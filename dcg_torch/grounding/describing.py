@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.grounding.apart import MEASURED, log_distance
 from dcg_torch.grounding.bearings import by_bearing
-from dcg_torch.grounding.by_measure import by_measure
+from dcg_torch.grounding.by_measure import by_measure, of_some
 from dcg_torch.grounding.called import by_that_name
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.compass import by_compass
@@ -24,8 +24,8 @@ from dcg_torch.grounding.features.said import is_ruled_out
 from dcg_torch.grounding.grouped import log_of_group, of_members
 from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
+from dcg_torch.grounding.in_tiers import in_its_tier
 from dcg_torch.grounding.landmarks import APART, spread
-from dcg_torch.grounding.measured import measured
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.nothing_near import nothing_near
@@ -54,12 +54,10 @@ _IN_THE_SET = math.log(0.5)
 _GROUP_IN_THE_SET = math.log(0.1)
 """The same of groups: a stack of four is less usual than one of three, and may be the tallest."""
 _BEHIND = 6.0
-"""A thing is compared where it is described at least half as well as the best, and not by so many nats less: a thing of
-just the name and of another colour is still described well, but not where one of the colour is there."""
+"""A thing is compared that is described at least half as well as the best, and not by so many nats less."""
 
 _NEAR = 4.4
-"""The same of what its name and its colour alone say: brown is near orange, and no orange; light gray is no gray where
-something is called gray."""
+"""The same of what its name and its colour alone say: brown is near orange, and no orange."""
 
 _SAME_SIZE = 0.05
 """Logarithms of volumes that differ by less are equal."""
@@ -190,7 +188,8 @@ def comparison_set(
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables)
+    phrase, tier = in_its_tier(phrase, named, modifiers, encoder)
+    again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables) + tier
     again += nothing_near(phrase.words, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
@@ -199,7 +198,7 @@ def comparison_set(
     counts = np.where(of_color, own if close else fit + log_size, -np.inf)
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
-        phrase, log_extent = measured(phrase, told, among[0], encoder)
+        phrase, log_extent = of_some(phrase, told, (among[0], fit), encoder)
         log_size = log_size + shades_among(shades, among[0], encoder) + log_extent
         return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
     log_size = log_size + log_of_group(phrase, encoder)

@@ -67,7 +67,8 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     away = place.phrase.words[0] == FACING_FROM
     seen = seen_facing(found.world, thing, away=away)
     noun = next((node.phrase.noun for node in tree.children[0].walk() if node.phrase.kind is PhraseKind.NOUN), None)
-    return seen if seen is None or away or noun is None else _of_those_beside(seen, thing, noun)
+    whole = away or place.children[0].phrase.plural  # "facing the windows": all along that wall
+    return seen if seen is None or whole or noun is None else _of_those_beside(seen, thing, noun)
 
 
 def _from_before(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:

@@ -7,6 +7,7 @@ stands farther off is the less so. Of several that are named alike any will do, 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -45,16 +46,18 @@ def of_having(
     on_it = counted and phrase.words[0] in listed("straight under") and phrase.text.startswith(_SAYS_HAS)
     if (phrase.words[0] != _WITH and not on_it) or bodies is None:
         return None
-    alike = np.flatnonzero(alike_by(scores) & encoder.perceived[list(landmarks)])
+    so_called = scores >= scores.max() - _SO_CALLED if NOT in phrase.words else alike_by(scores)
+    alike = np.flatnonzero(so_called & encoder.perceived[list(landmarks)])
     mark = [landmarks[k] for k in alike.tolist()]
-    if max(mark, default=len(bodies.half)) >= len(bodies.half) or not np.isfinite(bodies.half[mark]).all():
+    if max(mark, default=len(bodies.half)) >= len(bodies.half) or not encoder.layout.solid[mark].all():
         return None
-    count = max(1, several)
+    bodies = replace(bodies, half=_as_points(bodies.half, mark))
+    count = max(1, several, tree.children[0].phrase.count or 1)
     if len(mark) < count:
         return None
     where = encoder.layout
     covers, _ = bodies.over(np.array(mark), where.position[None, :, :2] - where.position[mark][:, None, :2])
-    gap, _ = gaps(mark, encoder)
+    gap, _ = gaps(mark, encoder, bodies)
     aside = -_ASIDE - _E_FOLD * np.log1p(np.nan_to_num(gap) / _STEP)
     own = np.where(_padded(covers, aside.shape[1]), 0.0, np.where(np.isfinite(gap), aside, _NOT_ITS))
     own[np.arange(len(mark)), mark] = _NOT_ITS  # nothing is with itself
@@ -62,10 +65,16 @@ def of_having(
     if NOT in phrase.words:
         best = np.maximum(np.log(-np.expm1(np.minimum(_of_its_kind(best, encoder), -1e-4))), _NOT_ITS)
     else:
-        best = np.maximum(best + _of_number(tree.children[0].phrase, (own > _OWN).sum(axis=0), encoder), _NOT_ITS)
+        best = np.maximum(best + _of_number(tree.children[0].phrase, _own(own).sum(axis=0), encoder), _NOT_ITS)
     found = log_psi.copy()
     found[alike] = np.where(np.isfinite(where.position[:, 0]) & where.solid, best, log_psi[alike])
     return found
+
+
+def _own(own: Floats) -> NDArray[np.bool_]:
+    """(landmarks, things) which are a thing's own: all that are on it, or else about as near as the nearest."""
+    covered: NDArray[np.bool_] = own > np.minimum(_OWN, own.max(axis=0) - _AS_NEAR)
+    return covered & (own > _NOT_ITS)
 
 
 def _of_number(phrase: Phrase, counts: NDArray[np.int64], encoder: WorldEncoder) -> Floats:
@@ -75,7 +84,7 @@ def _of_number(phrase: Phrase, counts: NDArray[np.int64], encoder: WorldEncoder)
         phrase: of the landmark.
         counts: (things,) how many of the landmarks each has; compared with others of its type.
     """
-    number = phrase.count if phrase.plural or _ONLY in phrase.words else None
+    number = phrase.count
     if _MOST in phrase.words or not _LEAST.isdisjoint(phrase.words):
         sign, kind = (-1 if _MOST in phrase.words else 1), encoder.type_number
         values = np.where(counts > 0, sign * counts, np.iinfo(np.int64).max)
@@ -87,10 +96,12 @@ def _of_number(phrase: Phrase, counts: NDArray[np.int64], encoder: WorldEncoder)
     return np.where(counts > number, -_MISCOUNTED * (counts - number), 0.0)
 
 
-_OWN = -0.5
-"""Nats above which what stands so has the landmark."""
+_OWN, _AS_NEAR = -0.5, 1.0
+"""Nats above which what stands so has the landmark, and by which others of its landmarks stand farther off."""
 _MISCOUNTED = 3.0
 """Nats that a thing loses for each by which it has more than is said, or fewer than the most."""
+_SO_CALLED = 9.0
+"""Nats by which a name fits less that fits as well: who has no chair has no office chair."""
 _ONLY, _MOST, _LEAST = "only", "most", frozenset({"fewest", "least"})
 _NUMBERS = _LEAST | {_ONLY, _MOST}
 _SAYS_HAS = ("with", "ha")
@@ -103,6 +114,13 @@ def _of_its_kind(best: Floats, encoder: WorldEncoder) -> Floats:
     most = np.full(kind.max(initial=0) + 1, _NOT_ITS)
     np.maximum.at(most, kind, best)
     found: Floats = np.where(most[kind] > _NOT_ITS / 2.0, best - most[kind], best)
+    return found
+
+
+def _as_points(half: Floats, mark: Sequence[int]) -> Floats:
+    """(n, 2) half extents in which landmarks that nobody measured are points: a laptop on a desk is its own."""
+    found = half.copy()
+    found[mark] = np.nan_to_num(found[mark])
     return found
 
 

@@ -36,6 +36,9 @@ _REACH = 0.6
 _ASLANT, _FOLD, _NOT_SO = 2.0, 0.7, 3.0
 """Nats that a thing loses for each unit by which it is less straight over or under another than the straightest, for
 each e-fold by which it is farther up or down than the nearest that is so, and where it is neither over nor under."""
+_CLEAR, _BESIDE = 0.03, 2.0
+"""Units of a gap from which on a thing is over or under no part of another, and nats that it loses where others are:
+of two cabinets side by side the one below the printer is under it."""
 _FARTHER, _MANY = -2.0, 2
 """Nats that a thing loses for each other of its type that lies between it and the landmark, and the most that count."""
 _AMONG, _ELSEWHERE = -0.1, -5.0
@@ -88,6 +91,7 @@ def _straightest(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder) 
     nearest = np.where(so & (aslant <= TOUCHING), rise, np.inf).min(axis=1, keepdims=True)
     farther = np.where(so, rise, 1.0) / np.where(np.isfinite(nearest), nearest, 1.0)
     lost = _ASLANT * aslant + _FOLD * np.log(np.maximum(1.0, farther))
+    lost += np.where((least <= 0.0) & (aslant > _CLEAR), _BESIDE, 0.0)
     found: Floats = np.where(so, np.maximum(log_psi, -lost), log_psi - _NOT_SO)
     return np.where(any_so & encoder.layout.solid, found, log_psi)
 

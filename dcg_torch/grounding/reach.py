@@ -17,6 +17,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, OF_TWO, ORDINALS, PLACE_WORDS, is_superlative
+from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.relation_names import RELATION_NAMES
 from dcg_torch.scene.relations import between
 from dcg_torch.types import NOT, ParseTree, Phrase
@@ -115,15 +116,20 @@ def _beyond_reach(name: str, landmarks: Sequence[int], scores: Floats, encoder: 
     return found
 
 
-def gaps(landmarks: Sequence[int], encoder: WorldEncoder) -> tuple[Floats, float]:
+def gaps(landmarks: Sequence[int], encoder: WorldEncoder, bodies: Bodies | None = None) -> tuple[Floats, float]:
     """(combos, things) units from each landmark to every thing, between extents where these are known; NaN where
-    nobody knows, and up to how many units things are near."""
+    nobody knows, and up to how many units things are near.
+
+    Args:
+        bodies: how large things are; None: as the layout says.
+    """
     where = encoder.layout
+    bodies = bodies or where.bodies
     at = where.position[:, :2]
     apart = np.abs(at[list(landmarks)][:, None] - at[None])
-    if where.bodies is None or max(landmarks, default=0) >= len(where.bodies.half):
+    if bodies is None or max(landmarks, default=0) >= len(bodies.half):
         return np.where(where.solid[None], np.linalg.norm(apart, axis=2), np.nan), _STEP
-    half = np.pad(where.bodies.half, ((0, len(at) - len(where.bodies.half)), (0, 0)))
+    half = np.pad(bodies.half, ((0, len(at) - len(bodies.half)), (0, 0)))
     gap = np.linalg.norm(np.maximum(apart - half[list(landmarks)][:, None] - half[None], 0.0), axis=2)
     return np.where(where.solid[None], gap, np.nan), _REACH
 

@@ -20,6 +20,7 @@ from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, World
 
 _NAMED = 4.0
 """Log-odds from which a noun is the name of a class."""
+_ONE = "one"
 _SPOT = 0.6
 """Units within which, seen from above, a thing is over another whose extents nobody says."""
 
@@ -32,7 +33,26 @@ def by_compounds(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     if not said.words.isdisjoint(everyday().ages):
         tree = _sized(tree, world)
+    tree = _joined(tree, frozenset(normalise(o.type) for o in world.objects if o.type and " " in normalise(o.type)))
     return _split(tree, world) if any(" " in noun for noun in said.nouns) else tree
+
+
+def _joined(tree: ParseTree, names: frozenset[str]) -> ParseTree:
+    """ "Not the wooden bridge, the stone one": a word before "one" makes the name of a class with the noun before.
+
+    Where no noun was named, it does where one class alone begins with it.
+
+    Args:
+        names: of classes, of several words.
+    """
+    phrase, children = tree.phrase, tuple(_joined(child, names) for child in tree.children)
+    if phrase.kind is PhraseKind.NOUN and _ONE in phrase.text.split(" "):
+        for word in phrase.words:
+            begun = [n for n in names if n.partition(" ")[0] == word and (phrase.noun or "") in (n.split(" ")[-1], "")]
+            if len(begun) == 1:
+                kept = tuple(w for w in phrase.words if w != word)
+                return ParseTree(replace(phrase, noun=begun[0], words=kept), children)
+    return tree if children == tree.children else ParseTree(phrase, children)
 
 
 def _sized(tree: ParseTree, world: WorldModel) -> ParseTree:

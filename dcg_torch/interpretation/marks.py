@@ -18,6 +18,7 @@ from typing import Any, Final, TypeVar
 from dcg_torch.interpretation.mark_finder import FoundMark, find_marks
 from dcg_torch.interpretation.people import of_people
 from dcg_torch.interpretation.spoken import ParsedCommand
+from dcg_torch.interpretation.turns import in_one_voice
 from dcg_torch.names.attributes import OF_KEY, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.marks import OF_CLASS, Marks, is_strange, mark_words, marks_of, words_of
@@ -47,7 +48,7 @@ def heard(
         things: what is there.
     """
     things = tuple(o for o in things if not (isinstance(o, Object) and o.hypothetical))
-    text = of_people(text, things)
+    text = of_people(in_one_voice(text), things)
     marks = marks_of((_class(o), frozenset(a for a in o.attributes if a != LOOKED_ROUND)) for o in things)
     if marks is None or len(text) > _LONGEST or _STAND_IN in text.lower():
         return parse(text, vocabulary)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.interpretation.comparatives import compared_twice, compared_with
+from dcg_torch.interpretation.its_own import lacking, seen_from_it
 from dcg_torch.interpretation.nearer import nearer_of_two
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
@@ -170,9 +171,9 @@ def _sided(tree: ParseTree) -> ParseTree:
     landmark = tree.children[0]
     phrase, name = landmark.phrase, tree.phrase.words[0]
     whose = tree.phrase.text == phrase.text  # "the mug whose spoon is on the right"
-    seen_from_it = _seen_from_it(landmark.children[0], whose=whose) if len(landmark.children) == 1 else None
-    if name in ("with", "without") and seen_from_it is not None:
-        words = (seen_from_it if name == "with" else f"{NOT} {seen_from_it}", *tree.phrase.words[1:])
+    from_it = seen_from_it(landmark.children[0], whose=whose) if len(landmark.children) == 1 else None
+    if name in ("with", "without") and from_it is not None:
+        words = (from_it if name == "with" else f"{NOT} {from_it}", *tree.phrase.words[1:])
         return ParseTree(replace(tree.phrase, words=words), (replace(landmark, children=()),))
     line = line_of_all(phrase)
     if line is not None and not landmark.children and (name in _WITHIN or name in PICKED_FROM):
@@ -194,6 +195,7 @@ def whose_side(phrase: Phrase) -> str | None:
 
 _FIRST = (
     nearer_of_two,
+    lacking,
     compared_twice,
     from_the_ground,
     end_of_a_stack,
@@ -204,23 +206,6 @@ _FIRST = (
     _farthest_to_a_side,
     _counted_from_a_side,
 )
-
-
-def _seen_from_it(place: ParseTree, *, whose: bool) -> str | None:
-    """How a thing stands to what stands so to it: "the mug with a lamp behind it" is in front of the lamp."""
-    below = place.children[0].phrase if len(place.children) == 1 and place.phrase.words else None
-    if below is None:
-        return None
-    if (whose or below.text.startswith("its ")) and below.noun in LATERAL:
-        return _SEEN_FROM_IT[f"{below.noun} of"]
-    return _SEEN_FROM_IT.get(place.phrase.words[0]) if below.text in ("it", "them") else None
-
-
-_SEEN_FROM_IT = {
-    **{"on": "under", "on top of": "under", "above": "under", "under": "above"},
-    **{"behind": "in front of", "in front of": "behind", "left of": "right of", "right of": "left of"},
-    **{relation: relation for relation in ("next to", "beside", "near", "touching")},
-}
 
 
 _ANYWHERE = listed("anywhere in")
@@ -266,7 +251,8 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
         words = BY_COMPASS[name]
         return tuple(replace(tree, phrase=replace(tree.phrase, words=(word, *tree.phrase.words[1:]))) for word in words)
     phrase = landmark.phrase
-    if phrase.noun in HOME and name in _WITHIN and not any(head.startswith(phrase.noun) for head in there):
+    home = phrase.noun in HOME or (phrase.noun in _ROOM and not (phrase.words or landmark.children))
+    if home and name in _WITHIN and not any(head.startswith(phrase.noun or "") for head in there):
         return ()
     if phrase.noun in VIEWERS and phrase.noun not in there:
         phrase = replace(phrase, noun="you")

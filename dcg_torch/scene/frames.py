@@ -54,12 +54,20 @@ def seen_facing(world: WorldModel, thing: Object, *, away: bool = False) -> Worl
     ahead = (thing.position[0] - x, thing.position[1] - y)
     if math.hypot(*ahead) < world.unit / 2.0:
         return None
-    yaw = _straight_at(thing, ahead)
+    yaw = _square_to(thing, world, _straight_at(thing, ahead))
     if away:
         return _standing(world, Pose(*thing.position[:2], wrap_angle(yaw + math.pi)))
-    viewer = Pose(x, y, yaw)
+    viewer = Pose(x, y, yaw) if among else _at_the_other_wall(world, Pose(x, y, yaw))
     turned = _turned(world, viewer)
     return replace(turned, places=_bordered_anew(turned.places, world, viewer))
+
+
+def _at_the_other_wall(world: WorldModel, viewer: Pose) -> Pose:
+    """Where nobody knows where somebody stands, all is before them, and nothing has its sides the other way round."""
+    ahead = np.array([math.cos(viewer.yaw), math.sin(viewer.yaw)])
+    there = [o.position[:2] for o in world.objects if o.position is not None]
+    back = min(0.0, float(((np.array(there) - (viewer.x, viewer.y)) @ ahead).min()) - world.unit)
+    return Pose(viewer.x + back * float(ahead[0]), viewer.y + back * float(ahead[1]), viewer.yaw)
 
 
 def seen_before(world: WorldModel, ids: Collection[str]) -> WorldModel | None:
@@ -117,6 +125,18 @@ def _straight_at(thing: Object, ahead: tuple[float, float]) -> float:
     return math.atan2(ahead[1], ahead[0])
 
 
+def _square_to(thing: Object, world: WorldModel, yaw: float) -> float:
+    """Who faces a stove faces the wall behind it, where nobody knows who stands where; `yaw` is straight at it."""
+    outlook = layout(world).outlook if world.robot is None else None
+    number = next((j for j, o in enumerate(world.objects) if o.id == thing.id), None)
+    if outlook is None or number is None:
+        return yaw
+    seen = float(outlook[number])
+    return seen if abs(wrap_angle(seen - yaw)) < _SLANTED else yaw
+
+
+_SLANTED = math.radians(80.0)
+"""Up to which a thing that stands at a wall may be aslant from the middle of the room."""
 _FLAT = 4.0
 """How many times as wide as deep a thing is that hangs flat on a wall."""
 
