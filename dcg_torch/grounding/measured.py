@@ -47,7 +47,7 @@ def measured(
     Returns:
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
-    words = [word for word in phrase.words if word in dimensions() and word not in told]
+    words = [word for word in phrase.words if (word in dimensions() or word in _BULKY) and word not in told]
     counted, taken = _counted_along(phrase, told, among, encoder, anchored), set[str]()
     log = np.zeros(len(among)) if counted is None else counted
     number = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), None)
@@ -57,20 +57,21 @@ def measured(
         taken |= {"last", *ORDINALS, *_ALONG, *_number(phrase, told)}
         log *= _COUNTED_ALONE
     for word in words:
-        values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
-        known = among & np.isfinite(values)
-        if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
+        values = np.array([math.nan if (v := _measure(o, word)) is None else v for o in encoder.all])
+        compared = among & ~encoder.layout.place & encoder.perceived
+        known = compared & np.isfinite(values)
+        some = word in _BULKY and bool((compared & ~known).any())  # weights were learned for what has no extents
+        if some or known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
             continue
-        compared = word.endswith(("er", "est"))
-        loss = behind(values[known], number or 1, phrase.count or 1) if compared else _by_degree(values[known])
+        ranked = word.endswith(("er", "est"))
+        loss = behind(values[known], number or 1, phrase.count or 1) if ranked else _by_degree(values[known])
         log[known] -= loss
-        log[~known] -= loss.max()
-        taken |= {word, *(ORDINALS if compared else ())}
+        log[~known] -= 0.0 if word in _BULKY else loss.max()  # what is large is often said of more than one kind
+        taken |= {word, *(ORDINALS if ranked else ())}
     for word in phrase.words:
         most = word.removeprefix(f"{NOT} ")
         if most != word and most.endswith("est") and (most in dimensions() or most in _BULKY):
-            sizes = [measure(o, most) if most in dimensions() else _bulk(o, _BULKY[most]) for o in encoder.all]
-            values = np.array([-math.inf if size is None else size for size in sizes])
+            values = np.array([-math.inf if (v := _measure(o, most)) is None else v for o in encoder.all])
             log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= 2.0 * _BY_PLACE
             taken.add(word)
     kept = tuple(_LIKE.get(w, w) if w in words else w for w in phrase.words if w not in taken)
@@ -81,8 +82,11 @@ _BULKY = {"biggest": 1.0, "largest": 1.0, "smallest": -1.0}
 """Words for what has the most of its whole size, or the least."""
 
 
-def _bulk(thing: Object, sign: float) -> float | None:
-    return None if thing.size is None or not bulk(thing.size) > 0.0 else sign * math.log(bulk(thing.size))
+def _measure(thing: Object, word: str) -> float | None:
+    """How much a thing has of what a word says; None where its size is unknown."""
+    if word not in _BULKY:
+        return measure(thing, word)
+    return None if thing.size is None or not bulk(thing.size) > 0.0 else _BULKY[word] * math.log(bulk(thing.size))
 
 
 def _counted_along(
