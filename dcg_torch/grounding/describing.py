@@ -29,13 +29,14 @@ from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
 from dcg_torch.grounding.nearness import by_nearness
 from dcg_torch.grounding.nothing_near import nothing_near
+from dcg_torch.grounding.off_size import off_size
 from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.opposite import opposite
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.over_under import by_height
 from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.together import shaded, shades_among, so_many
+from dcg_torch.grounding.together import evenly, shaded, shades_among, so_many
 from dcg_torch.grounding.upon import by_side_upon
 from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
@@ -44,7 +45,6 @@ from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, si
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, TIER, TOGETHER, counted
-from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
 
 Floats = NDArray[np.float64]
@@ -59,10 +59,6 @@ _BEHIND = 6.0
 _NEAR = 4.4
 """The same of what its name and its colour alone say: brown is near orange, and no orange."""
 
-_SAME_SIZE = 0.05
-"""Logarithms of volumes that differ by less are equal."""
-_LIKE_SIZES = 0.15
-"""Sizes that differ by no more than this share of the differences among all of a kind are not told apart."""
 _SIZED = 5.0
 """Nats that the smallest of some loses where it is called large."""
 _OFF = 0.5
@@ -199,8 +195,8 @@ def comparison_set(
     among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
         phrase, log_extent = of_some(phrase, told, (among[0], fit), encoder)
-        log_size = log_size + shades_among(shades, among[0], encoder) + log_extent
-        return Comparison(among[0], log_size + among[1] if close else log_size, phrase)
+        log_size = log_size + shades_among(shades, among[0], encoder) + log_extent + evenly(tree, among[0], modifiers)
+        return Comparison(among[0], log_size + among[1], phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
     described = by_that_name(phrase, _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET), own, encoder)
@@ -230,12 +226,12 @@ def _sized(
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     denied = _denied_sizes(phrase.words)
     kind = of_kind(phrase, encoder, tables) if sizes or denied else named
-    off = _off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
+    off = off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
     if off is not None:
         phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
         log_size, out = -_SIZED * off**2, np.where(off > _OFF, -_BEHIND - 1.0, 0.0)
     for side in denied:
-        off = _off_size((side,), encoder, named, kind)
+        off = off_size((side,), encoder, named, kind)
         if off is not None:
             log_size = log_size - _SIZED * (1.0 - off) ** 2
             out = np.where(off < _OFF, -_BEHIND - 1.0, out)
@@ -277,32 +273,6 @@ def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
 def _described(fit: Floats, odds: Floats, least: float = _IN_THE_SET) -> Bools:
     described: Bools = (fit >= fit.max() + least) & (odds >= odds.max() - _BEHIND)
     return described
-
-
-def _off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floats | None:
-    """(things,) from 0 to 1: how far a thing is from the largest (1), smallest (-1) or mean size (0) that is said.
-
-    Args:
-        sets: (things,) the first of them that has several sizes is what is compared; the last is all of a kind.
-
-    Returns:
-        The largest of the distances, 0 for what has no size; None where all are of one size.
-    """
-    sizes = [math.nan if o.size is None else bulk(o.size) for o in encoder.world.objects]
-    logs = np.log([v if v > 0.0 else math.nan for v in sizes])
-    differ = [
-        float(np.ptp(logs[own])) if (own := among[: len(logs)] & np.isfinite(logs)).any() else 0.0 for among in sets
-    ]
-    least = 2 if 0 in sides else 1  # of two none is of medium size
-    for among in (*sets, encoder.perceived) if 0 in sides else sets:
-        known = logs[among[: len(logs)] & np.isfinite(logs)]
-        if len(known) > least and np.ptp(known) > max(_SAME_SIZE, _LIKE_SIZES * differ[-1]):
-            place = np.clip((logs - known.min()) / np.ptp(known), 0.0, 1.0)
-            wide = np.expm1((logs - known.min()) / 3.0) / np.expm1(np.ptp(known) / 3.0)
-            short = 1.0 - np.clip(np.minimum(place, wide), 0.0, 1.0)
-            off = [2.0 * np.abs(place - 0.5) if not side else short if side > 0 else place for side in sides]
-            return np.pad(np.nan_to_num(np.max(off, axis=0)), (0, len(encoder.all) - len(logs)))
-    return None
 
 
 def of_attributes(words: Sequence[str], encoder: WorldEncoder) -> tuple[str, ...]:

@@ -49,7 +49,7 @@ def measured(
     Returns:
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
-    words = [word for word in phrase.words if word in dimensions() and word not in told]
+    words = [word for word in phrase.words if (word in dimensions() or word in _BULKY) and word not in told]
     counted, log = counted_along(phrase, told, among, encoder, anchored=anchored)
     compared, of_extents = _by_extents(phrase, words, among, encoder)
     denied, of_denied = _not_the_most(phrase.words, among, encoder)
@@ -63,15 +63,17 @@ def _by_extents(phrase: Phrase, words: Collection[str], among: Bools, encoder: W
     taken, log = set[str](), np.zeros(len(among))
     place = next((ORDINALS[word] for word in phrase.words if word in ORDINALS), 1), phrase.count or 1
     for word in words:
-        values = np.array([math.nan if (v := measure(o, word)) is None else v for o in encoder.all])
-        known = among & np.isfinite(values)
-        if known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
+        values = np.array([math.nan if (v := _measure(o, word)) is None else v for o in encoder.all])
+        compared = among & ~encoder.layout.place & encoder.perceived
+        known = compared & np.isfinite(values)
+        some = word in _BULKY and bool((compared & ~known).any())  # weights were learned for what has no extents
+        if some or known.sum() < 2 or np.ptp(values[known]) <= _EVEN:
             continue
-        compared = word.endswith(("er", "est"))
-        loss = behind(values[known], *place, even=_EVEN) if compared else _by_degree(values[known])
+        ranked = word.endswith(("er", "est"))
+        loss = behind(values[known], *place, even=_EVEN) if ranked else _by_degree(values[known])
         log[known] -= loss
-        log[~known] -= loss.max()
-        taken |= {word, *(ORDINALS if compared else ())}
+        log[~known] -= 0.0 if word in _BULKY else loss.max()  # what is large is often said of more than one kind
+        taken |= {word, *(ORDINALS if ranked else ())}
     return taken, log
 
 
@@ -86,12 +88,14 @@ def _not_the_most(words: Collection[str], among: Bools, encoder: WorldEncoder) -
     for word in words:
         most = word.removeprefix(f"{NOT} ")
         if most != word and most.endswith("est") and (most in dimensions() or most in _BULKY):
-            sizes = [measure(o, most) if most in dimensions() else _bulk(o, _BULKY[most]) for o in encoder.all]
-            values = np.array([-math.inf if size is None else size for size in sizes])
+            values = np.array([-math.inf if (v := _measure(o, most)) is None else v for o in encoder.all])
             log[among & (values >= values[among].max(initial=-math.inf) - _EVEN)] -= _NOT_THE
             taken.add(word)
     return taken, log
 
 
-def _bulk(thing: Object, sign: float) -> float | None:
-    return None if thing.size is None or not bulk(thing.size) > 0.0 else sign * math.log(bulk(thing.size))
+def _measure(thing: Object, word: str) -> float | None:
+    """How much a thing has of what a word says; None where its size is unknown."""
+    if word not in _BULKY:
+        return measure(thing, word)
+    return None if thing.size is None or not bulk(thing.size) > 0.0 else _BULKY[word] * math.log(bulk(thing.size))

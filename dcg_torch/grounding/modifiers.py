@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from dcg_torch.interpretation.plain_words import in_group
+from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, RANKING, SIDED, WITHIN
-from dcg_torch.types import ParseTree
+from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, RANKING, SIDED, WITHIN, counted, is_superlative
+from dcg_torch.types import ParseTree, PhraseKind
 
 _MOST_COUNTED = 3
 """Landmarks up to which those of "behind the two cones" are told apart."""
@@ -15,6 +18,19 @@ def ranks_from(tree: ParseTree) -> bool:
     """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
     name = tree.phrase.words[0]
     return name in RANKING or name.partition(" ")[2] in RANKING
+
+
+def tells_which_few(noun: ParseTree) -> list[ParseTree]:
+    """Those that say which few a noun phrase picks from: "in the corner" of "two dots in the corner, the higher one".
+
+    Where nothing else picks, they do: "of the two dots the one on the left".
+    """
+    several = counted(noun.phrase.words)
+    placed = [c for c in noun.children if c.phrase.kind is PhraseKind.MODIFIER and (ranks_from(c) or picks_a_side(c))]
+    # "In the corner" are all of them, and not the first above all.
+    said = [replace(c, phrase=replace(c.phrase, plural=True, count=several)) for c in placed if c.phrase.text]
+    compares = any(map(is_superlative, noun.phrase.words)) or bool(comparing_words(noun.phrase.look))
+    return said if compares or len(said) < len(placed) else []
 
 
 def picks_a_side(tree: ParseTree) -> bool:

@@ -30,6 +30,7 @@ from dcg_torch.interpretation.factor_tree import (
 from dcg_torch.interpretation.grids import by_cells, with_cells
 from dcg_torch.interpretation.in_the_scene import in_the_scene
 from dcg_torch.interpretation.looking import Looks, told_by_looking
+from dcg_torch.interpretation.plain_places import of_two_sides
 from dcg_torch.interpretation.room_parts import with_corners
 from dcg_torch.interpretation.rooms import (
     leads_to_a_room,
@@ -37,6 +38,7 @@ from dcg_torch.interpretation.rooms import (
     speaks_of_what_is_not_there,
     with_rooms,
 )
+from dcg_torch.interpretation.scene_kinds import is_close_by
 from dcg_torch.interpretation.shelves import with_tiers
 from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import with_levels
@@ -102,7 +104,8 @@ def _on_the_way(reading: WeightedReading, text: str) -> float:
     return _ON_THE_WAY if first else 0.0
 
 
-_OF_ALL = frozenset({"corner", "middle"})
+_CORNER = "corner"
+_OF_ALL = frozenset({_CORNER, "middle"})
 """Places of what is there as a whole: sides are the robot's own where there are no edges."""
 
 
@@ -111,6 +114,8 @@ def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
     trees = [reading.tree for reading in readings]
     said = [Words.of(tree) for tree in trees]
     kinds = {PLACE_WORDS[noun][0] for of in said for noun in of.nouns if noun in PLACE_WORDS} & _OF_ALL
+    if any(of_two_sides(node.phrase) for tree in trees for node in tree.walk()) and is_close_by(world):
+        kinds |= {_CORNER}
     if kinds:
         world = with_places_of_all(world, kinds)
     if not any(OF_KEY in word for of in said for word in of.words):

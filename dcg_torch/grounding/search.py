@@ -17,7 +17,7 @@ from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
-from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from
+from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from, tells_which_few
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.reach import ranked_among
 from dcg_torch.grounding.scored import FEW, Scored
@@ -159,13 +159,18 @@ class Search:
 
     def _all_modifiers(self, tree: ParseTree) -> list[ModifierFactor]:
         """Of a noun phrase. "The closest to you" on the left is one of those that are on the left."""
-        own = [ranked_among(tree, c) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER]
+        several = counted(tree.phrase.words) is not None
+        told = tells_which_few(tree) if several else []
+        few = {of.children: of for of in told}
+        own = [
+            few.get(c.children, ranked_among(tree, c)) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER
+        ]
         if not own:
             return []
-        several = counted(tree.phrase.words) is not None
         faced, named = self._beside_what_is_faced(tree), self._of_several_classes(tree.phrase)
         kind = named if faced is None else faced
-        others = {id(c): self._modifier(c, kind) for c in own if not (ranks_from(c) or (several and picks_a_side(c)))}
+        picks = [c for c in own if c not in told and (ranks_from(c) or (several and picks_a_side(c)))]
+        others = {id(c): self._modifier(c, kind) for c in own if c not in picks}
         sized = self.encoder.layout.bodies is not None
         parts = [others[id(c)] for c in own if id(c) in others and (is_to_a_place(c, sized=sized) or is_in_a_group(c))]
         narrowed = is_narrowed(tree.phrase, self.encoder) or named is not None

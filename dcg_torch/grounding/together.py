@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features.said import look_scores
 from dcg_torch.grounding.hypotheses import ModifierFactor
-from dcg_torch.grounding.modifiers import ranks_from
+from dcg_torch.grounding.modifiers import ranks_from, tells_which_few
 from dcg_torch.names.attributes import size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
 from dcg_torch.scene.neighbours import nearest
 from dcg_torch.scene.order import highest
-from dcg_torch.types import Phrase
+from dcg_torch.types import ParseTree, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -36,6 +36,8 @@ _SHADED = 2.0
 """Nats for each unit by which a colour's score stays behind the best of those that are compared."""
 _COUNTED = 3.0
 """Nats for each place by which a thing stays behind "the second darkest"."""
+_NONE_OF_THEM = 2.0
+"""Nats that are lost by what is none of those that are described best."""
 _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
@@ -47,7 +49,7 @@ _TOUCHING = 0.02
 def so_many(
     several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
 ) -> tuple[Bools, Floats] | None:
-    """The so many things that a phrase speaks of, and the log-factor of being one of those that stand together.
+    """The so many things that a phrase speaks of, and the log-factor of being one of them.
 
     Where more are described alike, or they are said to be `close` together, they are those that stand closest together.
     None where there are not so many.
@@ -58,21 +60,36 @@ def so_many(
     if several > there.sum():
         return None
     found = np.zeros(len(fit), dtype=np.bool_)
-    ranking = np.sum([m.log_psi for m in modifiers if ranks_from(m.tree)], axis=0)
+    ranks = [m for m in modifiers if ranks_from(m.tree)]
+    ranking = np.sum([m.log_psi for m in ranks], axis=0)
+    picking = np.sum([m.log_psi for m in ranks if not m.tree.phrase.text], axis=0)  # "the higher one"
     sided = None if close else _along_a_side(fit - ranking, modifiers, encoder)
-    for described in (own - ranking if sided is None and not close else sided, own):
+    for described in (own - ranking if sided is None and not close else sided, own - picking, own):
         values = np.where(there, (own if described is None else described)[:objects], -np.inf)
         first = highest(values, several + 1)
         last = float(values[first[several - 1]])
         tied = len(first) > several and last - values[first[several]] < _ALIKE
         if not tied or close or sided is not None:
-            break  # "closest to the lamp" picks one of so many; where there are more, it says which so many
+            break  # "closest to the corner" picks one of so many; where there are more, it says which so many
     if sided is not None or not (close or tied):
         found[first[:several]] = True
-        return found, np.zeros(len(fit))
+        return found, np.where(found, 0.0, -_NONE_OF_THEM)
     alike = np.zeros(len(fit), dtype=np.bool_)
     alike[:objects] = values >= last - _ALIKE
-    return closest_together(position, alike, fit, several)
+    found, log_close = closest_together(position, alike, fit, several)
+    return found, log_close if close else np.zeros(len(fit))
+
+
+def evenly(noun: ParseTree, found: Bools, modifiers: Sequence[ModifierFactor]) -> Floats:
+    """The log-factor by which what tells which few are picked from says the same of each of them.
+
+    Args:
+        noun: the noun phrase.
+        found: (things,) the few.
+    """
+    trees = tells_which_few(noun)
+    told = np.sum([m.log_psi for m in modifiers if m.tree in trees] or [np.zeros(len(found))], axis=0)
+    return np.where(found, told[found].max(initial=-_BEYOND) - told, 0.0)
 
 
 def closest_together(position: Floats, candidates: Bools, log_fit: Floats, several: int) -> tuple[Bools, Floats]:

@@ -17,6 +17,7 @@ from dcg_torch.names.attributes import (
     OF_KEY,
     attribute_key,
     is_clothing,
+    is_told_apart,
     named_key,
     says_value,
     says_whether,
@@ -66,9 +67,9 @@ def by_attributes(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTr
     types = {t for t in world.classes if not t.startswith(OPAQUE)}
     colored = any(o.color is not None or o.rgb is not None for o in world.objects)
     worn = {attribute_key(a.partition(":")[0]) for a in given if not _yes_or_no(a)}
-    speaking = _Speaking(
-        keys, tuple(sorted(types)), colored, tuple(sorted(filter(is_clothing, worn))), _of_colorless(world)
-    )
+    pairs = frozenset((attribute_key(a.partition(":")[0]), a.partition(":")[2]) for a in given if ":" in a)
+    dresses = tuple(sorted(filter(is_clothing, worn)))
+    speaking = _Speaking(keys, tuple(sorted(types)), colored, dresses, _of_colorless(world), pairs)
     return [speaking.root(tree) for tree in trees]
 
 
@@ -87,9 +88,16 @@ class _Speaking:
     """Reads trees by the keys and the classes that are there."""
 
     def __init__(
-        self, keys: frozenset[str], types: Sequence[str], colored: bool, worn: Sequence[str], values: Collection[str]
+        self,
+        keys: frozenset[str],
+        types: Sequence[str],
+        colored: bool,
+        worn: Sequence[str],
+        values: Collection[str],
+        pairs: Collection[tuple[str, str]],
     ) -> None:
         self.keys, self.types, self.colored, self.worn, self.values = keys, types, colored, worn, values
+        self.pairs = pairs
         self.of_people = len(keys & OF_PEOPLE) > 1
 
     def root(self, tree: ParseTree) -> ParseTree:
@@ -141,6 +149,8 @@ class _Speaking:
             both = replace(phrase, noun=noun, words=words, color=phrase.color or shown.color)
             below = (*tree.children[:k], *place.children[0].children, *tree.children[k + 1 :])
             return self.pictured(ParseTree(both, below))
+        if shows[-1] in _PICTURES and not names_one_of(shows[-1], self.types):
+            return replace(tree, phrase=replace(tree.phrase, noun=None))  # "the face in the corner" is a person
         return tree
 
     def moved(self, place: ParseTree) -> Iterator[tuple[str, tuple[ParseTree, ...]]]:
@@ -184,8 +194,14 @@ class _Speaking:
         like = [w for w in said if w not in whole and not w.startswith(NOT_)]
         denied = denied or "no" in like
         values = [word for word in like if word != "no" and word not in _OWNED]
-        own = [f"{HAS}{value} {key}" for value in values] or [f"{HAS}{key}"]
+        own = [self.having(value, key) for value in values] or [f"{HAS}{key}"]
         return [*(f"{NOT_}{word}" if denied else word for word in own), *whole]
+
+    def having(self, value: str, key: str) -> str:
+        """The word of "black hair": just that where there is brown hair as well, and dark hair where there is not."""
+        own = normalise(value)
+        there = frozenset(normalise(v) for of, v in self.pairs if of == key)
+        return f"{key}{OF_KEY}{own}" if is_told_apart(own, key, there) else f"{HAS}{value} {key}"
 
     def dressed(self, phrase: Phrase, *, denied: bool) -> list[str]:
         """The words of "(wearing) black", "in formal clothes", where what people wear is told."""
@@ -217,7 +233,7 @@ class _Speaking:
                 continue
             if not like and k and states_value(words[k - 1], frozenset({key})):
                 like = [words[k - 1]]  # "dark-haired"
-            words[k] = f"{NOT_ if denied else ''}{HAS}{' '.join((*like, key))}"
+            words[k] = f"{NOT_ if denied else ''}{self.having(' '.join(like), key) if like else HAS + key}"
         noun = phrase.noun
         if noun is not None:
             noun, values = self.without_values(noun, phrase)

@@ -163,7 +163,9 @@ class _Finder:
         """Is a letter by itself a name, and neither an article nor the speaker?"""
         word, before, after = self.words[i], self.word(i - 1), self.word(i + 1)
         if word == "a":
-            return self.raw[i] == "A" and bool(before) and not self.text.isupper()
+            ends = not after or self.tokens[i].end() != self.tokens[i + 1].start() - 1  # "the red a, please"
+            capital = self.raw[i] == "A" and not self.text.isupper()
+            return bool(before) and (capital or ends or before == "the")
         if word == "i":
             return (
                 bool(before)

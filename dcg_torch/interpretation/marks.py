@@ -53,7 +53,8 @@ def heard(
     if marks is None or len(text) > _LONGEST or _STAND_IN in text.lower():
         return parse(text, vocabulary)
     stood = dict(zip(_STAND_INS, find_marks(text, marks), strict=False))
-    spoken = _in_order(_replaced(text, stood), stood, marks.heads) if stood else text
+    several = {stand_in for stand_in, one in stood.items() if sum(_bears(thing, one) for thing in things) > 1}
+    spoken = _in_order(_replaced(text, stood), stood, marks.heads, several) if stood else text
     words = [*vocabulary, *stood, *(f"{s}s" for s in stood)] if stood else vocabulary
     read = parse(spoken, words)
     if not all(map(dataclasses.is_dataclass, (read, *read.readings))):
@@ -87,8 +88,18 @@ def _patterns(name: str, heads: frozenset[str] = frozenset()) -> tuple[tuple[re.
     return tuple((re.compile(old, re.IGNORECASE), new) for old, new in filled)
 
 
-def _in_order(text: str, stood: dict[str, FoundMark], heads: frozenset[str]) -> str:
-    """ "The block with quorba" is quorba, a block; "quorba should be above quorbb" is an order about the first."""
+def _bears(thing: Object | Percept, one: FoundMark) -> bool:
+    stated = () if one.mark.word is None else (one.mark.word,)
+    if stated and attribute_evidence(stated, thing.attributes) != ("attribute: equal",):
+        return False
+    return bool(stated) or thing.type in one.mark.classes
+
+
+def _in_order(text: str, stood: dict[str, FoundMark], heads: frozenset[str], several: set[str]) -> str:
+    """ "The block with quorba" is quorba, a block; "quorba should be above quorbb" is an order about the first.
+
+    "The quorba to the left of quorbb" is none where `several` things are called so: it says which of them.
+    """
     for old, new in _patterns("rewrite"):
         text = old.sub(new, text)
 
@@ -100,7 +111,12 @@ def _in_order(text: str, stood: dict[str, FoundMark], heads: frozenset[str]) -> 
         return stand_in
 
     text = _patterns("bearing", heads)[0][0].sub(borne, text)
-    return _patterns("moved")[0][0].sub(r"\1take \2\3 and put it ", text)
+
+    def moved(match: re.Match[str]) -> str:
+        which = match.group().endswith("to ") and not several.isdisjoint(words_of(match.group(3)))
+        return match.group() if which else match.expand(r"\1take \2\3 and put it ")
+
+    return _patterns("moved")[0][0].sub(moved, text)
 
 
 class _Restored:
@@ -169,6 +185,8 @@ class _Restored:
             left = [word for word in spoken if self.of(word) is None]
             noun = " ".join(left) or marked[-1].noun
             noun = marked[-1].mark.classes[0] if marked[-1].mark.classes else noun
+        elif noun is not None and self._bears_any(noun):
+            noun = None
         elif noun is not None:
             number = next(
                 (word for word in phrase.words if word.isdecimal() and singular(noun) in self.marks.heads), ""
@@ -178,6 +196,11 @@ class _Restored:
             words += strange
         text = self.said(phrase.text)
         return replace(phrase, text=text, noun=noun, words=tuple(dict.fromkeys((*phrase.words, *words))))
+
+    def _bears_any(self, noun: str) -> bool:
+        """Is it "the block", "the logo" where the classes are the marks themselves, "shell", "7"? Each is one."""
+        bare = self.marks.heads == mark_words()["carriers"]
+        return bare and noun in mark_words()["carriers"] | mark_words()["after"] and noun not in self.types
 
     def _without_strange_mark(self, noun: str) -> tuple[str, list[str]]:
         """Of "pepsi block" where no block has that mark: it is a block, and none that is there."""

@@ -11,6 +11,7 @@ import re
 from collections.abc import Iterable
 from typing import Final
 
+from dcg_torch.interpretation.telegrams import as_one_phrase
 from dcg_torch.names.attributes import attribute_key
 from dcg_torch.names.normal import read_data
 from dcg_torch.types import LOOKED_ROUND, Object, Percept
@@ -29,7 +30,7 @@ def shows_people(things: Iterable[Object | Percept]) -> bool:
 
 def of_people(text: str, things: Iterable[Object | Percept]) -> str:
     """A text in which what is said of somebody names what he has, where things show people; else as it is."""
-    return _plain(text) if shows_people(things) else text
+    return _plain(as_one_phrase(text)) if shows_people(things) else text
 
 
 @functools.lru_cache(maxsize=1024)

@@ -16,6 +16,7 @@ from dcg_torch.names.vocabulary import (
     OWNERS,
     PLACE_WORDS,
     SIDED,
+    SYNONYMS,
     VERTICAL,
     is_superlative,
 )
@@ -89,6 +90,12 @@ def told_sides(words: tuple[str, ...], children: tuple[ParseTree, ...]) -> tuple
     if vertical is None or (grouped and lateral is None):
         return ()
     return (vertical,) if lateral is None else (vertical, lateral)
+
+
+def of_two_sides(phrase: Phrase) -> bool:
+    """Does it speak of two sides at once, which is a corner: "(in) the upper left", "the top right one"?"""
+    said = {SYNONYMS.get(word, word).removesuffix("most") for word in (phrase.noun or "", *phrase.words)}
+    return not (said.isdisjoint(LATERAL) or said.isdisjoint(VERTICAL))
 
 
 def near_side(sides: tuple[str, ...]) -> ParseTree:

@@ -40,6 +40,11 @@ def is_on_floor(world: WorldModel) -> bool:
     return world.unit >= _TABLE and all(o.size is not None for o in world.objects if not o.hypothetical)
 
 
+def is_close_by(world: WorldModel) -> bool:
+    """Are things on a table or in a picture, all of it seen at once?"""
+    return world.unit < _TABLE
+
+
 def is_board(kind: str) -> bool:
     """Are things of one kind on a table? What is "the highest" there is so as on a page, but for the top of a stack."""
     names = kind.split(" ")

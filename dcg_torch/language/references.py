@@ -19,8 +19,7 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
     for clause in clauses:
         if clause is own or clause.refused or not (clause.objects and clause.tells):
             continue
-        there = exists(clause)
-        more = clause.objects[0]
+        there, more = exists(clause), clause.objects[0]
         landmark = named_again(clause, clauses)
         if landmark is not None:
             landmark.take_up(more)
@@ -116,7 +115,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
     several = [noun for noun in named if noun.plural or ("other" in one.words and not noun.is_a("someone"))]
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
-    if one.noun is None and not several and named:
+    if one.noun is None and not several and named and not any(_by_looks(one) and _may_be(one, n) for n in named):
         several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
     several = [noun for noun in several if one.noun is None or _picks_from(one, noun)]  # "take the middle cone"
     if not several or (one.noun is not None and decisions.choose("picked", CHOICES["picked"]) != "of_those"):
@@ -128,10 +127,10 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
     for place in [place for place in one.children if _picks(place)]:
         one.children.remove(place)
         one.words += _picks(place)
-    if (group.count or 0) > 1 and not one.plural and not group.is_a("grouped"):
+    if not (one.plural or group.is_a("grouped")):
         sized = not SETS["sizes"].isdisjoint(one.words)
         looks = [w for w in group.words if _describes(w) and not (sized and w in SETS["sizes"])]
-        one.words = tuple(dict.fromkeys((*one.words, *looks, f"of {group.count}")))
+        one.words = tuple(dict.fromkeys((*one.words, *looks, *[f"of {group.count}"] * ((group.count or 0) > 1))))
     one.children += [group.behind("in")] if group.is_a("grouped") else group.children
 
 
@@ -181,7 +180,8 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
     for node, start in nodes:
         if node.kind is not Kind.NOUN or not _names_again(node):
             continue
-        mentions = asked if node is target and node.pronoun else earlier  # "Is the mug clean? I'll take that one."
+        # "Is the mug clean? I'll take that one."
+        mentions = asked if node is target and node.pronoun and not _by_looks(node) else earlier
         vague = node.noun in {None, *SETS["groups"], *SETS["anything"]}
         named = [noun for noun in reversed(mentions) if noun.start < start and _may_be(node, noun)]
         named = [noun for noun in named if node not in noun.walk() and (vague or not noun.is_a("empty"))]
@@ -232,12 +232,19 @@ def _mentions(clauses: Sequence[Clause]) -> list[Item]:
 def _names_again(node: Item) -> bool:
     first = node.text.split(" ")[0]
     if node.pronoun and node.noun is None:
-        return node.is_a("empty") and first in SETS["stands_for"] | SETS["demonstratives"]
+        return _by_looks(node) or (node.is_a("empty") and first in SETS["stands_for"] | SETS["demonstratives"])
     return first in SETS["demonstratives"] or (first == "the" and node.is_a("empty") and not node.count)
+
+
+def _by_looks(node: Item) -> bool:
+    """ "(There is a big dot with a tiny gray one to its left.) The gray one"."""
+    return node.definite and not (node.noun or node.plural or node.children or node.is_a("empty"))
 
 
 def _may_be(node: Item, noun: Item) -> bool:
     """Whether a noun phrase may be what another names again."""
+    if _by_looks(node):
+        return not noun.plural and {node.color, *node.words} <= {None, noun.color, *noun.words}
     if noun.noun is None or noun.is_a("somewhere") or noun.pronoun:
         return False
     if node.noun is None or node.noun in SETS["groups"]:

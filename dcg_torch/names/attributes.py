@@ -181,8 +181,13 @@ def _possession_fact(said: str, pairs: Sequence[tuple[str, str]]) -> str:
         whole = read_data("values.yaml")["part_of"].get(key)
         told = [(k, v) for k, v in pairs if k == whole and v not in _words_of("present") | _words_of("absent")]
         return _possession_fact(f"{like} {whole}", told) if told else "attribute: silent"
-    if like == value:
+    *several, _ = parts = value.removesuffix(f" {key}").split(" ")
+    if like in (value, *parts):
         return "attribute: equal"
+    if several:  # "short hair" of "long black hair"
+        facts = {_possession_fact(said, [(key, part)]) for part in parts}
+        return "attribute: alike" if facts & {"attribute: equal", "attribute: alike"} else "attribute: contrary"
+    value = parts[0]
     fact = _value_fact(like, [(key, value)]) if states_value(like, frozenset({key})) else None
     if fact is None and region(like) is not None:
         near = not {"color: equal", "color: same hue", "color: alike"}.isdisjoint(color_evidence(like, value))
@@ -259,6 +264,17 @@ def named_key(noun: str, keys: frozenset[str]) -> str | None:
     """
     near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
     return max(near, key=lambda key: log_odds(noun, key), default=None)
+
+
+def is_told_apart(value: str, key: str, values: Collection[str]) -> bool:
+    """Is it one of several values of a key that may mean the same: "black" beside "brown" hair, which is dark as well?
+
+    Args:
+        values: those that are there, in normal form as the value is.
+    """
+    meanings, _ = _meanings()
+    meant = [_of_key(meanings.get(one, frozenset()), key) for one in values if one != value]
+    return value in values and any(one & _of_key(meanings.get(value, frozenset()), key) for one in meant)
 
 
 def says_value(phrase: str) -> bool:
