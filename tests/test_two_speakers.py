@@ -26,7 +26,7 @@ GARAGE = [
         ("X: get the rope. Y: the one on the floor? X: yes please", "get the rope. the one on the floor."),
         ("X: get the rope. Y: next to the pump? X: yep", "get the rope. the one next to the pump."),
         ("X: get the rope. Y: the one on the floor? X: nope", "get the rope. not on the floor."),
-        ("chief: fetch a lid. helper: which lid? chief: the one by the kettle", "the lid by the kettle."),
+        ("chief: fetch a lid. aide: which lid? chief: the one by the kettle", "the lid by the kettle."),
         ("X: open the crate. Y: the red or the blue crate? X: the blue", "open the crate. the blue crate."),
         ("X: take the pump. Y: done. X: great. now take the kettle", "take the kettle."),
         ("X: paint the crate. Y: i see two. X: use the one near the door", "paint the crate. the one near the door."),
@@ -59,6 +59,8 @@ def test_turns_are_told_by_one(text: str, told: str) -> None:
         "lift the pump.\nThen put it on the shelf.",
         "turn right, then right again to face the shelf",
         "it's 12:30, take the rope",
+        "row: 2, column: 4",
+        "color: red, shape: round",
     ],
 )
 def test_what_one_says_alone_stays_as_it_is(text: str) -> None:

@@ -20,6 +20,7 @@ _LONGEST, _LONGEST_QUESTION = 1000, 200
 _SENTENCES = re.compile(r"[^\s.?!][^.?!]*[.?!]*")
 _SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
 _IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
+_WORD = re.compile(r"[A-Za-z]{2}")
 _FOLLOWER = "follower"
 
 
@@ -60,17 +61,24 @@ def _turns(text: str) -> list[Turn]:
     labels = list(re.finditer(_LABEL.format(_ANY), text))
     if labels and labels[0].start() == 0:
         ends = [*[label.start() for label in labels[1:]], len(text)]
-        if len(labels) > 1 or _is("speaker", labels[0]["who"]):
+        if _are_speakers([label["who"].lower() for label in labels]):
             found = [
                 Turn(label["who"].lower(), text[label.end() : end].strip(" \n\"'"))
                 for label, end in zip(labels, ends, strict=True)
             ]
-            return [turn for turn in found if turn.text]
+            found = [turn for turn in found if turn.text]
+            if all(_WORD.search(turn.text) for turn in found):
+                return found
     quoted = re.fullmatch(r"\s*(?:(['\"])[^\"\n]+?\1[\s,-]*){2,}", text)
     if quoted:
         said = re.findall(rf"{quoted[1]}(.+?){quoted[1]}(?=[\s,-]|$)", text)
         return [Turn(str((len(said) - k) % 2), part) for k, part in enumerate(said)]
     return _unlabelled(text)
+
+
+def _are_speakers(labels: list[str]) -> bool:
+    """Are labels those of people who speak, and not keys: "color: red, shape: cube"?"""
+    return any(_is("speaker", label) for label in labels) or len(set(labels)) < len(labels)
 
 
 def _unlabelled(text: str) -> list[Turn]:
