@@ -99,8 +99,11 @@ def _straightest(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder) 
 def _next_ones(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder, *, whole: bool) -> Floats:
     """(combos, things) of the things of a stack the next one of each type, unless the whole is meant."""
     where, found = encoder.layout, log_psi
-    for k in np.flatnonzero(np.isin(mark, where.near.stacked.nonzero()[0])).tolist():
-        rise, so = (of[0] for of in _that_way(up, mark[k : k + 1], where))
+    of_a_stack = set(where.near.stacked.nonzero()[0].tolist())
+    some = [k for k, landmark in enumerate(mark.tolist()) if landmark in of_a_stack]
+    if not some:
+        return log_psi
+    for k, rise, so in zip(some, *_that_way(up, mark[some], where), strict=True):
         stacked = np.flatnonzero(so & _on_the_spot(mark[k], where)) if so.any() else ()
         if len(stacked) < 2:
             continue
