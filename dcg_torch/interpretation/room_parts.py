@@ -70,12 +70,16 @@ def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
 
 
 def _reach_up(things: Sequence[Object]) -> bool:
-    """Do some things stand on one level, and reach to several heights?"""
+    """Do some things stand on one level, and reach to several heights?
+
+    Dots and balls of several sizes don't: one of these is higher where it stands higher, or farther up a page.
+    """
     sized = [(o.position[2], o.size[2]) for o in things if o.position and o.size]
     feet = [[z for z, _ in sized], [z - high / 2.0 for z, high in sized]]  # a position is a foot or a middle
     high = [own for _, own in sized]
     level = any(max(z) - min(z) < _LEVEL for z in feet) if sized else False
-    return level and len(sized) == len(things) and max(high) > _TALLER * min(high)
+    round_ = all(o.size is not None and max(o.size) <= _TALLER * min(o.size) for o in things)
+    return level and len(sized) == len(things) and max(high) > _TALLER * min(high) and not round_
 
 
 def _is_on_an_end(place: ParseTree) -> bool:
