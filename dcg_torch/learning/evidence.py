@@ -15,9 +15,10 @@ from typing import Literal
 
 import numpy as np
 
+from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.names.palette import named_rgb
-from dcg_torch.types import Object, ParseTree, Phrase, WorldModel
+from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 Ground = Callable[[ParseTree, WorldModel], Solution]
 """Grounds a tree of factors in a world."""
@@ -82,7 +83,9 @@ def evidence(solution: Solution, ground: Ground, is_open: IsOpen) -> Iterator[Wo
             for attribute, word, bare in _without(landmark.phrase, is_open):
                 changed = _with_child(modifier, k, replace(landmark, phrase=bare))
                 found = ground(_with_child(target, m, changed), solution.world)
-                yield WordEvidence(attribute, word, _landmarks(found, changed, k), landmark.phrase, landmark=True)
+                nth = sum(child.phrase.kind is PhraseKind.MODIFIER for child in target.children[:m])
+                fits = _landmarks(found, found.modifiers[nth], k)
+                yield WordEvidence(attribute, word, fits, landmark.phrase, landmark=True)
 
 
 def _without(phrase: Phrase, is_open: IsOpen) -> Iterator[tuple[Attribute, str, Phrase]]:
@@ -108,13 +111,16 @@ def _relative(found: Solution) -> dict[str, float]:
     return {i: found.odds[i] / scale for i in ids}
 
 
-def _landmarks(found: Solution, modifier: ParseTree, k: int) -> dict[str, float]:
-    """How probable each perceived object is as the k-th landmark of a modifier, over all that may be meant."""
+def _landmarks(found: Solution, factor: ModifierFactor, k: int) -> dict[str, float]:
+    """How probable each perceived object is as the k-th landmark of a modifier, over all that may be meant.
+
+    Args:
+        factor: of the modifier; it is of the same place in the noun phrase, and its words may be others.
+    """
     ids = _perceived(found)
     number = {thing.id: j for j, thing in enumerate(found.world.things)}
     meant = [i for i in ids if found.probabilities[i] >= _NEGLIGIBLE]
     shares = np.array([found.probabilities[i] for i in meant])
-    factor = next(f for f in found.modifiers if f.tree == modifier)
     fits = dict.fromkeys(ids, 0.0)
     of_combos = factor.posterior[:, [number[i] for i in meant]] @ shares
     for combo, probability in zip(factor.combos, of_combos.tolist(), strict=True):
