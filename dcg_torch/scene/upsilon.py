@@ -10,6 +10,8 @@ from dcg_torch.scene.percepts import checked, checked_pose
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 HYPOTHETICAL_UNKNOWN = "hypothetical unknown"
+_MANY = 1000
+"""Objects up to which they are put in order."""
 
 
 def perceive_objects(
@@ -38,8 +40,11 @@ def perceive_objects(
 def nearest_first(world: WorldModel) -> WorldModel:
     """The world with what is perceived in the order of its distance to the robot, or to the origin.
 
-    Recognisers give objects in any order, and the first of equals is taken: so that order has to mean something.
+    Recognisers give objects in any order, and the first of equals is taken: so that order has to mean something. Very
+    many stay as they are: who goes through them in another order than they were made in waits for the memory.
     """
+    if len(world.objects) > _MANY:
+        return world
     x, y = (0.0, 0.0) if world.robot is None else (world.robot.x, world.robot.y)
 
     def how_far(thing: Object) -> tuple[float, tuple[float, ...], str]:
