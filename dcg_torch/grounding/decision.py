@@ -20,8 +20,8 @@ _SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
 def instead_of(best: Object, totals: NDArray[np.float64], encoder: WorldEncoder, *, several: bool) -> str:
     """Id of the thing that is meant, which is the likeliest configuration's unless names count, or several are meant.
 
-    There something that is there is meant if that is twice as likely as that nothing is; of several, if it is likelier.
-    Of things that are as good as equal, where names count, the nearest is meant.
+    Where names count, something that is there is meant if that is twice as likely as that nothing there is. A phrase
+    for several means what is there if that is likelier than not. Where names count, the nearest of equals is meant.
 
     Args:
         best: what the likeliest configuration is about.

@@ -40,8 +40,8 @@ def perceive_objects(
 def nearest_first(world: WorldModel) -> WorldModel:
     """The world with what is perceived in the order of its distance to the robot, or to the origin.
 
-    Recognisers give objects in any order, and the first of equals is taken: so that order has to mean something. Very
-    many stay as they are: who goes through them in another order than they were made in waits for the memory.
+    Recognisers give objects in any order, and the first of equals is taken. More than `_MANY` objects keep their order:
+    ten thousand that are gone through in another order than they were made in take half as long again.
     """
     if len(world.objects) > _MANY:
         return world
