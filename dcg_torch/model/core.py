@@ -51,7 +51,7 @@ class GroundingModel:
         factor: Psi with its weights.
         learner: what it has learned of words: `CommitFirst` is the paper's, `WordPosterior` goes beyond it.
         held: (L, G) the weights that a corpus has taught: learning leaves them alone.
-        prior: (P, L, G) what the penalty pulls the weights towards; zero until a corpus has taught some.
+        prior: (P, L, G) what the penalty pulls the weights towards; None: zero, as until a corpus has taught some.
         fitted: how the last training went; None for a model that was restored.
     """
 
@@ -61,7 +61,7 @@ class GroundingModel:
         self.factor = factor
         self.learner = learner
         self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
-        self.prior: NDArray[np.float64] = np.zeros(tuple(factor.weight.shape))
+        self.prior: NDArray[np.float64] | None = None
         self.fitted: FitResult | None = None
         self._kept = Kept(Statistics(features.groups))
 
@@ -94,7 +94,8 @@ class GroundingModel:
         factor = LogLinearFactor(self.features.pairs, self.factor.correspondences, self.factor.weight.device)
         factor.set_weight(self.factor.weight.detach().clone())
         other = GroundingModel(self.variant, self.features, factor, self.learner)
-        other.held, other.prior, other.fitted = self.held.copy(), self.prior.copy(), self.fitted
+        other.held, other.fitted = self.held.copy(), self.fitted
+        other.prior = None if self.prior is None else self.prior.copy()
         other._kept = Kept(self._kept.statistics.copy())
         return other
 
@@ -306,7 +307,8 @@ class GroundingModel:
             return
         self.features = features
         self.factor.grow(features.pairs)
-        self.held, self.prior = widened(self.held, features.shape), widened(self.prior, features.shape)
+        self.held = widened(self.held, features.shape)
+        self.prior = None if self.prior is None else widened(self.prior, features.shape)
 
     def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place: see `fit`."""

@@ -69,14 +69,14 @@ class Followed:
     Attributes:
         features: the columns.
         weight: what the fit has made of them; another one, if someone else has set the weights meanwhile.
-        prior: what they are pulled towards.
+        prior: what they are pulled towards; None: zero.
         examples, soft: what they follow.
         free: (L, G) those that do; None: all.
     """
 
     features: FeatureSet
     weight: object
-    prior: Floats
+    prior: Floats | None
     examples: Sequence[Example]
     soft: Sequence[SoftLabels]
     free: Mask | None

@@ -67,7 +67,7 @@ class Stored:
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
-    prior: NDArray[np.float64]
+    prior: NDArray[np.float64] | None
     held: NDArray[np.bool_]
 
 
@@ -93,7 +93,8 @@ def write(stored: Stored, directory: Path | str) -> None:
         learner if isinstance(learner, CommitFirst) else None,
         learner if isinstance(learner, WordPosterior) else None,
     )
-    tensors = _sparse("weight", stored.factor.weight.detach().cpu().numpy()) | _sparse("prior", stored.prior)
+    prior = np.zeros(0) if stored.prior is None else stored.prior
+    tensors = _sparse("weight", stored.factor.weight.detach().cpu().numpy()) | _sparse("prior", prior)
     tensors |= {"held": np.flatnonzero(stored.held).astype(np.int32)}
     # Sets in their order of names, so that the same model gives the same bytes.
     text = json.dumps(_ADAPTER.dump_python(description), default=sorted)
@@ -127,7 +128,8 @@ def read(directory: Path | str) -> Stored:
         raise CheckpointError(f"{directory}: {WEIGHTS} holds weights of columns that {DESCRIPTION} lacks")
     held = np.zeros(shape[1:], dtype=np.bool_)
     held.reshape(-1)[tensors["held"]] = True
-    return Stored(described.variant, features, factor, learner, _dense("prior", tensors, shape, directory), held)
+    prior = _dense("prior", tensors, shape, directory)
+    return Stored(described.variant, features, factor, learner, prior if prior.any() else None, held)
 
 
 def _parts(directory: Path) -> tuple[_Description, _Arrays]:

@@ -60,7 +60,7 @@ class Teachable(Protocol):
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
-    prior: NDArray[np.float64]
+    prior: NDArray[np.float64] | None
     held: NDArray[np.bool_]
 
     @property
@@ -155,6 +155,7 @@ def _fit(
 ) -> NDArray[np.bool_]:
     """Fit the free weights to what is meant and to choices that are always there; (L, G) which features fired last."""
     fired = np.zeros(model.features.shape, dtype=np.bool_)
+    prior = np.zeros(tuple(model.factor.weight.shape)) if model.prior is None else model.prior
 
     def fit_once(choices: list[Choice], last: bool) -> None:
         nonlocal fired
@@ -165,7 +166,7 @@ def _fit(
             model.features,
             free=free,
             l2=l2,
-            prior=model.prior,
+            prior=prior,
             max_steps=steps,
             tolerance=tolerance,
         )

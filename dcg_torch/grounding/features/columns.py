@@ -114,12 +114,13 @@ class FeatureSet:
         )
 
     def _with(self, languages: Iterable[Feature], groundings: Iterable[Feature]) -> FeatureSet:
-        language, grounding = dict(self.language), dict(self.grounding)
-        for table, features in ((language, languages), (grounding, groundings)):
-            for group, name in features:
-                if group in self.groups:
-                    table.setdefault(name, len(table))
-        return FeatureSet(self.groups, language, grounding)
+        tables = []
+        for table, features in ((self.language, languages), (self.grounding, groundings)):
+            new = dict.fromkeys([name for group, name in features if name not in table and group in self.groups])
+            tables.append({**table, **dict(zip(new, itertools.count(len(table))))} if new else table)
+        language, grounding = tables
+        same = language is self.language and grounding is self.grounding
+        return self if same else FeatureSet(self.groups, language, grounding)
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -134,7 +135,7 @@ class FeatureSet:
         found: NDArray[np.bool_] = met.reshape(len(left), len(right)).take(rows, axis=0).take(columns, axis=1)
         return found
 
-    @property
+    @cached_property
     def nouns(self) -> frozenset[str]:
         """The nouns that have a column."""
         found = (name.removeprefix("noun: ") for name in self.language if name.startswith("noun: "))
