@@ -63,7 +63,7 @@ def _by_place(
         return None
     there = where.solid & np.isfinite(where.position).all(axis=1)
     at = np.flatnonzero(among & there)
-    kind = there & np.isin(encoder.type_number, encoder.type_number[at])
+    kind = there & (np.bincount(encoder.type_number[at], minlength=len(among))[encoder.type_number] > 0)
     first = None if sides or anchored else _first_in_line(phrase, where.position[kind], picture=where.picture)
     sides = sides if first is None else [first]
     numbers = numbers if first is None else numbers or list(called.values())

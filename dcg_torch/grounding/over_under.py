@@ -99,8 +99,7 @@ def _straightest(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder) 
 def _next_ones(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder, *, whole: bool) -> Floats:
     """(combos, things) of the things of a stack the next one of each type, unless the whole is meant."""
     where, found = encoder.layout, log_psi
-    of_a_stack = set(where.near.stacked.nonzero()[0].tolist())
-    some = [k for k, landmark in enumerate(mark.tolist()) if landmark in of_a_stack]
+    some = where.stacked[mark].nonzero()[0].tolist()
     if not some:
         return log_psi
     for k, rise, so in zip(some, *_that_way(up, mark[some], where), strict=True):
@@ -121,7 +120,7 @@ def _between(marks: Ints, log_psi: Floats, encoder: WorldEncoder) -> Floats:
     """(combos, things) what lies between two things of one stack; the rest where they are of two."""
     where, found = encoder.layout, log_psi
     height = where.position[:, 2]
-    for k in np.flatnonzero(np.isin(marks, where.near.stacked.nonzero()[0]).all(axis=1)).tolist():
+    for k in np.flatnonzero(where.stacked[marks].all(axis=1)).tolist():
         one, other = marks[k]
         low, high = sorted((height[one], height[other]))
         inside = (height > low + _LEVEL) & (height < high - _LEVEL)

@@ -183,7 +183,8 @@ class Search:
         if phrase.noun is None:
             return None
         named = of_kind(phrase, self.encoder, self._tables)
-        return named if len(np.unique(self.encoder.type_number[named])) > 1 else None
+        types = self.encoder.type_number[named]
+        return named if (types != types[:1]).any() else None
 
     def _beside_what_is_faced(self, tree: ParseTree) -> Bools | None:
         """(things,) those of a noun phrase's kind that may be meant by who faces what they are beside; else None."""

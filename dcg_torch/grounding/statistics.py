@@ -30,7 +30,7 @@ _LABELS = 3
 _Own = tuple[str | None, bool, bool, str | None, frozenset[str]]
 Seen = tuple[GroundingKind, _Own | None, tuple[str, ...]]
 """What features see of a grounding: its kind; an object's type, known, hypothetical, colour, attributes; more names."""
-_Kept = tuple[Example, Ints, Floats]
+_Kept = tuple[Example, list[int], list[float]]
 """An example, the pair and label of each of its labelled factors as one number, and the weight of each."""
 _Counted = tuple[Ints, Ints, Floats]
 """Of n pairs, the phrase, what is seen of the grounding, and (P, n) the weight of each label."""
@@ -121,14 +121,15 @@ class Statistics:
         before, codes, weights = self._joined
         if len(before) > len(plain) or not all(map(operator.is_, before, plain)):
             before, codes, weights = (), codes[:0], weights[:0]
-        codes = np.concatenate([codes, *(own for _, own, _ in plain[len(before) :])])
-        weights = np.concatenate([weights, *(own for _, _, own in plain[len(before) :])])
+        new = plain[len(before) :]
+        codes = np.concatenate([codes, np.array([code for _, own, _ in new for code in own], dtype=np.int64)])
+        weights = np.concatenate([weights, [weight for _, _, own in new for weight in own]])
         self._joined = plain, codes, weights
         total: Floats = np.bincount(codes, weights, minlength=_LABELS * len(self._pairs)).astype(np.float64)
         count = total.reshape(-1, _LABELS).T
         if len(self._pairs) > len(self._pair_of):
-            new = list(itertools.islice(self._pairs, len(self._pair_of), None))
-            self._pair_of = np.concatenate([self._pair_of, np.array(new, dtype=np.int64)])
+            further = list(itertools.islice(self._pairs, len(self._pair_of), None))
+            self._pair_of = np.concatenate([self._pair_of, np.array(further, dtype=np.int64)])
         used: Ints = np.flatnonzero(count.any(axis=0))
         pairs = self._pair_of[used]
         return pairs[:, 0], pairs[:, 1], count[at][:, used]
@@ -184,18 +185,17 @@ class Statistics:
         nowhere = not world.places and all(o.position is None for o in world.objects) and ranking(phrase) is None
         return nowhere or Group.RELATION not in self._groups
 
-    def _encoded(self, example: Example) -> tuple[Ints, Floats]:
-        """(n,) the pair and label of each labelled factor, as one number, and its weight."""
+    def _encoded(self, example: Example) -> tuple[list[int], list[float]]:
+        """The pair and label of each labelled factor, as one number, and its weight."""
         phrase, kind = self._phrases.number(example.phrase), GROUNDING_OF[example.phrase.kind]
-        labelled = [(j, label) for j, label in enumerate(example.correspondences) if label is not None]
-        if kind is GroundingKind.OBJECT:
-            seen = self._of_things(example, [j for j, _ in labelled])
-        else:
-            seen = self._of_children(example, kind, [j for j, _ in labelled])
+        labels = [label for label in example.correspondences if label is not None]
+        labelled = [j for j, label in enumerate(example.correspondences) if label is not None]
+        of_things = kind is GroundingKind.OBJECT
+        seen = self._of_things(example, labelled) if of_things else self._of_children(example, kind, labelled)
         pairs = [self._pairs.setdefault((phrase, number), len(self._pairs)) for number in seen]
-        codes = [_LABELS * pair + label + 1 for pair, (_, label) in zip(pairs, labelled, strict=True)]
-        own = np.ones(len(codes)) if example.weights is None else np.array([example.weights[j] for j, _ in labelled])
-        return np.array(codes, dtype=np.int64), example.weight * own
+        codes = [_LABELS * pair + label + 1 for pair, label in zip(pairs, labels, strict=True)]
+        whole, own = example.weight, example.weights
+        return codes, [whole] * len(codes) if own is None else [whole * own[j] for j in labelled]
 
     def _of_things(self, example: Example, numbers: Sequence[int]) -> list[int]:
         """What is seen of some groundings of a noun phrase."""
@@ -208,14 +208,11 @@ class Statistics:
         about = [c.grounding.object.id for c in example.children]
         such = (kind._value_, *[(c.grounding.kind._value_, c.correspondence._value_) for c in example.children])
         found = self._related.setdefault(such, {})
-        things, seen = example.world.meanable, []
-        for j in numbers:
-            id_ = things[j].id
-            same = tuple([one == id_ for one in about])
-            if same not in found:
-                found[same] = self._seen.number(_of_relations(example, kind, same))
-            seen.append(found[same])
-        return seen
+        things = example.world.meanable
+        of_each = [tuple([one == things[j].id for one in about]) for j in numbers]
+        for same in [one for one in dict.fromkeys(of_each) if one not in found]:
+            found[same] = self._seen.number(_of_relations(example, kind, same))
+        return [found[same] for same in of_each]
 
 
 class _Columns:

@@ -224,7 +224,7 @@ def _picks(tree: ParseTree) -> str | None:
 
 def in_group(phrase: Phrase) -> bool:
     """Does a noun phrase speak of a group of objects?"""
-    return phrase.kind is PhraseKind.NOUN and any(w in GROUP_WORDS for w in (phrase.noun, *phrase.words))
+    return phrase.kind is PhraseKind.NOUN and not GROUP_WORDS.keys().isdisjoint((phrase.noun, *phrase.words))
 
 
 def _of_all(tree: ParseTree) -> ParseTree:

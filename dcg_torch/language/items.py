@@ -4,6 +4,7 @@ changes to a single noun phrase."""
 from __future__ import annotations
 
 import enum
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final
@@ -12,7 +13,7 @@ from dcg_torch.english.forms import parts
 from dcg_torch.language.lexicon import GRAMMAR, NORMAL, PLACING, SETS, listed
 
 
-class Kind(enum.Enum):
+class Kind(enum.StrEnum):
     """What an item of a command is, with the tag of what is one by itself."""
 
     VERB = "V"
@@ -90,7 +91,7 @@ class Item:
 
     def is_a(self, kind: str) -> bool:
         """Whether the item is of a kind of `grammar.yaml`: one of its rows holds."""
-        return any(all(self._has(*feature) for feature in row) for row in _KINDS[kind])
+        return any(all(itertools.starmap(self._has, row)) for row in _KINDS[kind])
 
     def _has(self, name: str, wanted: bool, words: frozenset[str], all_of_them: bool) -> bool:
         value = getattr(self, name)

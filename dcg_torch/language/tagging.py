@@ -122,7 +122,7 @@ class _Lattice:
         for length in range(min(_LONGEST, len(self.words) - i), 1, -1):
             spoken = tuple(self.words[i : i + length])
             name = (*spoken[:-1], singular(spoken[-1]))
-            if any(not listed.isdisjoint((name, spoken)) for listed in (self.compounds, lx.COMPOUNDS)):
+            if not (self.compounds.isdisjoint((name, spoken)) and lx.COMPOUNDS.isdisjoint((name, spoken))):
                 tags = lx.GRAMMAR["compound"].items()
                 return [(Token(i, i + length, tag, " ".join(spoken), name), weight) for tag, weight in tags]
         return []

@@ -142,6 +142,13 @@ class Layout:
         found[: len(self.near.resting)] = self.near.resting
         return found
 
+    @functools.cached_property
+    def stacked(self) -> Bools:
+        """(n,) is it an object with another on its spot?"""
+        found = np.zeros(len(self.things), dtype=np.bool_)
+        found[: len(self.near.stacked)] = self.near.stacked
+        return found
+
     def alike(self, among: str) -> Alike:
         """Which of `SETS` each thing is compared with, by the name of the set."""
         if among not in self._alike:

@@ -27,8 +27,8 @@ def spacings(things: Sequence[Object] | Sequence[Percept]) -> Floats:
 
 def spacing(things: Sequence[Object] | Sequence[Percept]) -> float | None:
     """The median of `spacings`; None where no two things stand apart."""
-    near = spacings(things)
-    return float(np.median(near)) if len(near) else None
+    near = np.sort(spacings(things))
+    return float(near[(len(near) - 1) // 2] + near[len(near) // 2]) / 2.0 if len(near) else None
 
 
 @dataclass(frozen=True)
