@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -9,6 +11,7 @@ from hypothesis import strategies as st
 from dcg_torch.english.spelling import Speller
 from dcg_torch.language import parse_command
 from dcg_torch.language.colors import COLOR_NAMES, match_color, normal_color
+from dcg_torch.language.lexicon import REWRITES
 from dcg_torch.language.tokens import tokens
 
 
@@ -69,6 +72,10 @@ def test_match_color(text: str, color: str | None, length: int) -> None:
 )  # fmt: skip
 def test_what_stands_for_what(said: str, plain: str) -> None:
     assert tokens(said) == tokens(plain)
+
+
+def test_all_rewrites_are_patterns_though_few_commands_ask_for_one() -> None:
+    assert all(re.compile(old).pattern for old, _, _ in REWRITES)
 
 
 def test_color_names_are_normal_and_many() -> None:

@@ -81,7 +81,7 @@ def _replacement(new: str) -> str | Callable[[re.Match[str]], str]:
 QUOTES: Final = str.maketrans(_PATTERNS["quotes"])
 """Typographic quotes, dashes and the ellipsis, as they are typed on a keyboard."""
 REWRITES: Final = tuple(
-    (re.compile(_filled(old)), _replacement(new), tuple(needs[0].split("|")) if needs else ("",))
+    (_filled(old), _replacement(new), tuple(needs[0].split("|")) if needs else ("",))
     for old, new, *needs in _PATTERNS["rewrite"]
 )
 WORD: Final = re.compile(_PATTERNS["word"])

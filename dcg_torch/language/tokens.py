@@ -31,7 +31,7 @@ def tokens(text: str) -> list[str]:
     text = text if text.isprintable() else "".join(" " if unicodedata.category(c)[0] == "C" else c for c in text)
     text = _HYPHENATED.sub(_swap, text)
     for old, new, needs in lx.REWRITES:
-        text = old.sub(new, text) if any(map(text.__contains__, needs)) else text
+        text = re.sub(old, new, text) if any(map(text.__contains__, needs)) else text
     found: list[str] = []
     for token in lx.WORD.findall(text):
         if token in lx.SETS["size_nouns"] and found and found[-1] in lx.SETS["sizes"]:

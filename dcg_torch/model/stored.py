@@ -16,7 +16,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import TypeAdapter, ValidationError
+from pydantic import ConfigDict, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass as checked
 from safetensors import SafetensorError
 from safetensors.numpy import load as load_bytes
@@ -45,7 +45,7 @@ class CheckpointError(UserError):
     """A saved model that is missing or not valid; the message is one line."""
 
 
-@checked(frozen=True)
+@checked(frozen=True, config=ConfigDict(defer_build=True))
 class _Description:
     format: Literal[2]
     variant: Variant
