@@ -14,13 +14,14 @@ def read(name: str, room: str = __package__) -> str:
 
 def lines(name: str, room: str = __package__) -> list[str]:
     """The lines of such a file that are neither empty nor comments."""
-    return [line for line in read(name, room).splitlines() if line and not line.startswith("#")]
+    return [line for line in read(name, room).splitlines() if line and line[0] != "#"]
 
 
 @functools.cache
 def english() -> Mapping[str, Mapping[str, int]]:
     """A dictionary: word -> {part of speech (n, v, a, r): how often it is that, a power of two}."""
-    return _Dictionary(line.partition("\t")[::2] for line in lines("english.tsv"))
+    found = "\t".join(lines("english.tsv")).split("\t")
+    return _Dictionary(zip(found[::2], found[1::2], strict=True))
 
 
 class _Dictionary(Mapping[str, Mapping[str, int]]):
