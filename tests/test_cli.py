@@ -50,6 +50,8 @@ WRONG = [
     pytest.param(["~model"], ["model=null", "choose from dcg, "], id="no model"),
     pytest.param(["experiment=null"], ["experiment=null", "paper"], id="experiment null"),
     pytest.param(["hydra/launcher=3"], ["hydra/launcher=3", "give the name"], id="launcher a number"),
+    pytest.param(["seed=0,1"], ["seed=0,1: several values", "seed=[0,1]", "-m makes"], id="several values"),
+    pytest.param(["seed=0,1", "seed=2"], ["seed=0,1 and seed=2", "once"], id="swept and given"),
     pytest.param(["--trials=3"], ["--trials=3", "KEY=VALUE"], id="dashes"),
 ]
 
@@ -72,6 +74,7 @@ OF_SWEEPS = (
     "no world files",
     "no value",
     "no key",
+    "swept and given",
 )
 
 

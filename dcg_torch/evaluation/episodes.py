@@ -199,7 +199,10 @@ def _problem(found: Any) -> str:
     # The innermost key that an episode has; what follows are pydantic's names for the choices it tried.
     keys = [k for k, part in enumerate(found["loc"]) if part in _MEND]
     where = ".".join(map(str, found["loc"][: keys[-1] + 1])) if keys else "the line"
-    said = "not understood" if where.endswith(("size", "position", "rgb")) else plain(found["msg"], 120)
+    if found["type"] == "missing" and isinstance(found["input"], dict):
+        said = f"is missing; there are {', '.join(plain(key, 20) for key in list(found['input'])[:_MOST_SHOWN])}"
+    else:
+        said = "not understood" if where.endswith(("size", "position", "rgb")) else plain(found["msg"], 120)
     return f"{where}: {said}; {_MEND[where.rpartition('.')[2]]}"
 
 
@@ -247,6 +250,19 @@ def unused_note(episodes: Iterable[Episode]) -> str | None:
     more = f" and {len(found) - _MOST_SHOWN} more" if len(found) > _MOST_SHOWN else ""
     return f"keys that are not used (how often): {listed}{more}; see whether one is misspelt"
 
+
+def turned_note(episodes: Iterable[Episode]) -> str | None:
+    """One line on headings of more than a turn, which are degrees; None: there are none."""
+    found = [
+        (place.yaw, e.id) for e in episodes for place in (e.robot, e.speaker) if place and abs(place.yaw) > _FULL_TURN
+    ]
+    if not found:
+        return None
+    yaw, name = found[0]
+    return f"a yaw of more than a turn (how often: {len(found)}; {yaw:g} in {plain(name, 40)}): angles are radians"
+
+
+_FULL_TURN = 2.1 * np.pi
 
 _ONE_SCALE = 2.0
 """Scenes of one scale: in none are neighbours so many times closer or farther than in the middle one."""
