@@ -218,6 +218,8 @@ def _print_files(figures: dict[str, Any], baselines: dict[str, Any], console: Co
 
 def _print_errors(found: Sequence[Answer], console: Console) -> None:
     counts = Counter(a.cause for a in found if a.cause is not None)
+    if not counts:
+        return
     table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(found)} commands")
     for column in ("cause", "commands", "share"):
         table.add_column(column, justify="left" if column == "cause" else "right")
