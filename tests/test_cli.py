@@ -42,6 +42,7 @@ WRONG = [
     pytest.param(["color_rate=2"], ["color_rate=2", "from 0 to 1"], id="share out of range"),
     pytest.param(["iterations=90000"], ["iterations=90000", "ask for fewer"], id="too few commands"),
     pytest.param(["worlds=no/such/place"], ["no/such/place", "no such directory"], id="no world files"),
+    pytest.param(["worlds=pyproject.toml"], ["pyproject.toml: a file", "name the folder"], id="a file of worlds"),
     pytest.param(["name=${nothing}"], ["name", "nothing"], id="broken interpolation"),
     pytest.param(["trials"], ["trials", "KEY=VALUE"], id="no value"),
     pytest.param(["+=0"], ["+=0", "KEY=VALUE"], id="no key"),
