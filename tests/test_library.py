@@ -328,6 +328,17 @@ def test_attributes_may_be_a_dict_for_a_robot_of_one_s_own(model: GroundingModel
         assert [o.id for o in outcome.solution.objects] == [meant]
 
 
+def test_a_look_that_makes_no_sense_is_refused_by_name(model: GroundingModel) -> None:
+    class Doubled:
+        pose = Pose(0.0, 0.0, 0.0)
+
+        def perceive(self) -> list[Percept]:
+            return [THINGS[0], THINGS[0]]
+
+    with pytest.raises(ValueError, match="'m1': two objects have this id"):
+        carry_out("go to the mug", model, Doubled())  # type: ignore[arg-type]
+
+
 def test_an_answer_is_shown_in_one_line(model: GroundingModel, world: WorldModel) -> None:
     assert re.fullmatch(
         r"Solution\(objects=\['c1'\], probability=(0\.\d{3}|1\.000)\)", repr(model.ground("the cube", world))
