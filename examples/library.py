@@ -22,9 +22,9 @@ def look() -> dcg_torch.WorldModel:
 print(model.tell("this is a lamp", look(), pointing_at="l1"))  # a teacher points and says a name
 answer = model.ground("the blue mug left of the lamp", look())  # nobody has said "mug" before
 print([thing.id for thing in answer.objects], answer.probability, answer.probabilities)
-print(model.learn(answer))  # the word that the outcome taught, or the reason why it taught none
 for reason in dcg_torch.explain(model, answer)[:5]:  # what moved each phrase to its grounding, as log-odds
     print(reason)
+print(model.learn(answer))  # the word that the outcome taught, or the reason why it taught none
 print(model.ground("how many mugs are there?", look()).problem)  # this is no order about a thing
 dcg_torch.save(model, "my_model")  # safetensors and JSON
 model = dcg_torch.load("my_model")

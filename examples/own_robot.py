@@ -20,7 +20,7 @@ SHELF = (
 
 
 class MyRobot:
-    """Six methods; these print what a real robot would do. It sees 90 degrees ahead."""
+    """Six members; they print what a real robot would do. It sees 90 degrees ahead."""
 
     def __init__(self) -> None:
         self.pose = Pose(0.0, 0.0, 0.0)

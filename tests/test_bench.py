@@ -13,7 +13,7 @@ from dcg_torch.bench.fits import ours, peak
 from dcg_torch.bench.learning import knowing
 from dcg_torch.bench.page import main
 from dcg_torch.bench.peers import L2, peers
-from dcg_torch.bench.result import Result, result
+from dcg_torch.bench.result import Result, result, shown_number
 from dcg_torch.bench.rows import Rows, dense_rows, sparse_rows
 from dcg_torch.fitting.design import merge
 from dcg_torch.fitting.fit import objective_at
@@ -86,3 +86,10 @@ def test_a_file_of_something_else_is_one_line(tmp_path: Path, capsys: pytest.Cap
     told = capsys.readouterr().err
     assert told.count("\n") == 1
     assert "make bench" in told
+
+
+@pytest.mark.parametrize(
+    ("value", "shown"), [(6010.4, "6,010"), (999.4, "999"), (0.85614, "0.856"), (-20_800.0, "-20,800")]
+)
+def test_no_number_needs_an_exponent(value: float, shown: str) -> None:
+    assert shown_number(value) == shown

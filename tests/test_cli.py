@@ -42,6 +42,7 @@ WRONG = [
     pytest.param(["color_rate=2"], ["color_rate=2", "from 0 to 1"], id="share out of range"),
     pytest.param(["iterations=90000"], ["iterations=90000", "ask for fewer"], id="too few commands"),
     pytest.param(["worlds=no/such/place"], ["no/such/place", "no such directory"], id="no world files"),
+    pytest.param(["worlds=pyproject.toml"], ["pyproject.toml: a file", "name the folder"], id="a file of worlds"),
     pytest.param(["name=${nothing}"], ["name", "nothing"], id="broken interpolation"),
     pytest.param(["trials"], ["trials", "KEY=VALUE"], id="no value"),
     pytest.param(["+=0"], ["+=0", "KEY=VALUE"], id="no key"),
@@ -50,6 +51,8 @@ WRONG = [
     pytest.param(["~model"], ["model=null", "choose from dcg, "], id="no model"),
     pytest.param(["experiment=null"], ["experiment=null", "paper"], id="experiment null"),
     pytest.param(["hydra/launcher=3"], ["hydra/launcher=3", "give the name"], id="launcher a number"),
+    pytest.param(["seed=0,1"], ["seed=0,1: several values", "seed=[0,1]", "-m makes"], id="several values"),
+    pytest.param(["seed=0,1", "seed=2"], ["seed=0,1 and seed=2", "once"], id="swept and given"),
     pytest.param(["--trials=3"], ["--trials=3", "KEY=VALUE"], id="dashes"),
 ]
 
@@ -72,6 +75,7 @@ OF_SWEEPS = (
     "no world files",
     "no value",
     "no key",
+    "swept and given",
 )
 
 

@@ -35,6 +35,19 @@ def test_a_command_gets_its_arguments(capsys: pytest.CaptureFixture[str]) -> Non
     assert "usage: python -m dcg_torch.evaluate" in out
 
 
+@pytest.mark.parametrize("name", ["evaluate", "talk"])
+def test_help_comes_without_torch(name: str) -> None:
+    """And without the packages of the extra that the page needs."""
+    program = (
+        "import sys; sys.modules.update(torch=None, nicegui=None); from dcg_torch.cli.commands import start; "
+        f"sys.exit(start('{name}', ['dcg-torch {name}', '--help']))"
+    )
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert f"usage: python -m dcg_torch.{name}" in done.stdout
+    assert "model" in done.stdout
+
+
 def test_help_on_a_command_is_its_help(capsys: pytest.CaptureFixture[str]) -> None:
     status, out, _ = typed(capsys, main, "dcg-torch", "help", "convert")
     assert status == 0

@@ -293,3 +293,14 @@ def test_questions_know_what_is_written_on_things(text: str, id_: str | None, sa
     assert isinstance(done[-1], Done)
     assert done[-1].object == id_
     assert says in " ".join(spoken(done)).lower()
+
+
+def test_all_words_are_forgotten_but_those_known_from_the_start(laboratory: Session) -> None:
+    assert "no word yet" in spoken(laboratory.say("forget everything"))[0]
+    laboratory.say("go to the cone")
+    laboratory.say("the blue cube is called a wug")
+    assert {"cone", "wug"} <= {e.word for e in laboratory.model.lexicon()}
+    said = spoken(laboratory.say("forget all the words you have learned"))
+    assert said[-1] == "I have forgotten them."
+    assert {e.word for e in laboratory.model.lexicon()} == {"cube", "sphere", "cylinder"}
+    assert "no other word" in spoken(laboratory.say("which words do you know?"))[0]

@@ -137,6 +137,29 @@ def test_one_decision_is_explained_and_told_from_the_second_best(learned: tuple[
 
 
 @pytest.mark.slow
+def test_a_table_has_each_file_and_each_baseline(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Two cubes that differ in colour: who picks by colour words is right, and so is the model."""
+    things = [{"id": c, "type": "cube", "color": c, "position": [2, y, 0]} for c, y in (("red", -1), ("blue", 1))]
+    rows = [{"id": c, "text": f"go to the {c} cube", "objects": things, "target": [c]} for c in ("red", "blue")]
+    rows.append({**rows[0], "id": "left", "text": "go to the cube on the left", "target": ["red"]})
+    paths = [write(tmp_path / "one.jsonl", rows[:1]), write(tmp_path / "three.jsonl", rows)]
+    arguments = (f"test=[{paths[0]},{paths[1]}]", "baseline=[overlap]", f"hydra.run.dir={tmp_path / 'run'}")
+    status, out, err = run(capsys, *arguments)
+    assert status == 0, err
+    cells = [
+        [cell.strip() for cell in line.strip("│┃").split("┃" if "┃" in line else "│")] for line in out.splitlines()
+    ]
+    by_name = {row[0]: row for row in cells if len(row) == 6}
+    assert by_name["file"] == ["file", "commands", "right", "95 % interval", "calibration error", "overlap"]
+    assert by_name["one"][1:3] == ["1", "100.0 %"]
+    assert by_name["one"][5] == "100.0 %"
+    assert by_name["all"][1] == "4"
+    assert by_name["three"][5] in ("66.7 %", "100.0 %")  # it draws one of the two on the left
+    figures = json.loads(out.splitlines()[-1])
+    assert set(figures["by_file"]) == {"one", "three"}
+    assert set(figures["baselines"]["overlap"]["by_file"]) == {"one", "three"}
+
+
 def test_the_model_of_a_run_can_be_used_elsewhere(learned: tuple[Path, str]) -> None:
     model = load(learned[0] / "model")
     assert isinstance(model.learner, WordPosterior)

@@ -15,7 +15,7 @@ from hostile import EPISODE, SCALARS, TRAINING, WORLD, json_lines, yaml_files
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.evaluation.episodes import read_episodes, unused_keys, unused_note
+from dcg_torch.evaluation.episodes import read_episodes, turned_note, unused_keys, unused_note
 from dcg_torch.lessons import read_training
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import _QuickLoader
@@ -105,6 +105,10 @@ def test_what_is_wrong_in_a_world_file_is_said(content: bytes, says: str) -> Non
         ),
         pytest.param(changed(EPISODE)[:-1] + b', "id": "z"}', "the key 'id' is there twice", id="key twice"),
         pytest.param(changed(EPISODE, robot={"x": 0, "y": 0, "yaww": 1}), "did you mean yaw?", id="yaw"),
+        pytest.param(
+            thing(EPISODE, label="x").replace(b'"type"', b'"sort"'), "objects.0.type: is missing; there are ", id="sort"
+        ),
+        pytest.param(changed(EPISODE).replace(b'"text"', b'"said"'), "text: is missing; there are id, said", id="said"),
         pytest.param(thing(EPISODE, type=""), "objects.0.type", id="empty type"),
         pytest.param(thing(EPISODE, type=" "), "objects.0.type", id="blank type"),
         pytest.param(thing(EPISODE, rgb=[1, 2]), "objects.0.rgb", id="two shades"),
@@ -148,6 +152,17 @@ def test_keys_that_are_not_used_are_said_in_one_line(tmp_path: Path) -> None:
     assert "robot.heading (1)" in (unused_note(read_episodes(path)) or "")
     path.write_bytes(thing(EPISODE, held=True, material="wood"))
     assert unused_note(read_episodes(path)) is None
+
+
+def test_degrees_are_noticed(tmp_path: Path) -> None:
+    """What is more than a turn cannot be meant in radians; three quarters of a turn, 4.7, can."""
+    path = tmp_path / "e.jsonl"
+    path.write_bytes(changed(EPISODE, id="7", robot={"x": 0, "y": 0, "yaw": -90}, speaker={"x": 0, "y": 0, "yaw": 180}))
+    assert turned_note(read_episodes(path)) == (
+        "a yaw of more than a turn (how often: 2; -90 in 7): angles are radians"
+    )
+    path.write_bytes(changed(EPISODE, robot={"x": 0, "y": 0, "yaw": 4.7}))
+    assert turned_note(read_episodes(path)) is None
 
 
 def test_an_object_may_be_called_what_the_robot_calls_its_guesses(tmp_path: Path) -> None:

@@ -6,15 +6,18 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 import torch
 
 import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose, WorldModel
+from dcg_torch.agent.command import carry_out
 from dcg_torch.fitting.threads import one_thread
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model.checkpoint import CheckpointError
+from dcg_torch.types import DriveResult
 
 ROOT = Path(__file__).parent.parent
 THINGS = (
@@ -295,3 +298,49 @@ class TestWrongArguments:
     def test_a_model_is_not_saved_into_nowhere(self, model: GroundingModel) -> None:
         with pytest.raises(CheckpointError, match="give its name"):
             model.save("")
+
+
+def test_attributes_may_be_a_dict_for_a_robot_of_one_s_own(model: GroundingModel) -> None:
+    """What is told apart by them is the same whether a world or a robot has them."""
+    women = [
+        Percept(
+            "w1", "person", None, (2.0, 0.5, 0.0), attributes={"gender": "female", "glasses": True, "name": "Anna"}
+        ),
+        Percept(
+            "w2", "person", None, (2.0, -0.5, 0.0), attributes={"gender": "female", "glasses": False, "name": "Eva"}
+        ),
+    ]
+
+    class Standing:
+        pose = Pose(0.0, 0.0, 0.0)
+
+        def perceive(self) -> list[Percept]:
+            return women
+
+        def drive_to(self, target: str, percepts: Any) -> DriveResult:
+            return DriveResult.ARRIVED
+
+    world = model.world_model(women, robot=Pose(0.0, 0.0, 0.0))
+    for text, meant in (("go to the woman without glasses", "w2"), ("go to Eva", "w2"), ("go to Anna", "w1")):
+        assert [o.id for o in model.ground(text, world).objects] == [meant]
+        outcome = carry_out(text, model, Standing())  # type: ignore[arg-type]
+        assert outcome.solution is not None
+        assert [o.id for o in outcome.solution.objects] == [meant]
+
+
+def test_a_look_that_makes_no_sense_is_refused_by_name(model: GroundingModel) -> None:
+    class Doubled:
+        pose = Pose(0.0, 0.0, 0.0)
+
+        def perceive(self) -> list[Percept]:
+            return [THINGS[0], THINGS[0]]
+
+    with pytest.raises(ValueError, match="'m1': two objects have this id"):
+        carry_out("go to the mug", model, Doubled())  # type: ignore[arg-type]
+
+
+def test_an_answer_is_shown_in_one_line(model: GroundingModel, world: WorldModel) -> None:
+    assert re.fullmatch(
+        r"Solution\(objects=\['c1'\], probability=(0\.\d{3}|1\.000)\)", repr(model.ground("the cube", world))
+    )
+    assert repr(model.ground("", world)) == "Solution(problem='the command is empty')"

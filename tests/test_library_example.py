@@ -19,11 +19,12 @@ def test_the_example_teaches_grounds_learns_and_saves(tmp_path: Path) -> None:
         [sys.executable, "-W", "error", str(EXAMPLE)], cwd=tmp_path, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
-    told, grounded, learned, *reasons, problem = done.stdout.splitlines()
+    told, grounded, *reasons, learned, problem = done.stdout.splitlines()
     assert "word='lamp', type='desk lamp', object='l1'" in told
     assert grounded.startswith("['m1']")  # the one to the left, though both are blue mugs
     assert "word='mug', type='mug'" in learned
     assert len(reasons) == 5
+    assert not any("noun known: yes" in reason for reason in reasons)  # nobody had said "mug" when it was grounded
     assert problem not in ("", "None")
     # what was saved knows both words
     model = dcg_torch.load(tmp_path / "my_model")

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+import torch
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -93,6 +94,36 @@ def test_lists_arrays_and_sets_come_into_one_form() -> None:
     (found,) = checked([replace(MUG, **given_)])
     assert found == replace(MUG, size=(0.1, 0.1, 0.2), attributes=frozenset({"held"}))
     hash(found)
+
+
+def test_a_dict_of_attributes_is_what_an_episode_says_of_its_keys() -> None:
+    given_: Any = {
+        "held": True,
+        "glasses": False,
+        "material": "wood",
+        "row": 1,
+        "number": 7,
+        "price": 3.5,
+        "owner": None,
+    }
+    (found,) = checked([replace(MUG, attributes=given_)])
+    assert found.attributes == {"held", "glasses: no", "material: wood", "number: 7"}  # a row and a price are no facts
+    (plain,) = checked([replace(MUG, attributes=["held", "material: wood"])])
+    assert plain.attributes == {"held", "material: wood"}
+
+
+@pytest.mark.parametrize("number", [np.float32, np.int64, torch.tensor])
+def test_numbers_of_arrays_become_plain_ones(number: Any) -> None:
+    position: Any = (number(1), number(2), number(0))
+    (found,) = checked([replace(MUG, position=position)])
+    assert found.position == (1.0, 2.0, 0.0)
+    assert {type(v) for v in found.position} == {float}
+
+
+@pytest.mark.parametrize("no_percept", [{"id": "m1", "type": "mug"}, "mug", None])
+def test_what_is_no_percept_is_told_what_one_is(no_percept: Any) -> None:
+    with pytest.raises(ValueError, match=r"is no percept; make one: Percept\(id, type, color, position\)"):
+        world_model([no_percept], ())
 
 
 @given(st.tuples(*[st.floats(-1e6, 1e6)] * 3), st.none() | st.tuples(*[st.floats(0.0, 1e3)] * 3))

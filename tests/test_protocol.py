@@ -155,8 +155,10 @@ def test_no_group_is_in_two_folds() -> None:
     groups = [{e.group for e in part} for part in parts]
     assert sum(map(len, parts)) == 30
     assert sum(map(len, groups)) == len(set().union(*groups))
-    with pytest.raises(EpisodeError, match="ask for fewer"):
+    with pytest.raises(EpisodeError, match="are of 7 groups; ask for fewer"):
         split_folds(episodes, 8, np.random.default_rng(0))
+    with pytest.raises(EpisodeError, match="are of 1 group; ask for fewer"):
+        split_folds(episodes[:1], 2, np.random.default_rng(0))
 
 
 def test_a_group_is_in_the_same_half_alone_or_with_others() -> None:

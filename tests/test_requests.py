@@ -10,7 +10,15 @@ from dcg_torch.dialogue.acts import Forget, Lesson, Refused, Stop, is_stop, read
 from dcg_torch.language import Parse
 from dcg_torch.language.lexicon import REFUSALS
 from dcg_torch.language.refusals import MOTION, NO_THING
-from dcg_torch.speech_acts.requests import Answer, Motion, Question, read_forget, read_motion, read_question
+from dcg_torch.speech_acts.requests import (
+    Answer,
+    Motion,
+    Question,
+    forgets_all,
+    read_forget,
+    read_motion,
+    read_question,
+)
 from dcg_torch.storage.resources import resource
 from dcg_torch.world.files import load_worlds
 
@@ -33,6 +41,9 @@ RIGHT = math.pi / 2
         ("could you move half a metre to the left?", "drive", RIGHT, 0.5),
         ("drive 1.5m", "drive", 0, 1.5),
         ("reverse one meter", "drive", math.pi, 1),
+        ("drive 10 km forward", "drive", 0, 10_000),
+        ("go 20 inches back", "drive", math.pi, 0.508),
+        ("move 10 yards ahead", "drive", 0, 9.144),
         ("drive -3 metres", "drive", math.pi, 3),
         ("drive -3 metres backwards", "drive", 0, 3),
         ("turn -90 degrees", "turn", -RIGHT, 0),
@@ -51,7 +62,18 @@ def test_motions_that_name_no_thing(text: str, kind: str, angle: float, metres: 
 
 @pytest.mark.parametrize(
     "text",
-    ["go", "turn", "go to the cube", "turn to the cube", "come here", "turn 2 m", "turn the light on", "stop", ""],
+    [
+        "go",
+        "turn",
+        "go to the cube",
+        "turn to the cube",
+        "come here",
+        "turn 2 m",
+        "turn the light on",
+        "stop",
+        "go to the back yard",
+        "",
+    ],
 )
 def test_what_is_no_bare_motion(text: str) -> None:
     assert read_motion(text) is None
@@ -94,6 +116,12 @@ def test_a_word_to_forget_is_no_command_taken_back() -> None:
         == "wug"
     )
     assert read_forget("forget it") is None
+    assert forgets_all("Forget everything.")
+    assert forgets_all("please forget all the words that you have learned")
+    assert forgets_all("forget all words")
+    assert not forgets_all("forget it")
+    assert not forgets_all("forget everything behind the cube")
+    assert read_act("forget everything", (), asked=True) == Forget(None)
     assert read_forget("drop the cube") is None
 
 

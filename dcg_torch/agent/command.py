@@ -17,6 +17,7 @@ from dcg_torch.grounding.solution import Solution
 from dcg_torch.interpretation.marks import heard
 from dcg_torch.interpretation.spoken import CommandParser, ParsedCommand, ReadCommand
 from dcg_torch.learning.learner import Experience
+from dcg_torch.scene.percepts import checked
 from dcg_torch.types import DriveResult, Percept, Pose, WorldModel
 
 
@@ -131,7 +132,7 @@ def carry_out(
     clock = stopwatch or Stopwatch()
     start = robot.pose
     with clock("perceive"):
-        percepts = {p.id: p for p in robot.perceive()}
+        percepts = {p.id: p for p in checked(robot.perceive())}
     in_view = tuple(percepts)
     with clock("parse"):
         reading = heard(parse or _default_parser(), text, model.symbols.keys(), percepts.values())
@@ -176,7 +177,7 @@ class CommandUnderWay:
             if not moved:
                 return solution
             with self.clock("perceive"):
-                for percept in self.robot.perceive():
+                for percept in checked(self.robot.perceive()):
                     self.percepts.setdefault(percept.id, percept)
 
     def ask(

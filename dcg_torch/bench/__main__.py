@@ -27,7 +27,7 @@ from rich.table import Table as Grid
 from dcg_torch.bench.fits import bench_fits
 from dcg_torch.bench.grounding import bench_grounding
 from dcg_torch.bench.learning import bench_learn, bench_life, bench_teaching
-from dcg_torch.bench.result import Result, milliseconds, repeated, result
+from dcg_torch.bench.result import Result, milliseconds, repeated, result, shown_number
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import make_console
 from dcg_torch.experiment.plan import trial_commands
@@ -218,7 +218,7 @@ def _grid(results: Iterable[Result]) -> Grid:
         grid.add_column(heading, justify="right")
     for r in results:
         goal = "" if r.goal is None else f"<= {r.goal:g}, {'met' if r.median <= r.goal else 'MISSED'}"
-        grid.add_row(r.name, f"{r.median:.3g}", f"{r.low:.3g}", f"{r.high:.3g}", r.unit, str(r.repeats), goal)
+        grid.add_row(r.name, *map(shown_number, (r.median, r.low, r.high)), r.unit, str(r.repeats), goal)
     return grid
 
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from dcg_torch.bench.result import Result
+from dcg_torch.bench.result import Result, shown_number
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.storage.arguments import Arguments
 from dcg_torch.storage.errors import UserError
@@ -42,7 +42,7 @@ def page(found: dict[str, Any]) -> tuple[str, dict[str, dict[str, list[Result]]]
         for r in own:
             if r.unit != "ratio":
                 goal = "" if r.goal is None else f"{r.goal:g}"
-                values = " | ".join(f"{v:,.0f}" if v >= 1_000 else f"{v:.3g}" for v in (r.median, r.low, r.high))
+                values = " | ".join(map(shown_number, (r.median, r.low, r.high)))
                 lines.append(f"| {r.name} | {values} | {r.unit} | {r.repeats} | {goal} |")
     return "\n".join(lines) + "\n", curves
 

@@ -64,3 +64,8 @@ def repeated(name: str, work: Callable[[], object], repeats: int, goal: float | 
     """Milliseconds of the processor in several calls, after one to warm up."""
     work()
     return result(name, [cpu_milliseconds(work) for _ in range(repeats)], "ms CPU", goal)
+
+
+def shown_number(value: float) -> str:
+    """As people read it: "6,010", "0.856"."""
+    return f"{value:,.0f}" if abs(value) >= 1_000 else f"{value:.3g}"

@@ -14,18 +14,22 @@ from pathlib import Path
 class Command:
     """One command: the module whose `main()` it is, what it does, and the extra that it needs, if any.
 
-    `needs` are the packages of that extra which the module imports.
+    `needs` are the packages of that extra which the module imports. `conf` is the folder of its configuration, where
+    that says all that there is to say of `--help`, and the module takes long to load.
     """
 
     module: str
     does: str
     extra: str | None = None
     needs: tuple[str, ...] = ()
+    conf: str | None = None
 
 
 COMMANDS: Mapping[str, Command] = {
     "run": Command("cli.run", "one experiment, or a sweep of them with -m (the default)"),
-    "evaluate": Command("cli.evaluate", "ground the commands of episode files, perhaps after training on others"),
+    "evaluate": Command(
+        "cli.evaluate", "ground the commands of episode files, perhaps after training on others", conf="conf"
+    ),
     "report": Command("report.__main__", "tables of runs and sweeps"),
     "collect": Command(
         "apps.collect.program",
@@ -35,7 +39,11 @@ COMMANDS: Mapping[str, Command] = {
     ),
     "convert": Command("cli.convert", "scenes and commands of others as episode files"),
     "talk": Command(
-        "apps.talk.program", "a page in the browser to talk to the robot, watch it and teach it", "talk", ("nicegui",)
+        "apps.talk.program",
+        "a page in the browser to talk to the robot, watch it and teach it",
+        "talk",
+        ("nicegui",),
+        "dcg_torch/apps/talk/conf",
     ),
     "bench": Command("bench.__main__", "time the parts", "bench", ("sklearn",)),
     "ros": Command(
@@ -112,6 +120,10 @@ def _main_of(name: str, command: Command) -> int:
             from dcg_torch.experiment.pool import prepare  # here: nothing else of it is asked for
 
             prepare()
+        if command.conf is not None and not {"-h", "--help"}.isdisjoint(sys.argv[1:]):
+            from dcg_torch.cli.quick_help import show_help  # here: Hydra takes a moment as well
+
+            return show_help(name, command.conf)
         module = importlib.import_module(f"dcg_torch.{command.module}")
         status: int = module.main()
     except KeyboardInterrupt:  # before or after the program can say it itself

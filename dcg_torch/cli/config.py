@@ -95,18 +95,23 @@ def _checked(config: DictConfig, schema: type[T], check_them: Callable[[T], None
 
 
 def refuse_nothing(overrides: Sequence[str]) -> None:
-    """See that an override that chooses one of a group names one.
+    """See that an override that chooses one of a group names one, and that a sweep has each setting once.
 
-    To null, truth values and numbers Hydra would answer with a traceback; of a list of models it would mix one.
+    To null, truth values and numbers Hydra would answer with a traceback; of a list of models it would mix one. Of a
+    setting that is given twice the last counts, but jobs that differ in the first alone would share a folder.
 
     Raises:
         SettingsError: one does not.
         OverrideParseException: one is no override.
     """
+    before: dict[str, str] = {}
     for override in overrides:
         group, equals, _ = override.lstrip("+~").partition("=")
         if not group:
             raise SettingsError(f"{plain(override, 80)}: not an override; write KEY=VALUE")
+        first = before.setdefault(group, override)
+        if first is not override and any(map(_is_sweep, (first, override))):
+            raise SettingsError(f"{plain(first, 80)} and {plain(override, 80)}: a sweep has each setting once")
         if _ENDLESS.search(override):
             raise SettingsError(f"{plain(group)}: a number of hundreds of digits makes no sense; give a shorter one")
         if override.startswith("~") and group in _GROUPS:
@@ -118,6 +123,10 @@ def refuse_nothing(overrides: Sequence[str]) -> None:
             names = one if isinstance(one, list) and group not in _GROUPS else [one]
             if any(name is None or isinstance(name, (bool, int, float, dict, list)) for name in names):
                 _refuse_choice(group, "null" if one is None else one)
+
+
+def _is_sweep(override: str) -> bool:
+    return "=" in override and bool(OverridesParser.create().parse_override(override).is_sweep_override())
 
 
 _GROUPS = ("model", "simulator")
@@ -183,6 +192,10 @@ def explain(error: Exception, program: str = "run") -> str:
     if isinstance(error, OverrideParseException):
         given = plain(str(error.override), 80)
         return f"{given}: not an override; write KEY=VALUE, in quotes if it holds brackets or spaces"
+    if first.startswith("Ambiguous value for argument"):
+        given = plain(first.partition("'")[2].rstrip("'"), 80)
+        of, _, values = given.partition("=")
+        return f"{given}: several values; a list stands in brackets, {of}=[{values}], and -m makes a run of each"
     key = getattr(cause, "full_key", None) or getattr(error, "full_key", None)
     if first.startswith(("Could not override", "Could not append")):
         return _unknown_key(str(key or first.split("'")[1]), SCHEMAS[program])

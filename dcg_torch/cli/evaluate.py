@@ -25,7 +25,7 @@ from dcg_torch.evaluation.baselines import make_baseline, run_baseline
 from dcg_torch.evaluation.baselines.base import Baseline
 from dcg_torch.evaluation.baselines.run import Outcome
 from dcg_torch.evaluation.certify import certify
-from dcg_torch.evaluation.episodes import Episode, unused_note
+from dcg_torch.evaluation.episodes import Episode, turned_note, unused_note
 from dcg_torch.evaluation.protocol import CAUSES, Answer, Training, answers, train
 from dcg_torch.evaluation.splits import Split
 from dcg_torch.evaluation.summary import by_file, summarise
@@ -61,8 +61,9 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     splits = read_splits(settings)
     _check(settings, splits)
     # With folds, too, the first split has all episodes.
-    unused = unused_note(e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part)
-    for note in filter(None, (unused, lessons_note(settings.model, settings.training))):
+    all_ = [e for of in (splits[0].train, splits[0].test) for part in of.values() for e in part]
+    notes = unused_note(all_), turned_note(all_), lessons_note(settings.model, settings.training)
+    for note in filter(None, notes):
         console.print(f"note: {note}", markup=False)
     for name in (PREDICTIONS, SUMMARY):
         (directory / name).unlink(missing_ok=True)
@@ -75,7 +76,7 @@ def evaluate(settings: EvaluateSettings, directory: Path, console: Console) -> d
     if settings.certify:
         further["certify"] = _certify(model, splits, console)
     figures = summarise(found, train_seconds, by_color=settings.known_colors is not None)
-    _print_files(figures["by_file"], console)
+    _print_files(figures, further.get("baselines", {}), console)
     _print_errors(found, console)
     if settings.learn:
         further["learned"] = learned
@@ -121,7 +122,6 @@ def _baselines(settings: EvaluateSettings, splits: Sequence[Split], console: Con
             if settings.certify and split is splits[-1]:
                 certified = {"certify": _certified(split, _objects_of(baseline))}
         found[name] = {**of_all(outcomes), "by_file": by_file(outcomes), **certified}
-        console.print(f"{name}: {found[name]['accuracy']:.3f} right", markup=False)
     return found
 
 
@@ -194,22 +194,32 @@ def _check(settings: EvaluateSettings, splits: Sequence[Split]) -> None:
             raise SettingsError(f"{name}={wanted}: {what}; choose from {', '.join(sorted(there)) or 'none'}")
 
 
-def _print_files(by_file: dict[str, dict[str, Any]], console: Console) -> None:
-    if len(by_file) < 2:
-        return
-    table = Table(title="By file")
-    for column in ("file", "commands", "right", "95 % interval", "calibration error"):
+def _print_files(figures: dict[str, Any], baselines: dict[str, Any], console: Console) -> None:
+    """How many are right in each file and in all, with a column for each baseline."""
+    table = Table(title="Right")
+    columns = ("file", "commands", "right", "95 % interval", "calibration error", *baselines)
+    for column in columns:
         table.add_column(column, justify="left" if column == "file" else "right")
-    for name, of in by_file.items():
-        low, high = of["ci95"]
+    rows = dict(figures["by_file"])
+    ways = [dict(of["by_file"]) for of in baselines.values()]
+    if len(rows) > 1:
+        for files, all_ in zip((rows, *ways), (figures, *baselines.values()), strict=True):
+            files["all"] = all_
+    for name, of in rows.items():
+        low, high = (100 * share for share in of["ci95"])
         error = of["calibration_error"]
         shown = "-" if error is None else f"{error:.3f}"
-        table.add_row(escape(name), str(of["n"]), f"{of['accuracy']:.3f}", f"{low:.3f} to {high:.3f}", shown)
+        shares = [f"{100 * files[name]['accuracy']:.1f} %" for files in ways]
+        table.add_row(
+            escape(name), str(of["n"]), f"{100 * of['accuracy']:.1f} %", f"{low:.1f} to {high:.1f}", shown, *shares
+        )
     console.print(table)
 
 
 def _print_errors(found: Sequence[Answer], console: Console) -> None:
     counts = Counter(a.cause for a in found if a.cause is not None)
+    if not counts:
+        return
     table = Table(title=f"Errors by cause, {sum(counts.values())} of {len(found)} commands")
     for column in ("cause", "commands", "share"):
         table.add_column(column, justify="left" if column == "cause" else "right")

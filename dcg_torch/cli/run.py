@@ -54,8 +54,10 @@ def _application(config: DictConfig) -> float:
 def _run(settings: Settings, directory: Path, began: float) -> float:
     """Run an experiment in its folder, and show what came of it; its metric."""
     console = make_console()
+    trials = f"{settings.trials} trial{'s' * (settings.trials > 1)}"
+    commands = f"{settings.iterations} command{'s' * (settings.iterations > 1)}"
     console.print(
-        f"[bold]{escape(settings.name)}[/bold]: {settings.trials} trials of {settings.iterations} commands, "
+        f"[bold]{escape(settings.name)}[/bold]: {trials} of {commands}, "
         f"model {escape(settings.model.name)}, in {escape(str(directory))}"
     )
     from dcg_torch.experiment.outcome import begin_drawing, save_outcome, value_of

@@ -46,7 +46,7 @@ class Folders(Callback):
         given = [*settings["overrides"]["task"], *(f"{key}={value}" for key, value in params.items())]
         overrides = OverridesParser.create().parse_overrides(given)
         shared = {o.get_key_element() for o in overrides if not o.is_sweep_override()}
-        if len(shared) < len(overrides):
+        if any(o.is_sweep_override() for o in overrides):
             with read_write(config), open_dict(config):
                 excluded = f"hydra.job.config.override_dirname.exclude_keys=[{','.join(sorted(shared))}]"
                 config.hydra.overrides.hydra.append(excluded)

@@ -19,6 +19,7 @@ from dcg_torch.speech_acts.requests import (
     Answer,
     Motion,
     Question,
+    forgets_all,
     read_answer,
     read_forget,
     read_motion,
@@ -42,9 +43,9 @@ class Lesson:
 
 @dataclass(frozen=True, slots=True)
 class Forget:
-    """A word is to be forgotten."""
+    """A word is to be forgotten; None: all that were learned."""
 
-    word: str
+    word: str | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,6 +85,8 @@ def read_act(text: str, vocabulary: Collection[str], *, asked: bool, things: Ite
     if len(text) > MAX_CHARACTERS:
         return Refused(f"I can't do that: {parse.problem}.")
     teaching = read_teaching(text)
+    if forgets_all(text):
+        return Forget(None)
     named = teaching is not None and (teaching.subject is not None or teaching.same_as is not None)
     answer = None if named or read_forget(text) else _answer(text, parse)
     if answer is not None and (asked or answer.yes is not None):

@@ -84,8 +84,10 @@ def _learn(s: Situation, text: str, id_: str | None) -> Done:
     return Done(s.robot.pose, "done", told.object)
 
 
-def forget(s: Situation, word: str) -> Done:
-    """Forget a word."""
+def forget(s: Situation, word: str | None) -> Done:
+    """Forget a word, or all that were learned."""
+    if word is None:
+        return _forget_all(s)
     if word not in {entry.word for entry in s.model.lexicon()}:
         s.emit(Understood("forget", f'I have never heard the word "{word}".'))
         return Done(s.robot.pose, "done")
@@ -94,4 +96,19 @@ def forget(s: Situation, word: str) -> Done:
     s.taught.pop(word, None)
     s.emit(Learned(word, None, "forgotten"))
     s.say("I have forgotten it.")
+    return Done(s.robot.pose, "done")
+
+
+def _forget_all(s: Situation) -> Done:
+    """What was known from the start stays."""
+    words = [e.word for e in s.model.lexicon() if not e.settled or e.word in s.taught]
+    if not words:
+        s.emit(Understood("forget", "I have learned no word yet."))
+        return Done(s.robot.pose, "done")
+    s.emit(Understood("forget", "You want me to forget all words that I have learned."))
+    for word in words:
+        s.model.forget(word)
+        s.taught.pop(word, None)
+        s.emit(Learned(word, None, "forgotten"))
+    s.say("I have forgotten them.")
     return Done(s.robot.pose, "done")

@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
-from dcg_torch.names.attributes import counts
+from dcg_torch.names.facts import facts, is_used
 from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
@@ -41,19 +41,6 @@ class Place(_Record):
     yaw: _Coordinate = 0.0
 
 
-_NUMBERED = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
-"""Keys whose numbers are names: "block 7"."""
-
-
-def _is_truth(key: str, value: object) -> bool:
-    whole = isinstance(value, int) and value in (0, 1) and key not in _NUMBERED
-    return isinstance(value, bool) or (whole and not counts(key))
-
-
-def _is_number(key: str, value: object) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and key in _NUMBERED
-
-
 class EpisodeObject(_Record):
     """One object: metres; `size` are its extents, one number for all three, or a word, if known.
 
@@ -77,16 +64,8 @@ class EpisodeObject(_Record):
 
     @property
     def attributes(self) -> frozenset[str]:
-        """Its further keys: "held" where true, "beard: no" where false, "material: wood" where a string.
-
-        Of numbers 1 and 0 are such ("hasBeard"), but for keys that count ("row"); all else is not used.
-        """
-        further = {**(self.model_extra or {}), "size": self.size}
-        named = {
-            f"{key}: {value}" for key, value in further.items() if isinstance(value, str) or _is_number(key, value)
-        }
-        truths = {key: bool(value) for key, value in further.items() if _is_truth(key, value)}
-        return frozenset(named | {key if true else f"{key}: no" for key, true in truths.items()})
+        """What its further keys, and a size that is a word, come to: "held", "beard: no", "material: wood"."""
+        return facts({**(self.model_extra or {}), "size": self.size})
 
 
 class Episode(_Record):
@@ -220,7 +199,10 @@ def _problem(found: Any) -> str:
     # The innermost key that an episode has; what follows are pydantic's names for the choices it tried.
     keys = [k for k, part in enumerate(found["loc"]) if part in _MEND]
     where = ".".join(map(str, found["loc"][: keys[-1] + 1])) if keys else "the line"
-    said = "not understood" if where.endswith(("size", "position", "rgb")) else plain(found["msg"], 120)
+    if found["type"] == "missing" and isinstance(found["input"], dict):
+        said = f"is missing; there are {', '.join(plain(key, 20) for key in list(found['input'])[:_MOST_SHOWN])}"
+    else:
+        said = "not understood" if where.endswith(("size", "position", "rgb")) else plain(found["msg"], 120)
     return f"{where}: {said}; {_MEND[where.rpartition('.')[2]]}"
 
 
@@ -254,13 +236,9 @@ def unused_keys(episodes: Iterable[Episode]) -> dict[str, int]:
             found.update(f"{name}.{key}" for key in (place and place.model_extra) or {})
         for thing in episode.objects:
             further = (thing.model_extra or {}).items()
-            used = ((key, _is_used(key, value)) for key, value in further)
+            used = ((key, is_used(key, value)) for key, value in further)
             found.update(f"objects.{key}" for key, heard in used if not heard)
     return dict(found)
-
-
-def _is_used(key: str, value: object) -> bool:
-    return isinstance(value, (str, type(None))) or _is_truth(key, value) or _is_number(key, value)
 
 
 def unused_note(episodes: Iterable[Episode]) -> str | None:
@@ -272,6 +250,19 @@ def unused_note(episodes: Iterable[Episode]) -> str | None:
     more = f" and {len(found) - _MOST_SHOWN} more" if len(found) > _MOST_SHOWN else ""
     return f"keys that are not used (how often): {listed}{more}; see whether one is misspelt"
 
+
+def turned_note(episodes: Iterable[Episode]) -> str | None:
+    """One line on headings of more than a turn, which are degrees; None: there are none."""
+    found = [
+        (place.yaw, e.id) for e in episodes for place in (e.robot, e.speaker) if place and abs(place.yaw) > _FULL_TURN
+    ]
+    if not found:
+        return None
+    yaw, name = found[0]
+    return f"a yaw of more than a turn (how often: {len(found)}; {yaw:g} in {plain(name, 40)}): angles are radians"
+
+
+_FULL_TURN = 2.1 * np.pi
 
 _ONE_SCALE = 2.0
 """Scenes of one scale: in none are neighbours so many times closer or farther than in the middle one."""

@@ -45,7 +45,8 @@ def split_folds(episodes: Sequence[Episode], folds: int, rng: np.random.Generato
     for episode in episodes:
         groups.setdefault(_group(episode), []).append(episode)
     if len(groups) < folds:
-        raise EpisodeError(f"folds={folds}, but the episodes are of {len(groups)} groups; ask for fewer")
+        groups_there = f"{len(groups)} group{'s' * (len(groups) > 1)}"
+        raise EpisodeError(f"folds={folds}, but the episodes are of {groups_there}; ask for fewer")
     names = sorted(groups)
     order = rng.permutation(len(names))
     return [[e for k in order[fold::folds] for e in groups[names[k]]] for fold in range(folds)]

@@ -62,6 +62,12 @@ class Solution:
     problem: str | None = None
     speakers_frame: float | None = None
 
+    def __repr__(self) -> str:
+        """What is meant, in one line: the world and all that was weighed would fill pages."""
+        if self.problem is not None:
+            return f"Solution(problem={self.problem!r})"
+        return f"Solution(objects={[o.id for o in self.objects]}, probability={self.probability:.3f})"
+
     @property
     def object(self) -> Object | None:
         """gamma*: the object the command is about."""

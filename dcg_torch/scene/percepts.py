@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+from dcg_torch.names.facts import facts
 from dcg_torch.types import Percept, Pose
 
 
 def checked(percepts: Iterable[Percept]) -> Iterator[Percept]:
-    """The percepts; lists of numbers become tuples, attributes a frozen set.
+    """The percepts; lists and arrays of numbers become tuples of plain ones, attributes a frozen set.
 
     Raises:
         ValueError: one of them makes no sense; the message names it in one line.
     """
     ids: set[str] = set()
     for percept in percepts:
+        if not isinstance(percept, Percept):
+            raise ValueError(f"{percept!r:.80} is no percept; make one: Percept(id, type, color, position)")
         id_ = percept.id
         if not isinstance(id_, str) or not id_:
             raise ValueError(f"percept {id_!r:.80}: an id is a text, and not an empty one")
@@ -62,22 +65,25 @@ def _checked(percept: Percept) -> Percept:
 
 
 def _attributes(percept: Percept) -> frozenset[str]:
-    """As a frozen set of texts.
+    """As a frozen set of texts; a dict is what it says of its keys.
 
     Raises:
         ValueError: they are something else.
     """
     given: Any = percept.attributes
+    if isinstance(given, frozenset) and all(isinstance(one, str) for one in given):
+        return given
     listed: list[Any] = [None]
     with contextlib.suppress(TypeError):
         listed = [None] if isinstance(given, str) else list(given or ())
     if not all(isinstance(one, str) for one in listed):
-        raise ValueError(f"percept {percept.id!r:.80}: attributes is {given!r:.60}, not a set of texts")
-    return given if isinstance(given, frozenset) else frozenset(listed)
+        raise ValueError(f"percept {percept.id!r:.80}: attributes is {given!r:.60}, not a set of texts, nor a dict")
+    return facts(given) if isinstance(given, Mapping) else frozenset(listed)
 
 
 _FARTHEST = 1e12
 """Metres: what is farther is a mistake, and the squares of distances are to be numbers."""
+_PLAIN = frozenset({int, float})
 
 
 def _three(
@@ -96,4 +102,6 @@ def _three(
         good = False
     if not good:
         raise ValueError(f"percept {percept.id!r:.80}: {name} is {given!r:.60}, not three finite numbers{bounds}")
-    return given if isinstance(given, tuple) else (listed[0], listed[1], listed[2])
+    if isinstance(given, tuple) and _PLAIN.issuperset(map(type, given)):
+        return given
+    return float(listed[0]), float(listed[1]), float(listed[2])

@@ -29,7 +29,7 @@ def perceive_objects(
             color=p.color,
             position=p.position,
             size=p.size,
-            attributes=p.attributes,
+            attributes=frozenset(p.attributes),
             rgb=p.rgb,
         )
         for p in checked(percepts)

@@ -89,6 +89,12 @@ def read_forget(text: str) -> str | None:
     return None
 
 
+def forgets_all(text: str) -> bool:
+    """Is the robot to forget all words that it has learned?"""
+    said = _plain(text, _data()["fillers"])
+    return any(pattern.fullmatch(said) for pattern, _ in _patterns("forget_all"))
+
+
 def read_answer(text: str) -> Answer | None:
     """What a text says if it answers a question; a phrase is only a guess, for the caller to parse."""
     data = _data()["answers"]

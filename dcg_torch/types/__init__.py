@@ -8,7 +8,7 @@ Upsilon a `WorldModel` and Upsilon_KP, UP, KH, UH are told apart by `Object.know
 from __future__ import annotations
 
 import enum
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -133,7 +133,8 @@ class Percept:
     """One recognised object: what the camera and the recogniser say of it.
 
     `position` is the foot of the object, `size` its extents, both (x, y, z) in metres in the world frame.
-    `attributes` are further binary facts ("held"), `rgb` is what it looks like, each 0 to 255.
+    `attributes` are further facts, as texts ("held", "material: wood", "glasses: no") or as a dict
+    (`{"held": True, "material": "wood", "glasses": False}`). `rgb` is what it looks like, each 0 to 255.
     """
 
     id: str
@@ -141,7 +142,7 @@ class Percept:
     color: str | None
     position: tuple[float, float, float]
     size: tuple[float, float, float] | None = None
-    attributes: frozenset[str] = frozenset()
+    attributes: Collection[str] = frozenset()
     rgb: tuple[float, float, float] | None = None
 
 

@@ -113,6 +113,8 @@ def load_worlds(directory: Path) -> list[World]:
     except (OSError, RuntimeError) as error:
         said = getattr(error, "strerror", None) or "its links lead in a circle"
         raise WorldFileError(f"{directory}: cannot be read: {said}") from None
+    if paths is None and directory.is_file():
+        raise WorldFileError(f"{directory}: a file, and no directory of world files; name the folder that it is in")
     if paths is None:
         raise WorldFileError(f"{directory}: no such directory of world files")
     if not paths:

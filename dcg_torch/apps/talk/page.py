@@ -112,7 +112,7 @@ class Page:
                 with ui.element("div").classes("choices"):
                     for choice in line.choices:
                         ui.button(names.get(choice, choice), on_click=lambda choice=choice: self._click(choice)).props(
-                            "dense outline no-caps size=sm"
+                            "dense outline no-caps"
                         )
 
     def _show_names(self, world: World) -> None:
