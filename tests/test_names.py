@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -12,6 +13,7 @@ from hypothesis import strategies as st
 from name_pairs import MEANT, NOT_MEANT
 from noun_table import fit_weights, make_table
 
+from dcg_torch.grounding.features.said import fact_odds
 from dcg_torch.names import embedding
 from dcg_torch.names.evidence import FORMS, KINDS, evidence
 from dcg_torch.names.normal import DATA as DATA_FOLDER
@@ -102,6 +104,13 @@ def test_a_singular_stays(noun: str) -> None:
         ("spoon", "ladder", "name: none", "kind: apart"),
         ("honey jar", "honey", "name: class is head", "kind: strange"),
         ("honey jar", "jar", "name: class is head", "kind: strange"),
+        ("counter", "kitchen counter", "name: head", "kind: class is kind"),  # and not two names of one thing
+        ("cabinet", "filing cabinet", "name: head", "kind: class is far kind"),  # both are made
+        ("machine", "washing machine", "name: head", "kind: class is far kind"),
+        ("horse", "sea horse", "name: head", "kind: apart"),
+        ("butter", "peanut butter", "name: head", "kind: apart"),
+        ("toilet roll", "toilet", "name: class is word", "kind: apart"),  # and no slice of one
+        ("banana piece", "banana", "name: class is head", "kind: same"),
     ],
 )
 def test_facts(noun: str, name: str, form: str, kind: str | None) -> None:
@@ -146,6 +155,17 @@ def test_weights_tell_meant_from_not_meant() -> None:
 def test_an_equal_name_comes_before_every_other() -> None:
     for noun in ("bottle", "phone", "cone", "lamp", "chair", "box", "couch"):
         assert all(log_odds(noun, noun) > log_odds(noun, n) for n in {*NAMES, "cell phone"} if normalise(n) != noun)
+
+
+@pytest.mark.parametrize(
+    ("noun", "narrower"),
+    [("chair", "office chair"), ("table", "coffee table"), ("cabinet", "file cabinet"), ("counter", "kitchen counter")],
+)
+def test_what_is_called_so_with_a_word_before_it_may_be_meant_as_well(noun: str, narrower: str) -> None:
+    """Who says "chair" means a chair rather than an office chair; but where other words say which, they outweigh it."""
+    odds = fact_odds()
+    exact, head = (sum(odds[f"said {fact}"] for fact in evidence(noun, name)) for name in (noun, narrower))
+    assert math.log(2.0) < exact - head < math.log(30.0)
 
 
 def test_the_shipped_weights_are_those_of_the_lessons() -> None:

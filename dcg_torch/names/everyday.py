@@ -89,6 +89,12 @@ def is_everyday(noun: str) -> bool:
     return name_parts(noun).text in _listed()
 
 
+def share_a_name(noun: str, name: str) -> bool:
+    """Whether both are in one group of the list: "picture" may be said of everything, and of a painting by its name."""
+    groups = everyday().groups
+    return bool(groups.get(noun, frozenset()) & groups.get(name, frozenset()))
+
+
 def _members(kind: str, listed: Mapping[str, Sequence[str]]) -> frozenset[str]:
     """The names of things that people count as a kind, with those of the kinds in it."""
     members = next((of for line, of in listed.items() if kind in line.split(", ")), ())

@@ -13,7 +13,7 @@ from typing import Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.names.everyday import Name, everyday, name_parts
+from dcg_torch.names.everyday import Name, everyday, name_parts, share_a_name
 from dcg_torch.names.wordnet import nouns
 
 FORMS: Final = (
@@ -44,6 +44,8 @@ KINDS: Final = (
     "kind: strange",  # WordNet does not know one of them
 )
 _SENSES, _STEPS, _FAR = 4, 2, 4
+_TOP = 20
+"""More steps than lie above any noun."""
 _LOOSE = frozenset({"noun is far kind", "class is far kind", "sibling", "apart", "strange"})
 _OF_ONE_KIND = frozenset(KINDS[KINDS.index("kind: same") : KINDS.index("kind: head everyday")])
 _COMMON = 400
@@ -72,6 +74,8 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     if form == "name: generic":
         return (form,)
     kind = "kind: everyday" if form == "name: equal" else _kind(said, named)
+    if (form, kind) == ("name: head", "kind: everyday"):
+        kind = "kind: class is kind"  # a kitchen counter is a counter, but rather is what is called just that
     return _solid_head(said, named, kind) or form, kind
 
 
@@ -80,7 +84,8 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
     lists = everyday()
     if len(said.words) < 2 or said.head in named.words:
         return None
-    rest = said.words[len(named.words) :] if said.words[: len(named.words)] == named.words else ()
+    begins = said.words[: len(named.words)] == named.words and said.text not in lists.groups  # no toilet: a toilet roll
+    rest = said.words[len(named.words) :] if begins else ()
     if rest and (lists.portions.issuperset(rest) or _says_kind(rest, named)):
         return "name: class is head", "kind: same"  # "marker pen", "pizza slice"
     if rest and lists.packages.issuperset(rest):
@@ -133,7 +138,7 @@ def _is_for(base: str, name: str) -> bool:
     senses = table.senses(name, _MAIN) or table.senses(name_parts(name).head, _MAIN)
     kinds = {kind for sense in senses for kind in table.ancestors(sense, _STEPS)}
     words = name.split(" ")
-    same = any(_share_a_name(one, part) or one == part or one in words for one in listed for part in own)
+    same = any(share_a_name(one, part) or one == part or one in words for one in listed for part in own)
     if same or any(not kinds.isdisjoint(table.senses(one, _MAIN)) for one in listed):
         return True
     above = {kind for sense in senses for kind in table.ancestors(sense, _UP - 2)}
@@ -144,7 +149,7 @@ def _is_for(base: str, name: str) -> bool:
 def _form(said: Name, named: Name) -> str:
     if said.solid == named.solid:
         return "name: equal"
-    if said.text in everyday().generic and not _share_a_name(said.text, named.text):
+    if said.text in everyday().generic and not share_a_name(said.text, named.text):
         return "name: generic"
     longer, shorter = len(named.words) > len(said.words), len(named.words) < len(said.words)
     if longer and named.words[-len(said.words) :] == said.words:
@@ -202,16 +207,12 @@ def may_be_meant_for(noun: str, class_name: str) -> bool:
     )
 
 
-def _share_a_name(noun: str, name: str) -> bool:
-    """Whether both are in one group of the list: "picture" may be said of everything, and of a painting by its name."""
-    groups = everyday().groups
-    return bool(groups.get(noun, frozenset()) & groups.get(name, frozenset()))
-
-
 def _kind(said: Name, named: Name) -> str:
     whole = _relation(said.text, named.text)
     if whole.startswith("class is") and named.head in everyday().kinds.get(said.text, ()):
         return "kind: everyday"  # a power drill is as much a tool as a drill is
+    if whole == "apart" and said.text == named.head and _is_made(said.text, named.text):
+        return "kind: class is far kind"  # a filing cabinet is some cabinet, wherever WordNet puts it
     if whole not in _LOOSE or said.head == named.head:
         return f"kind: {whole}"
     found = {_relation(*pair) for pair in ((said.text, named.head), (said.head, named.text), (said.head, named.head))}
@@ -221,10 +222,17 @@ def _kind(said: Name, named: Name) -> str:
     return f"kind: {whole}" if whole != "strange" or found == {"strange"} else "kind: apart"
 
 
+def _is_made(*names: str) -> bool:
+    """Is each, in one of its first senses, something that people make?"""
+    table = nouns()
+    made = table.senses("artifact", 1)[0]
+    return all(any(made in table.ancestors(s, _TOP) for s in table.senses(name, _SENSES)) for name in names)
+
+
 @functools.lru_cache(maxsize=65536)
 def _relation(noun: str, name: str) -> str:
     """How two nouns of the table relate: the end of one of the `KINDS` that are not of heads."""
-    if _share_a_name(noun, name) or name in everyday().kinds.get(noun, ()):
+    if share_a_name(noun, name) or name in everyday().kinds.get(noun, ()):
         return "everyday"
     said, named = _meanings(noun), _meanings(name)
     if not said.senses or not named.senses:
@@ -243,48 +251,13 @@ def _relation(noun: str, name: str) -> str:
 
 def _is_whoever(noun: str) -> bool:
     """Is it a name of a person, whoever that is: "guy", "lady", "kid"?"""
-    return _share_a_name(noun, _PERSON)
+    return share_a_name(noun, _PERSON)
 
 
 _PERSON: Final = "person"
 
 
-@functools.lru_cache(maxsize=8192)
-def steps_apart(one: str, other: str) -> int:
-    """How many steps two nouns are apart over the nearest thing that both are kinds of; `FAR_APART` for strangers.
-
-    >>> steps_apart("desk", "table"), steps_apart("couch", "bed"), steps_apart("couch", "pillow") > 4
-    (0, 4, True)
-    """
-    if _share_a_name(name_parts(one).text, name_parts(other).text) or one == other:
-        return 0
-    table, least = nouns(), FAR_APART
-    for said in table.senses(name_parts(one).text, _MAIN) or table.senses(name_parts(one).head, _MAIN):
-        above = table.ancestors(said, _UP)
-        for named in table.senses(name_parts(other).text, _MAIN) or table.senses(name_parts(other).head, _MAIN):
-            common = (above[s] + steps for s, steps in table.ancestors(named, _UP).items() if s in above)
-            least = min(least, min(common, default=FAR_APART))
-    return least
-
-
 _MAIN, _UP, _SHORTEST = 2, 5, 3
-
-
-def is_akin(new: str | None, other: str | None, thing: str | None) -> bool:
-    """Is a noun rather said for another thing than for one?
-
-    >>> is_akin("couch", "bed", "pillow"), is_akin("cushion", "bed", "pillow")
-    (True, False)
-    """
-    if new is None or other is None:
-        return False
-    apart = FAR_APART if thing is None else steps_apart(new, thing)
-    return steps_apart(new, other) + 1 < min(apart, _AKIN)
-
-
-_AKIN = 8
-"""Steps from which nouns are hardly said for one another."""
-FAR_APART = 12
 
 
 def is_generic(noun: str) -> bool:

@@ -24,6 +24,9 @@ from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, Phrase
 _SAME_COLOR = frozenset({"color: equal", "color: same hue", "color: alike"})
 _TRUST = 0.6
 """Share of the facts' log-odds that is believed: a parser's noun is wrong more often than a list of nouns is."""
+_HEAD = 1.5
+"""What a class that ends with the noun has beside: who means an office chair often says "chair" where chairs are, too.
+The list of nouns has few such pairs, and there a class of just that name takes all."""
 _ABSENT = "name: absent"
 _ABSENT_ODDS = 3.5
 """Of what is not there, once all has been seen: a noun that no class is named by mostly means nothing that is there."""
@@ -63,6 +66,7 @@ def fact_odds() -> dict[str, float]:
     """Name of a grounding feature -> its log-odds before anything is learned."""
     weights = fact_weights()
     odds = {f"said {fact}": _TRUST * weights.get(fact, 0.0) for fact in FACTS}
+    odds["said name: head"] += _HEAD
     odds[f"said {_ABSENT}"] = _ABSENT_ODDS
     odds |= {f"said color: {name}": value for name, value in _COLOR_ODDS.items()}
     odds |= {f"said attribute: {name}": value for name, value in _ATTRIBUTE_ODDS.items()}
