@@ -175,3 +175,15 @@ def test_a_color_that_is_denied(text: str) -> None:
 
 def test_a_word_that_compares_colors_makes_no_thing_of_what_is_not_there() -> None:
     assert _told_apart("the darkest unicorn", ("cube", "red", set()), ("cube", "blue", set())) == []
+
+
+@pytest.mark.parametrize(("text", "ids"), [("wash the dirty blue cup", {"a"}), ("the clean blue cup", {"b"})])
+def test_a_state_before_a_color_is_no_name_of_a_color(text: str, ids: set[str]) -> None:
+    cups = [
+        Percept("a", "cup", "blue", (1.0, 0.3, 0.0), attributes=frozenset({"state: dirty"})),
+        Percept("b", "cup", "blue", (1.0, -0.3, 0.0), attributes=frozenset({"state: clean"})),
+        Percept("c", "cup", "yellow", (1.2, 0.0, 0.0), attributes=frozenset({"state: dirty"})),
+    ]
+    model = pretrained()
+    solution = model.ground(text, model.world_model(cups, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in solution.objects} == ids

@@ -314,3 +314,29 @@ def test_letters_of_pieces_are_their_shapes(type_: str, word: str | None) -> Non
     assert marks is not None
     found = marks.named(["plus"])
     assert (found.word if found is not None else None) == word
+
+
+CARDS = [("7", "spades"), ("7", "hearts"), ("2", "clubs"), ("9", "spades"), ("queen", "hearts"), ("queen", "clubs")]
+
+
+@pytest.mark.parametrize(
+    ("text", "ids"),
+    [
+        ("7 of spades", {"7 spades"}),
+        ("turn over the seven of hearts", {"7 hearts"}),
+        ("the two of clubs", {"2 clubs"}),
+        ("the card to the right of the 9 of spades", {"queen hearts"}),
+        ("the queen of hearts and the 9 of spades", {"queen hearts", "9 spades"}),
+        ("put the seven of spades on the queen of clubs", {"7 spades"}),
+        ("the red seven", {"7 hearts"}),
+    ],
+)
+def test_a_card_is_called_by_its_rank_and_its_suit(model: GroundingModel, text: str, ids: set[str]) -> None:
+    objects = [
+        {"id": f"{rank} {suit}", "type": "card", "color": "red" if suit == "hearts" else "black",
+         "position": [0.5, 0.5 - 0.2 * k, 0.0], "rank": rank, "suit": suit}
+        for k, (rank, suit) in enumerate(CARDS)
+    ]  # fmt: skip
+    robot = {"x": 0.0, "y": 0.0, "yaw": 0.0}
+    episode = Episode.model_validate({"id": "a", "text": text, "objects": objects, "target": [], "robot": robot})
+    assert _meant(model, episode)[0] == ids

@@ -183,3 +183,43 @@ PANTRY = [
 def test_a_pantry(text: str, id_: str) -> None:
     things = [o if o.id != "south stool" else put(o.id, "stool", (2.0, 0.6, 0.2), (0.3, 0.3, 0.4)) for o in PANTRY]
     assert meant(text, things) == [id_]
+
+
+PASSAGES = [
+    put("near bed", "bed", (0.0, 0.0, 0.3), (2.0, 1.4, 0.6)),
+    put("far bed", "bed", (0.0, 2.6, 0.3), (2.0, 1.4, 0.6)),
+    put("desk", "desk", (2.6, 0.0, 0.4), (1.4, 0.7, 0.75)),
+    put("in the narrow gap", "stool", (1.5, 0.0, 0.25), (0.3, 0.3, 0.5)),
+    put("in the wide gap", "stool", (1.3, 1.3, 0.25), (0.3, 0.3, 0.5)),
+    put("elsewhere", "stool", (-3.0, 1.0, 0.25), (0.3, 0.3, 0.5)),
+]
+
+
+def test_of_two_gaps_the_narrower_is_meant() -> None:
+    assert meant("the stool between the bed and the desk", PASSAGES) == ["in the narrow gap"]
+
+
+SHED = [
+    put("broom", "broom", (1.0, 0.0, 0.6), color="yellow"),
+    put("wooden spoon", "spoon", (2.0, 1.0, 0.8), color="brown"),
+    put("steel spoon", "spoon", (2.0, -1.0, 0.8), color="gray"),
+    put("counter", "counter", (2.0, 3.0, 0.5)),
+    put("towel", "towel", (3.0, 0.0, 0.8)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("sweep the floor with the broom", "broom"),
+        ("stir it with the brown spoon", "wooden spoon"),
+        ("wipe the counter with the towel", "counter"),
+    ],
+)
+def test_a_tool_is_meant_where_what_it_is_for_is_not_there(text: str, id_: str) -> None:
+    assert meant(text, SHED, Pose(0.0, 0.0)) == [id_]
+
+
+@pytest.mark.parametrize("text", ["the table with a single stool", "the table that has just a single stool"])
+def test_a_single_one_is_one_and_no_more(text: str) -> None:
+    assert meant(text, CANTEEN) == ["bench table 2"]

@@ -97,3 +97,36 @@ def test_who_does_what_and_where_one_is_sent_first(text: str, id_: str) -> None:
     model = pretrained()
     answer = model.ground(text, model.world_model(GARAGE, robot=Pose(0.0, 0.0)))
     assert [o.id for o in answer.objects] == [id_], answer.probabilities
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Y: the red pump or the black pump? X: the latter", "the black pump."),
+        ("X: get a rope. Y: I see one on the shelf and one on the floor. X: the second one.",
+         "get a rope. the one on the floor."),
+        ("Y: Which crate do you want, the red one or the blue one? X: the first", "the red crate."),
+        ("X: get a bucket. Y: tin or plastic? X: tin", "get a bucket. the one made of tin."),
+        ("X: the rope. Y: which one? X: not the one on the shelf", "the rope. it is not the one on the shelf."),
+        ("X: which crate? Y: not the blue one. X: then the red one? Y: right", "not the blue crate. the red one."),
+        ("X: the pump. Y: The black pump? X: no. Y: the tall one? X: no, the wide one by the door. Y: got it",
+         "the pump. not The black pump. the wide one by the door."),
+    ],
+)  # fmt: skip
+def test_which_of_those_that_are_offered(text: str, told: str) -> None:
+    assert in_one_voice(text) == told
+
+
+@pytest.mark.parametrize(
+    ("text", "ids"),
+    [
+        ("X: which crate do we use? Y: the red one is broken, use the blue. X: fine", {"blue crate"}),
+        ("X: is there a rope? Y: which one? X: not the one on the shelf. The other one.", {"rope on floor"}),
+        ("There are two ropes, its the one on the shelf", {"rope on shelf"}),
+        ("There are three crates. It's the blue one.", {"blue crate"}),
+    ],
+)
+def test_what_is_left_open_is_told_by_what_was_named(text: str, ids: set[str]) -> None:
+    model = pretrained()
+    solution = model.ground(text, model.world_model(GARAGE, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in solution.objects} == ids

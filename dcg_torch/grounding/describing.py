@@ -27,7 +27,7 @@ from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.in_tiers import in_its_tier
 from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
-from dcg_torch.grounding.nearness import by_nearness
+from dcg_torch.grounding.nearness import by_nearness, nearer_between
 from dcg_torch.grounding.nothing_near import nothing_near
 from dcg_torch.grounding.off_size import off_size
 from dcg_torch.grounding.on_the_ground import on_the_ground
@@ -95,6 +95,7 @@ def modifier_factor(
             log_psi = far
         elif not means_all(tree.phrase):
             log_psi = by_nearness(name, log_psi, first, scores, compared, encoder)
+    log_psi = nearer_between(tree.phrase, log_psi, landmarks, scores, compared, encoder)
     if of_each or (len(beams) > 1 and tree.phrase.words[0] not in MEASURED):
         scores = scores - APART * spread(np.array(landmarks), encoder.layout.position[:, :2])
     share = scores - np.logaddexp.reduce(scores)

@@ -54,9 +54,10 @@ def _counts(out: ParseTree) -> bool:
 
 
 def _of_those(out: ParseTree, kept: ParseTree) -> ParseTree:
-    """What is left out, with what it shares with the rest. "A mug", "what is red": all that are so."""
+    """What is left out, with what it shares with the rest. "A mug", "what is red", "the mug": all that are so."""
     phrase = out.phrase
-    several = phrase.plural or not (_is_definite(out) or _counts(out))
+    by_name = phrase.noun is not None and phrase.noun != kept.phrase.noun and not _is_told_apart(out)
+    several = phrase.plural or by_name or not (_is_definite(out) or _counts(out))
     shared = tuple(w for w in kept.phrase.words if w not in ORDINALS and not is_superlative(w))
     words = tuple(dict.fromkeys((*shared, *phrase.words)))
     color = phrase.color or kept.phrase.color

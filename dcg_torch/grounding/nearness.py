@@ -12,7 +12,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import ASLANT, NEARNESS, ON_A_SIDE, STRAIGHT, TOUCHING, alike_by, aslant
+from dcg_torch.grounding.reach import (
+    ASLANT,
+    NEARNESS,
+    ON_A_SIDE,
+    STRAIGHT,
+    TOUCHING,
+    alike_by,
+    aslant,
+    is_between,
+    means_all,
+)
+from dcg_torch.names.vocabulary import OF_TWO
+from dcg_torch.types import NOT, Phrase
 
 Floats = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -151,10 +163,42 @@ def nearer_on_a_side(
     return lost
 
 
+def nearer_between(
+    phrase: Phrase,
+    log_psi: Floats,
+    landmarks: Sequence[tuple[int, ...]],
+    scores: Floats,
+    compared: Bools | None,
+    encoder: WorldEncoder,
+) -> Floats:
+    """(combos, things) of what stands between two: "between the bed and the desk", of two beds, is in the narrower gap.
+
+    Args:
+        landmarks, scores: (combos,) numbers of each, and its score; of those described alike what is between one pair
+            loses by how much wider the gap is than that of another of its kind.
+        compared: (things,) those that are compared; None: those of one type.
+    """
+    if phrase.words[0] not in OF_TWO or NOT in phrase.words or means_all(phrase) or len(landmarks[0]) < 2:
+        return log_psi
+    alike = np.flatnonzero(alike_by(scores))
+    pairs = np.array([landmarks[int(j)][:2] for j in alike])
+    gap = encoder.distances(pairs[:, 0].tolist()) + encoder.distances(pairs[:, 1].tolist()) + TOUCHING
+    inside = is_between(pairs.tolist(), encoder) & encoder.layout.solid & np.isfinite(gap)
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    nearest = np.full(kind.max(initial=0) + 1, np.inf)
+    np.minimum.at(nearest, np.broadcast_to(kind, gap.shape)[inside], gap[inside])
+    found = log_psi.copy()
+    row, thing = inside.nonzero()
+    found[alike[row], thing] += np.maximum(_FARTHEST, _GAP_FOLD * np.log(nearest[kind[thing]] / gap[row, thing]))
+    return found
+
+
 _LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
 """Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
 _SIDE_FOLD = 0.7
 """Nats for each e-fold by which a thing is farther off than the nearest on that side."""
+_GAP_FOLD = 1.5
+"""Nats for each e-fold by which the gap in which a thing stands between two is wider than another of theirs."""
 _E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
 """Nats for each e-fold of a distance, by relation."""
 _FARTHEST = -6.0

@@ -197,10 +197,15 @@ STRAIGHT = math.radians(35.0)
 
 def _all_between(log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs between the table and the door" are all of them, as much as the likeliest is."""
-    name = RELATION_NAMES.index(f"{_BETWEEN}between")
-    inside = between(encoder.layout, landmarks) == name
+    inside = is_between(landmarks, encoder)
     best = np.where(inside, log_psi, -np.inf).max(axis=1, keepdims=True)
     return np.where(inside, best, log_psi)
+
+
+def is_between(landmarks: Sequence[Sequence[int]], encoder: WorldEncoder) -> Bools:
+    """(combos, things) what stands between the first two of each."""
+    inside: Bools = between(encoder.layout, landmarks) == RELATION_NAMES.index(f"{_BETWEEN}between")
+    return inside
 
 
 _BETWEEN = "relation: between, "

@@ -70,7 +70,19 @@ def by_attributes(trees: Sequence[ParseTree], world: WorldModel) -> list[ParseTr
     pairs = frozenset((attribute_key(a.partition(":")[0]), a.partition(":")[2]) for a in given if ":" in a)
     dresses = tuple(sorted(filter(is_clothing, worn)))
     speaking = _Speaking(keys, tuple(sorted(types)), colored, dresses, _of_colorless(world), pairs)
-    return [speaking.root(tree) for tree in trees]
+    colors = {o.color for o in world.objects}
+    return [speaking.root(_worn_colors(tree, {value for _, value in pairs}, colors)) for tree in trees]
+
+
+def _worn_colors(tree: ParseTree, values: Collection[str], colors: Collection[str | None]) -> ParseTree:
+    """The tree in which "dirty blue" is no colour where things are dirty, and others blue."""
+    if not any(" " in (node.phrase.color or "") for node in tree.walk()):
+        return tree
+    phrase, children = tree.phrase, tuple(_worn_colors(child, values, colors) for child in tree.children)
+    value, _, color = (phrase.color or "").partition(" ")
+    if phrase.color not in colors and color in colors and not {value, f" {value}"}.isdisjoint(values):
+        phrase = replace(phrase, color=color, words=tuple(dict.fromkeys((*phrase.words, value))))
+    return ParseTree(phrase, children)
 
 
 def _of_colorless(world: WorldModel) -> frozenset[str]:

@@ -1,6 +1,7 @@
 """What holds a thing is meant where the thing itself is not in the scene: "my keys are in the top drawer".
 
-Nor is what fills a thing or is a part of it: "the bottle with the red liquid" is a red one.
+Nor is what fills a thing or is a part of it: "the bottle with the red liquid" is a red one. And of what something that
+is not there is done with, that is meant: "sweep the floor with the broom", "stir it with the spoon".
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _INSIDE = listed("inside")
 _NOTHING_IN, _EMPTY = "nothing in", "empty"
+_WORKED_WITH, _WORKS = listed("worked with"), listed("works")
+"""Prepositions before a tool, and what is done with one."""
 _OWN = listed("own")
 """First words of what the speaker has and the scene need not."""
 
@@ -38,7 +41,21 @@ def in_what_holds_it(trees: Sequence[ParseTree], world: WorldModel) -> list[Pars
 @functools.lru_cache(maxsize=1024)
 def _in_what_holds_it(tree: ParseTree, types: frozenset[str], colors: frozenset[str]) -> ParseTree:
     """The same, from what it depends on of a world: one command is grounded in many worlds with the same classes."""
-    return _holder(_filled(_colored(tree, types), types, colors), types)
+    return _holder(_tool(_filled(_colored(tree, types), types, colors), types), types)
+
+
+def _tool(tree: ParseTree, types: Collection[str]) -> ParseTree:
+    """The tree of an order about what is not there, or was not named, as one about the tool that it names."""
+    if tree.phrase.kind is not PhraseKind.VERB or _WORKS.isdisjoint(tree.phrase.words) or not tree.children:
+        return tree
+    done, *others = tree.children
+    phrase = done.phrase
+    unnamed = not (phrase.noun or phrase.color or phrase.words or phrase.text.endswith("one"))
+    if phrase.kind is not PhraseKind.NOUN or not (unnamed or (phrase.noun and not names_one_of(phrase.noun, types))):
+        return tree
+    with_one = [c for c in (*done.children, *others) if c.phrase.words[:1] and c.phrase.words[0] in _WORKED_WITH]
+    tools = [t for place in with_one for t in place.children if t.phrase.noun and names_one_of(t.phrase.noun, types)]
+    return replace(tree, children=tuple(tools)) if len(tools) == 1 else tree
 
 
 def _holder(tree: ParseTree, types: Collection[str]) -> ParseTree:

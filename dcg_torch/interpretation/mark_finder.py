@@ -142,9 +142,9 @@ class _Finder:
         if self.words[i].isalpha() and len(self.words[i]) == 1:
             return self._is_letter(i)
         plural = singular(after) != after and singular(after) in self.marks.heads
+        suited = after == "of" and self.marks.named([self.word(stop + 1)]) is not None  # "the nine of spades"
         if (
-            after in lists["units"]
-            or after == "of"
+            (after in lists["units"] and not suited)
             or plural
             or (before in lists["counted_after"] and not (before == "both" and after == "and"))
         ):
@@ -153,6 +153,7 @@ class _Finder:
             ends = after not in self.marks.heads | lists["after"] or not after
             return ends and (i == 0 or before in lists["before_one"])
         counted = before in ("the", "this", "that", "only", "single") and self.words[i] in ("two", "three", "four")
+        counted = counted and not suited
         return self.raw[i].isdecimal() or not counted or after in self.marks.heads
 
     def _hashed(self, i: int) -> bool:

@@ -11,7 +11,10 @@ import functools
 import re
 from dataclasses import dataclass, replace
 
-from dcg_torch.names.normal import read_data, singular
+from dcg_torch.interpretation.guesses import told_by_answers
+from dcg_torch.interpretation.turn_words import pattern
+from dcg_torch.names.attributes import says_value, states_value
+from dcg_torch.names.normal import singular
 
 _LABEL = r"(?:(?<=^)|(?<=[\s.!?,'\"]))(?P<who>{})\s?:\s+"
 _ANY = r"[A-Za-z]{1,14}(?: ?\d)?"
@@ -22,6 +25,7 @@ _SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
 _IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
 _WORD = re.compile(r"[A-Za-z]{2}")
 _FOLLOWER = "follower"
+_MATERIAL = frozenset({"material"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +45,7 @@ class Turn:
 
 def in_one_voice(text: str) -> str:
     """A text in turns as the one who gives the instructions would say it alone; other texts as they are."""
-    return _told(text) if len(text) <= _LONGEST else text
+    return _told(told_by_answers(text)) if len(text) <= _LONGEST else text
 
 
 @functools.lru_cache(maxsize=1024)
@@ -86,7 +90,7 @@ def _unlabelled(text: str) -> list[Turn]:
     lines = [line.strip() for line in text.splitlines() if line.strip()]
     if not any(_starts("takes", line) or _starts("denies", line) for line in lines[1:]):
         lines = [text]
-    parts = [(part, k > 0) for line in lines for k, part in enumerate(_pattern("next").split(line)) if part]
+    parts = [(part, k > 0) for line in lines for k, part in enumerate(pattern("next").split(line)) if part]
     turns: list[Turn] = []
     dropped = False
     for part, anew in parts:
@@ -105,7 +109,8 @@ def _unlabelled(text: str) -> list[Turn]:
 
 def _asks(text: str) -> bool:
     """Is a turn one that waits for an answer: "The red one?", "I see two of them."?"""
-    return "?" in text or (len(text) <= _LONGEST_QUESTION and _is("asked", text))
+    short = len(text) <= _LONGEST_QUESTION
+    return "?" in text or (short and _is("asked", text) and _starts("denies", text) is None)
 
 
 def _of_giver(turns: list[Turn], giver: str) -> list[Turn]:
@@ -121,6 +126,10 @@ def _of_giver(turns: list[Turn], giver: str) -> list[Turn]:
             said[-1] = replace(said[-1], text=f"{said[-1].text.rstrip(' .!')}, no, {turn.text[denied.end() :]}")
             continue
         answer = _answered(asked, turn.text, first=not said)
+        own = _match("which", said[-1].text) if said and answer and "?" in said[-1].text else None
+        if own is not None and own["what"] != "one":  # "Which cup? - The red one. - Fine": the giver asks himself
+            said.pop()
+            answer = _which(own, answer)
         anew = turn.anew or (not _asks(asked) and _starts("anew", turn.text) is not None)
         named = _is("where", asked) or ((which := _match("which", asked)) is not None and which["what"] != "one")
         clarifies = "?" in asked and not named and any(_starts(name, answer) for name in ("noun", "place", "denies"))
@@ -141,6 +150,9 @@ def _answered(asked: str, answer: str, *, first: bool) -> str:
     sides, side = (_match("sides", asked) if asked else None), _match("side", answer)
     if sides is not None and side is not None and side["side"].lower() in sides[0].lower():
         return f"the {side['side'].lower()} one"
+    chosen = _chosen(asked, answer) if asked else None
+    if chosen is not None:
+        return chosen
     denied = _starts("denies", answer)
     if denied is not None:
         return _instead(what, answer[denied.end() :], first=first)
@@ -187,10 +199,26 @@ def _which(question: re.Match[str], answer: str) -> str:
     """ "Which chair?" - "The one by the door": the chair by the door."""
     found = _starts("found", answer)
     if question["what"] == "one":
-        return f"{question['told'] or ''}{answer}"
+        return f"{question['told'] or ''}{'it is ' if answer[:4].lower() == 'not ' else ''}{answer}"
     if found is not None and found.end():
         return f"the {question['what']} {answer[found.end() :]}"
     return re.sub(r"\bone\b", question["what"], answer, count=1)
+
+
+def _chosen(asked: str, answer: str) -> str | None:
+    """ "The red one or the blue one?" - "The latter.", "Glass or steel?" - "Glass": which of those that are offered."""
+    offers, nth, bare = _match("offers", asked), _match("nth", answer), _match("bare_offers", asked)
+    if offers is not None and nth is not None:
+        options, place = pattern("offered").split(offers["options"]), str(nth.lastgroup)
+        k = len(options) - 1 if place == "last" else int(place[1:])
+        which = _match("which", asked)
+        what = _definite(options[k]) if k < len(options) else None
+        named = which is not None and which["what"] != "one"
+        return _ONE.sub(which["what"], what, count=1) if what and which is not None and named else what
+    said = answer.lower().removeprefix("the ").removesuffix(" please").strip(" .!")
+    if bare is None or said not in (bare["one"].lower(), bare["other"].lower()) or not says_value(said):
+        return None
+    return f"the one made of {said}" if states_value(said, _MATERIAL) else f"the {said} one"
 
 
 def _where(question: re.Match[str], answer: str) -> str:
@@ -245,7 +273,7 @@ def _last_first(said: list[Turn]) -> str:
     first = len(said) - 1
     parts = [turn.text for turn in said]
     while first > 0 and (said[first].clarifies or _leans(". ".join(parts[first:]))):
-        if said[first].anew and not _pattern("stands").search(parts[first]):
+        if said[first].anew and not pattern("stands").search(parts[first]):
             # "Take the left crate. Thanks, now the blue one": a crate, and nothing more of it.
             parts[first] = _ONE.sub(_noun_before(parts[:first]) or "one", parts[first], count=1)
             break
@@ -265,8 +293,8 @@ def _last_first(said: list[Turn]) -> str:
 def _noun_before(said: list[str]) -> str | None:
     """What the last thing before is called that was told by a noun: "the red card by the lake"."""
     for part in reversed(said):
-        begin = _pattern("noun").search(part)
-        called = None if begin is None else _pattern("called").match(part, begin.start())
+        begin = pattern("noun").search(part)
+        called = None if begin is None else pattern("called").match(part, begin.start())
         if called is not None:
             return singular(called["noun"])
     return None
@@ -274,27 +302,16 @@ def _noun_before(said: list[str]) -> str | None:
 
 def _leans(text: str) -> bool:
     """Does a turn speak of what was named before it, or name nothing by itself?"""
-    return _pattern("leans").search(text) is not None or _pattern("names").search(text) is None
+    return pattern("leans").search(text) is not None or pattern("names").search(text) is None
 
 
 def _is(name: str, text: str) -> bool:
-    return _pattern(name).fullmatch(text) is not None
+    return pattern(name).fullmatch(text) is not None
 
 
 def _match(name: str, text: str) -> re.Match[str] | None:
-    return _pattern(name).fullmatch(text)
+    return pattern(name).fullmatch(text)
 
 
 def _starts(name: str, text: str) -> re.Match[str] | None:
-    return _pattern(name).match(text)
-
-
-@functools.cache
-def _pattern(name: str) -> re.Pattern[str]:
-    data = read_data("turns.yaml")
-    parts = {key: str(value) for key, value in data["parts"].items()}
-
-    def filled(pattern: str) -> str:
-        return re.sub(r"<([A-Z]+)>", lambda part: filled(parts[part[1]]), pattern)
-
-    return re.compile(filled(str(data[name])), re.IGNORECASE | re.DOTALL)
+    return pattern(name).match(text)

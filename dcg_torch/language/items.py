@@ -74,15 +74,14 @@ class Item:
 
     def take_up(self, more: Item) -> None:
         """Say what another noun phrase says of the same thing, or which of several: "a pair of dots, the paler one"."""
-        told = more.words and (more.determined or more.text in SETS["stands_for"])
-        if self.plural and told and not more.plural:
+        told = not (more.plural or more.is_a("empty"))
+        if self.plural and told and (more.determined or more.text in SETS["stands_for"]):
             if self.count:
                 self.words += (f"of {self.count}",)
             elif self.is_a("grouped"):
                 self.words, self.children = (), [self.copy().behind("in")]
             self.plural, self.count = False, 1
-        self.color = self.color or more.color
-        self.words += more.words
+        self.color, self.words = self.color or more.color, self.words + more.words
         self.children += [child for child in more.children if child not in self.children]
 
     def behind(self, preposition: str) -> Item:
@@ -164,7 +163,7 @@ def deny(noun: Item, other: Item) -> None:
     if noun.noun is None and other.determined and noun.text.endswith(" one") and not bare:
         noun.noun, noun.pronoun = other.noun, other.noun is None  # "not the left cup, the other one"
     if other.noun not in {None, noun.noun}:
-        out = other.is_a("kind") and (noun.is_a("open") or f" {other.noun}".endswith(f" {noun.noun}"))
+        out = other.is_a("kind") and (noun.is_a("unnamed_one") or f" {other.noun}".endswith(f" {noun.noun}"))
         noun.children += [other.behind("except")] if out else []  # "a table, not an end table"
         return
     of_one = other.determined and noun.color is not None  # "the green cone, not the blue one"

@@ -192,6 +192,8 @@ def refer(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decis
             nodes += [(below, meant.start) for child in node.children for below in child.walk()]
         elif node.text == "it" and node.noun is None and "other" in target.words:  # "the other cup, behind it"
             node.noun, node.color, node.pronoun = target.noun, target.color, False
+        elif node is target and _by_looks(node):  # "The blue cup is broken, take the red one"
+            node.noun = next((noun.noun for noun in reversed(main) if noun.noun and not noun.plural), None)
 
 
 def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Decisions) -> list[Item]:
@@ -258,7 +260,6 @@ def _take_over(node: Item, noun: Item) -> None:
     grouped = node.noun in SETS["groups"] and not noun.is_a("grouped")
     group = (node.noun, *((f"of {noun.count}",) if noun.count else ())) if grouped else ()
     node.noun = node.noun if f" {node.noun}".endswith(f" {noun.noun}") else noun.noun
-    node.color, node.count, node.plural = noun.color, noun.count, noun.plural
-    node.words = tuple(dict.fromkeys((*noun.words, *filter(None, group))))
-    node.count, node.pronoun = None if grouped else noun.count, False
+    node.color, node.plural, node.count = noun.color, noun.plural, None if grouped else noun.count
+    node.words, node.pronoun = tuple(dict.fromkeys((*noun.words, *filter(None, group)))), False
     node.children = node.children or [child.copy() for child in noun.children]

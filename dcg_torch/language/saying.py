@@ -178,7 +178,7 @@ class NounPhrases:
         predicate.said = True
         no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
         if (self.denied and (no_such or predicate.is_a("that_one"))) or (no_such and predicate.negative):
-            self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door"
+            self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door", "not the red cup"
             return
         if self.denied:
             self.say(noun, tuple(filter(None, (predicate.color, *predicate.words, predicate.noun))))

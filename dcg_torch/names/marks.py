@@ -212,7 +212,8 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
         others = [value for value in values if value not in numbers and 0 < len(words_of(value)) <= MARK_WORDS]
         colors = [value for value in others if normalise(value).split(" ")[-1] in color_words().basic]
         if 2 * len(colors) < len(others):
-            yield from ((key, value) for value in others if not describes(attribute_key(key), value))
+            suits = mark_words()["suits"]  # the key is that of what people wear as well
+            yield from ((key, v) for v in others if v.lower() in suits or not describes(attribute_key(key), v))
 
 
 def _nouns(type_: str) -> list[str]:

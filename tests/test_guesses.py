@@ -1,0 +1,80 @@
+"""Things that are found out by questions with yes and no: the games are ours, with the shipped model."""
+
+from __future__ import annotations
+
+import pytest
+
+from dcg_torch import GroundingModel, Percept, Pose, pretrained
+from dcg_torch.interpretation.guesses import told_by_answers
+
+PARK = [
+    Percept("left child", "child", None, (2.0, 1.0, 0.5), (0.0, 0.3, 0.9)),
+    Percept("middle child", "child", None, (2.0, 0.1, 0.5), (0.0, 0.3, 0.9)),
+    Percept("right child", "child", None, (2.0, -0.9, 0.5), (0.0, 0.3, 0.9)),
+    Percept("red kite", "kite", "red", (2.0, 0.6, 1.5), (0.0, 0.3, 0.3)),
+    Percept("blue kite", "kite", "blue", (2.0, -0.7, 1.5), (0.0, 0.3, 0.3)),
+    Percept("dog", "dog", "black", (2.0, -1.3, 0.2), (0.0, 0.4, 0.3)),
+    Percept("bench", "bench", "brown", (2.0, 1.5, 0.3), (0.0, 0.8, 0.5)),
+]
+
+
+@pytest.fixture(scope="module")
+def model() -> GroundingModel:
+    return pretrained()
+
+
+@pytest.mark.parametrize(
+    ("text", "ids"),
+    [
+        ("Is it a child? No. Is it an animal? Yes.", {"dog"}),
+        ("is it a kite? yes. the red one? no.", {"blue kite"}),
+        ("kite? yes. blue? yes", {"blue kite"}),
+        ("Is it a kite? Yes. Is it the red kite? No.", {"blue kite"}),
+        ("is it a child? yes. left? no. right? no.", {"middle child"}),
+        ("Is it a child? Yes. Is it the child on the left? No. Is it left of the blue kite? Yes.", {"middle child"}),
+        ("Q: is it a child? A: yes Q: the one on the right? A: yes", {"right child"}),
+        ("Can you sit on it? Yes.", {"bench"}),
+    ],
+)
+def test_answers_tell_what_it_is(model: GroundingModel, text: str, ids: set[str]) -> None:
+    solution = model.ground(text, model.world_model(PARK, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in solution.objects} == ids
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("Is he wearing a hat? No. Is it big? n/a", "It has no hat."),
+        ("does it have wheels? yes, it does. car?\nno", "It has wheels. It is not a car."),
+        ("Is it on the left half? I don't know. Is it bigger than the dog? y", "It is bigger than the dog."),
+    ],
+)
+def test_each_answer_is_a_sentence(text: str, told: str) -> None:
+    assert told_by_answers(text) == told
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Take the kite. The red one? No, the blue one.",
+        "can you bring me the kite? yes please",
+        "is the dog there? yes",
+        "the red one? no, the blue one",
+    ],
+)
+def test_what_is_no_such_game_stays_as_it_is(text: str) -> None:
+    assert told_by_answers(text) == text
+
+
+@pytest.mark.parametrize(
+    ("text", "ids"),
+    [
+        ("It is a kite. It is not the red kite.", {"blue kite"}),
+        ("It is a child. It is not the left child. It is not the right child.", {"middle child"}),
+    ],
+)
+def test_what_is_not_meant_is_one_thing_and_not_all_of_its_kind(
+    model: GroundingModel, text: str, ids: set[str]
+) -> None:
+    solution = model.ground(text, model.world_model(PARK, Pose(0.0, 0.0), looked=True))
+    assert {o.id for o in solution.objects} == ids
