@@ -35,7 +35,7 @@ _RARE = -5.0
 _DOUBT = 0.2
 """Of what is likelier absent than there so much counts: people call what is there by odd names about as often as they
 speak of what is not there."""
-_STRANGE = (6.0, 2.5)
+_STRANGE = (5.3, 2.5)
 """From where on a noun's gap counts, and how much each nat: below lies what people call a thing that they know well."""
 _SLIP = 8.0
 """Bound of what a noun says: now and then a person says quite another word than the thing has."""
@@ -46,9 +46,9 @@ _UNLIKE = (3.0, 1.6)
 _CONTRARY = (5.0, 1.5)
 """Of the first word that an attribute of the thing contradicts, "with a hat" said of who wears none, and of each other:
 who has misjudged one thing may have misjudged two."""
-_NEW = 7.0
+_NEW = 6.3
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
-_LETTER = 7.7
+_LETTER = 7.0
 """The same where the noun is a word, and one letter makes it a name of what is there: "bell" where there is a ball."""
 
 _TYPES = 4

@@ -93,10 +93,10 @@ class NounPhrases:
 
     def exclude(self, item: Item) -> None:
         """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
-        item.said = self.was_denied = True
-        item.determined = item.determined or (self.denied and item.noun is not None)  # "no cup, (no) jar or bowl"
+        # "No cup, (no) jar or bowl": each is said as one that is not meant.
+        item.determined |= self.denied and item.noun is not None
         self.ruled_out.append((item, (*self.clause.objects, last_thing(self.nouns) if self.nouns else None)[0]))
-        self.meant = list(self.nouns)
+        item.said, self.was_denied, self.meant = True, True, list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
 
@@ -177,7 +177,8 @@ class NounPhrases:
         """ "the block that is red", "the cube which is the biggest one": what a copula says of a noun phrase."""
         predicate.said = True
         no_such = predicate.is_a("kind") and predicate.noun != noun.noun and noun.is_a("open")
-        if (self.denied and (no_such or predicate.is_a("that_one"))) or (no_such and predicate.negative):
+        that_one = predicate.is_a("that_one") and (predicate.noun in {None, noun.noun} or noun.is_a("unnamed_one"))
+        if (self.denied and (no_such or that_one)) or (no_such and predicate.negative):
             self.exclude(predicate)  # "the red thing that is no cup", "not the one by the door", "not the red cup"
             return
         if self.denied:
