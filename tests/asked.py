@@ -18,6 +18,10 @@ def shipped() -> GroundingModel:
     return pretrained()
 
 
-def meant(text: str, things: Iterable[Percept]) -> set[str]:
-    """The ids of what a command means, for a robot that stands at the origin and looks along x."""
-    return {o.id for o in shipped().ground(text, shipped().world_model(things, HERE)).objects}
+def meant(text: str, things: Iterable[Percept], *, looked: bool = False) -> set[str]:
+    """The ids of what a command means, for a robot that stands at the origin and looks along x.
+
+    Args:
+        looked: has the robot looked all round?
+    """
+    return {o.id for o in shipped().ground(text, shipped().world_model(things, HERE, looked=looked)).objects}

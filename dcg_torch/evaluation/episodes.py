@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
-from dcg_torch.names.facts import facts, is_used
+from dcg_torch.names.keys import attributes_of, is_used
 from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
@@ -65,7 +65,7 @@ class EpisodeObject(_Record):
     @property
     def attributes(self) -> frozenset[str]:
         """What its further keys, and a size that is a word, come to: "held", "beard: no", "material: wood"."""
-        return facts({**(self.model_extra or {}), "size": self.size})
+        return attributes_of({**(self.model_extra or {}), "size": self.size})
 
 
 class Episode(_Record):

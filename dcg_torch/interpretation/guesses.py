@@ -23,14 +23,13 @@ def told_by_answers(text: str) -> str:
     told, at, kind = list[str](), 0, "one"
     while at < len(text):
         pair = pattern("guess").match(text, at)
-        said = None if pair is None else _told(pair["question"].strip(), _answer(pair))
+        said = None if pair is None else _told(pair["question"], _answer(pair))
         if pair is None or said is None:
             return text
         named = pattern("guess_kind").fullmatch(said)
         kind = kind if named is None else named["kind"]
-        said = (
-            _ONE.sub(kind, said, count=1) if _answer(pair) is False else said
-        )  # one of them, and no other, is ruled out
+        if _answer(pair) is False:  # one of them, and no other, is ruled out
+            said = _ONE.sub(kind, said, count=1)
         told, at = [*told, said], pair.end()
     return " ".join(filter(None, told)) or text
 

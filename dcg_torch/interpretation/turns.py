@@ -24,6 +24,8 @@ _SENTENCES = re.compile(r"[^\s.?!][^.?!]*[.?!]*")
 _SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
 _IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
 _WORD = re.compile(r"[A-Za-z]{2}")
+_QUOTED = re.compile(r"\s*(?>(['\"])[^\"\n]+?\1(?=[\s,-]|$)[\s,-]*){2,}")
+"""Turns in quotes. Each ends once for all: marks that could end several of them at many places would take for ever."""
 _FOLLOWER = "follower"
 _MATERIAL = frozenset({"material"})
 
@@ -73,7 +75,7 @@ def _turns(text: str) -> list[Turn]:
             found = [turn for turn in found if turn.text]
             if all(_WORD.search(turn.text) for turn in found):
                 return found
-    quoted = re.fullmatch(r"\s*(?:(['\"])[^\"\n]+?\1[\s,-]*){2,}", text)
+    quoted = _QUOTED.fullmatch(text)
     if quoted:
         said = re.findall(rf"{quoted[1]}(.+?){quoted[1]}(?=[\s,-]|$)", text)
         return [Turn(str((len(said) - k) % 2), part) for k, part in enumerate(said)]

@@ -4,7 +4,9 @@
     wordnet     the table: synonyms, and what is a kind of what
     evidence    facts that hold between a noun and a class name
     weights     how much each fact tells
+    akin        how near two nouns are, whatever class they are held against
     attributes  facts between words and the attributes of an object
+    keys        keys with values as attributes
     colors      colour words as regions of CIELAB; facts between a colour word and the name of a colour
     embedding   cosines of a sentence embedding (the extra `embeddings`)
     vocabulary  words with a fixed meaning: places, groups, who owns a side

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from dcg_torch.names.facts import facts
+from dcg_torch.names.keys import attributes_of
 from dcg_torch.types import Percept, Pose
 
 
@@ -78,7 +78,7 @@ def _attributes(percept: Percept) -> frozenset[str]:
         listed = [None] if isinstance(given, str) else list(given or ())
     if not all(isinstance(one, str) for one in listed):
         raise ValueError(f"percept {percept.id!r:.80}: attributes is {given!r:.60}, not a set of texts, nor a dict")
-    return facts(given) if isinstance(given, Mapping) else frozenset(listed)
+    return attributes_of(given) if isinstance(given, Mapping) else frozenset(listed)
 
 
 _FARTHEST = 1e12

@@ -1,4 +1,4 @@
-"""What is known of an object beside its class, colour, place and size, as keys with values and as attributes.
+"""Keys with values, which tell of an object beside its class, colour, place and size, as its attributes.
 
 An attribute is a text: "held" of what is so, "glasses: no" of what is not, "material: wood" of a key with a value.
 """
@@ -14,7 +14,7 @@ _NUMBERED: Final = frozenset({"number", "digit", "label", "mark", "text", "name"
 """Keys whose numbers are names: "block 7"."""
 
 
-def facts(further: Mapping[str, object]) -> frozenset[str]:
+def attributes_of(further: Mapping[str, object]) -> frozenset[str]:
     """The attributes that keys and values come to.
 
     Of numbers 1 and 0 are true and false ("hasBeard"), but for keys that count ("row") or whose numbers are names;
