@@ -34,7 +34,7 @@ from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.opposite import opposite
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.over_under import by_height
-from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied
+from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied, of_several
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import evenly, shaded, shades_among, so_many
 from dcg_torch.grounding.upon import by_side_upon
@@ -86,7 +86,7 @@ def modifier_factor(
     if of_each := several > 0 and len(combos) >= several:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
         combos = Combos([beams[0]] * several, chosen)
-        log_psi = log_psi[np.array(chosen)].mean(axis=1)  # said once, it counts once
+        log_psi = of_several(tree.phrase, log_psi, first, chosen, encoder)
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each and having is None:
         name = tree.phrase.words[0]

@@ -64,6 +64,27 @@ def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]]
     return _all_between(log_psi, landmarks, encoder) if all(len(of) > 1 for of in landmarks) else log_psi
 
 
+def of_several(
+    phrase: Phrase, log_psi: Floats, landmarks: Sequence[int], chosen: Sequence[Sequence[int]], encoder: WorldEncoder
+) -> Floats:
+    """(sets, things) log Psi of a modifier of several landmarks, from that of each: "in front of the two cubes".
+
+    What stands on a side of several need be the nearest to one of them alone, and in line with the others.
+
+    Args:
+        log_psi: (landmarks, things).
+        landmarks: numbers of things.
+        chosen: (sets, k) places in `landmarks`.
+    """
+    each = log_psi[np.array(chosen)]
+    if phrase.words[0] not in ON_A_SIDE or NOT in phrase.words:
+        return each.mean(axis=1)  # said once, it counts once
+    off = aslant(phrase.words[0], landmarks, encoder)
+    line = np.where(np.isfinite(off), -np.square(np.nan_to_num(off) / STRAIGHT), log_psi)[np.array(chosen)]
+    best: Floats = (line.sum(axis=1, keepdims=True) - line + each).max(axis=1)
+    return best
+
+
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all."""
     near = within_reach(landmarks, encoder)

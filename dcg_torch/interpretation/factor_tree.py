@@ -166,7 +166,7 @@ def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     there, (flat, upright), scene, among = setting
     said = from_you(in_whole_line(tree), among=among)
     plain = in_plain_words(said, there, flat=flat or upright, upright=upright)
-    found = _described(_beyond(plain) if flat and "speaker" not in scene.split() else plain)
+    found = _described(_beyond(plain) if flat else plain)
     return _said_in(found, scene) if scene else found
 
 
@@ -281,7 +281,8 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
     """Not from a corner or the middle: these are places beside the side ("in the middle on the left")."""
     landmark = place.children[0].phrase
     kind, _ = PLACE_WORDS.get(landmark.noun or "", (None, None))
-    return place.phrase.words[0] in RANKING and kind in (None, "robot", "speaker")
+    name = place.phrase.words[0]  # "closest to" or "third closest to"
+    return (name in RANKING or name.partition(" ")[2] in RANKING) and kind in (None, "robot", "speaker")
 
 
 def _is_a_side(place: ParseTree) -> bool:

@@ -129,6 +129,9 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         counted = any(c.phrase.words[:1] == ("from",) and c.children[0].phrase.noun in SIDED for c in tree.children)
         words = tuple(_NTH.get(word, word) for word in phrase.words)
         return _counted_from_a_side(replace(tree, phrase=replace(phrase, words=words))) if counted else tree
+    if ends := [word for word in phrase.words if word in _ENDS]:  # "second farthest to the left"
+        words = tuple(_ENDS.get(word, word) for word in phrase.words)
+        return tree if len(ends) > 1 else replace(tree, phrase=replace(phrase, words=words))
     if any(is_superlative(word) or word.startswith("from ") for word in phrase.words):
         return tree
     for k, place in enumerate(tree.children):
@@ -136,6 +139,12 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
         if place.phrase.words[:1] and place.phrase.words[0] in COUNTED_FROM and side.phrase.noun not in PLACE_WORDS:
             # "The second one to the right of the cup" is the second that one comes to.
             return replace(tree, phrase=replace(phrase, words=(*phrase.words, COUNTED_FROM[place.phrase.words[0]])))
+        if place.phrase.words[:1] == ("from",) and (end := _end_of_its_kind(phrase, side)) is not None:
+            return replace(
+                tree,
+                phrase=replace(phrase, words=(*phrase.words, end)),
+                children=(*tree.children[:k], *tree.children[k + 1 :]),
+            )
         if place.phrase.words[:1] == ("from",) and _is_a_thing(side):  # "the second chair from the door"
             nearest = replace(place, phrase=replace(place.phrase, words=(NEAREST, *place.phrase.words[1:])))
             return replace(tree, children=(*tree.children[:k], nearest, *tree.children[k + 1 :]))
@@ -146,6 +155,17 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
                 replace(phrase, words=(*phrase.words, word)), (*tree.children[:k], *tree.children[k + 1 :])
             )
     return tree
+
+
+_ENDS = {f"{side}most": f"from the {side}" for side in LATERAL}
+
+
+def _end_of_its_kind(phrase: Phrase, landmark: ParseTree) -> str | None:
+    """ "The second cube from the leftmost one": the first is that one, as in "the second from the left"."""
+    first = landmark.phrase
+    alike = first.noun in (phrase.noun, None) and first.color in (phrase.color, None)
+    end = _ENDS.get(first.words[0]) if len(first.words) == 1 else None
+    return end if alike and not (first.plural or landmark.children) else None
 
 
 def _is_a_thing(landmark: ParseTree) -> bool:
