@@ -21,7 +21,7 @@ from dcg_torch.grounding.counted_side import so_many_deep, so_many_on_a_side
 from dcg_torch.grounding.encode import WorldEncoder
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.said import is_ruled_out
-from dcg_torch.grounding.grouped import log_of_group, of_members
+from dcg_torch.grounding.grouped import beside_members, log_of_group, of_members
 from dcg_torch.grounding.having import of_having
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.in_tiers import in_its_tier
@@ -123,7 +123,7 @@ def _log_psi(
     log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = by_side_upon(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_height(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
-    log_psi = opposite(name, log_psi, landmarks, encoder)
+    log_psi = beside_members(name, opposite(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     first = [of[0] for of in landmarks]
     log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)

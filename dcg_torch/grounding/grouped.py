@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.reach import NEARNESS, ON_A_SIDE
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, OWNERS, counted
 from dcg_torch.scene.groups import CLUSTER, ROW
@@ -65,6 +66,28 @@ def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *,
             found[k, outside] = np.minimum(found[k, outside], _OUTSIDE if row else _ASIDE)
         found[k, inside] = np.maximum(found[k, inside], _INSIDE)
     return found
+
+
+def beside_members(
+    name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) what stands between two groups, or beside one, is in none of them.
+
+    Args:
+        name: of the relation.
+    """
+    members = encoder.layout.members
+    if name not in _BESIDE or not any(j in members for of in landmarks for j in of):
+        return log_psi
+    found = log_psi.copy()
+    for k, of in enumerate(landmarks):
+        for j in of:
+            found[k, members.get(j, ())] -= _OTHER
+    return found
+
+
+_BESIDE = frozenset({"between", *ON_A_SIDE, *NEARNESS})
+"""Relations to a group in which nothing of it stands."""
 
 
 def _kinds(phrase: Phrase) -> frozenset[str]:

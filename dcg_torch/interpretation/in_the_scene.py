@@ -11,7 +11,7 @@ from dcg_torch.interpretation.others import by_others
 from dcg_torch.interpretation.paired import by_pairs
 from dcg_torch.interpretation.passages import by_passages
 from dcg_torch.interpretation.plain_lines import lines_from_here
-from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
+from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair, several_pairs
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls
 from dcg_torch.interpretation.rooms import by_rooms
 from dcg_torch.interpretation.shelves import by_shelves
@@ -38,6 +38,7 @@ _REWRITES = (
     by_shelves,
     by_middles,
     one_pair,
+    several_pairs,
     few_together,
     lines_from_here,
 )

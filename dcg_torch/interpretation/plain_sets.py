@@ -7,10 +7,13 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.normal import heads, singular
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BUILT_OF, GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _EACH_OTHER, _PAIR = "each other", "pair"
+_TWOSOMES = listed("two together")
+_GROUP, _BETWEEN = "group", "between"
 _MIDDLE_OF = "in the middle of"
 _CLUSTERS = frozenset(word for word, kinds in GROUP_WORDS.items() if kinds == ("cluster",))
 
@@ -146,6 +149,27 @@ def _few_together(tree: ParseTree) -> ParseTree:
     if number is None or others or tree.children or _CLUSTERS.isdisjoint(phrase.words):
         return tree
     return ParseTree(replace(phrase, words=(f"{TOGETHER}{number}",), plural=True, count=number))
+
+
+def several_pairs(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+    """ "Between two pairs of cubes" is between two groups that are of two each.
+
+    Args:
+        said: the words of the tree.
+        world: is not looked at.
+    """
+    return tree if said.words.isdisjoint(_TWOSOMES) else _several_pairs(tree)
+
+
+def _several_pairs(tree: ParseTree) -> ParseTree:
+    phrase, children = tree.phrase, tuple(map(_several_pairs, tree.children))
+    pairs = _TWOSOMES & {*phrase.words}
+    if phrase.plural and pairs and any(f"{word}s" in phrase.text.split(" ") for word in pairs):
+        words = dict.fromkeys((_GROUP, "of 2", *(word for word in phrase.words if word not in _TWOSOMES)))
+        phrase = replace(phrase, words=tuple(words))
+    if phrase.words[:1] == (_MIDDLE_OF,) and children != tree.children:
+        phrase = replace(phrase, words=(_BETWEEN, *phrase.words[1:]))
+    return ParseTree(phrase, children)
 
 
 def one_pair(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
