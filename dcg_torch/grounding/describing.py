@@ -34,7 +34,7 @@ from dcg_torch.grounding.on_the_ground import on_the_ground
 from dcg_torch.grounding.opposite import opposite
 from dcg_torch.grounding.outlines import by_outline
 from dcg_torch.grounding.over_under import by_height
-from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied, of_several
+from dcg_torch.grounding.reach import means_all, means_several, of_all, of_denied, of_several, surrounded
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.together import evenly, shaded, shades_among, so_many
 from dcg_torch.grounding.upon import by_side_upon
@@ -65,6 +65,7 @@ _OFF = 0.5
 """How far from the size that is said a thing may be to be compared."""
 _COMBINATIONS = 1728
 """Combinations of more than two landmarks that are weighed: all of three beams of twelve."""
+_SURROUNDED = "surrounded by"
 _LANDMARKS = 8
 """Landmarks that are weighed where several are meant together."""
 
@@ -78,7 +79,8 @@ def modifier_factor(
         beams: the hypotheses of each landmark.
         compared: (things,) those among which it ranks; None: all of a kind.
     """
-    several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
+    around = tree.phrase.words[0] == _SURROUNDED and tree.children[0].phrase.plural and NOT not in tree.phrase.words
+    several, combos = 0 if around else counted_landmark(tree), Combos(beams, _fewer(beams))
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     first = [of[0] for of in combos.things]
     having = of_having(tree, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
@@ -90,6 +92,8 @@ def modifier_factor(
     landmarks, scores = combos.things, combos.log_scores
     if len(beams) == 1 and not of_each and having is None:
         name = tree.phrase.words[0]
+        if around:
+            log_psi = surrounded(tree.children[0].phrase, first, log_psi, scores, encoder)
         far = of_denied(name, log_psi, first, scores, encoder, denied=NOT in tree.phrase.words)
         if far is not None:
             log_psi = far

@@ -68,9 +68,7 @@ def of_members(log_psi: Floats, groups: Sequence[int], encoder: WorldEncoder, *,
     return found
 
 
-def beside_members(
-    name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
-) -> Floats:
+def beside_members(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
     """(combos, things) what stands between two groups, or beside one, is in none of them.
 
     Args:

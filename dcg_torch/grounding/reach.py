@@ -85,6 +85,40 @@ def of_several(
     return best
 
 
+def surrounded(
+    phrase: Phrase, landmarks: Sequence[int], log_psi: Floats, scores: Floats, encoder: WorldEncoder
+) -> Floats:
+    """(landmarks, things) "surrounded by chairs": with one of them on every side, and those near.
+
+    Args:
+        phrase: of the landmarks, several.
+        log_psi: what is learned; it stays for what is no thing.
+        scores: (landmarks,) of the landmarks.
+    """
+    alike = np.flatnonzero(alike_by(scores))
+    mark, at = [landmarks[k] for k in alike.tolist()], encoder.layout.position[:, :2]
+    number = min(phrase.count or _ON_EVERY_SIDE, len(mark))
+    if number < 3 or not encoder.layout.solid[mark].all():
+        return log_psi
+    x, y = (at[None] - at[mark][:, None]).transpose(2, 0, 1)
+    away = np.where(np.isfinite(x) & (np.array(mark)[:, None] != np.arange(len(at))), np.hypot(x, y), np.inf)
+    near = np.argsort(away, axis=0)[:number]
+    mean = np.take_along_axis(away, near, axis=0).mean(axis=0)
+    angle = np.sort(np.arctan2(*(np.take_along_axis(v, near, axis=0) for v in (y, x))), axis=0)
+    gap = np.diff(angle, axis=0, append=angle[:1] + math.tau).max(axis=0)
+    known = np.isfinite(mean) & np.isfinite(gap)
+    if not known.any():
+        return log_psi
+    lost = np.maximum(gap - math.tau / number, 0.0) / _OPEN + np.log(mean / mean[known].min())
+    found = log_psi.copy()
+    found[alike] = np.where(known, -lost, log_psi[alike].min())
+    return found
+
+
+_ON_EVERY_SIDE, _OPEN = 4, math.radians(45.0)
+"""Things that surround another where nobody counts them, and the open angle for which it loses a nat."""
+
+
 def _within_reach(log_psi: Floats, landmarks: Sequence[int], encoder: WorldEncoder) -> Floats:
     """(combos, things) "the chairs around the table" are all that stand close to it, not the nearest one above all."""
     near = within_reach(landmarks, encoder)

@@ -286,8 +286,9 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
 
 
 def _is_a_side(place: ParseTree) -> bool:
-    landmark = place.children[0]
-    return place.phrase.words[0] in _AT and landmark.phrase.noun in SIDED and not landmark.children
+    landmark, name = place.children[0], place.phrase.words[0]
+    far = name in RANKING and place.phrase.text.split(" ")[0] in _AT  # "on your far left"
+    return (name in _AT or far) and landmark.phrase.noun in SIDED and not landmark.children
 
 
 def _within(place: ParseTree) -> ParseTree:

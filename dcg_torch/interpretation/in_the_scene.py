@@ -7,7 +7,7 @@ from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.faces import by_faces
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.nothing import by_nothing
-from dcg_torch.interpretation.others import by_others
+from dcg_torch.interpretation.others import by_introduction, by_others
 from dcg_torch.interpretation.paired import by_pairs
 from dcg_torch.interpretation.passages import by_passages
 from dcg_torch.interpretation.plain_lines import lines_from_here
@@ -24,6 +24,7 @@ _REWRITES = (
     by_passages,
     by_pairs,
     by_members,
+    by_introduction,
     by_others,
     by_rooms,
     by_compounds,

@@ -112,12 +112,17 @@ def _farthest_to_a_side(tree: ParseTree) -> ParseTree:
         return tree
     ends = [c for c in tree.children if c.phrase.words[:1] == ("farthest to",) and len(c.children) == 1]
     sides = [c.children[0] for c in ends if c.children[0].phrase.noun in LATERAL]
-    if len(sides) != 1 or sides[0].phrase.words or sides[0].children:
+    if len(sides) != 1 or sides[0].phrase.words or not all(map(_of_you, sides[0].children)):
         return tree
     side = sides[0].phrase.noun
     word = f"from the {side}" if not ORDINALS.keys().isdisjoint(phrase.words) else f"{side}most"
     kept = tuple(c for c in tree.children if c.children != (sides[0],))
     return ParseTree(replace(phrase, words=(*phrase.words, word)), kept)
+
+
+def _of_you(place: ParseTree) -> bool:
+    """ "Farthest to the left of you": as you see it."""
+    return place.phrase.words[:1] == ("of",) and [c.phrase.noun for c in place.children] == ["you"]
 
 
 def _counted_from_a_side(tree: ParseTree) -> ParseTree:
