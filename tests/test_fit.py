@@ -20,8 +20,8 @@ from dcg_torch.fitting.fit import Solver, fit, objective_at
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.fitting.reduction import reduce
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.fitting.written import count_firing
-from dcg_torch.grounding.encode import encode
+from dcg_torch.fitting.sparse_rows import count_firing
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
 

@@ -13,7 +13,7 @@ from dcg_torch.agent.asking import AskingPolicy, truthful
 from dcg_torch.agent.command import Look, Outcome, Stopwatch, carry_out
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
-from dcg_torch.interpretation.spoken import CommandParser
+from dcg_torch.interpretation.parser_protocol import CommandParser
 from dcg_torch.model import GroundingModel
 from dcg_torch.report.seconds import PHASES
 from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing

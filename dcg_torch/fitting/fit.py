@@ -21,15 +21,15 @@ from numpy.typing import NDArray
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.device_objective import minimise
 from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.lifting import lift
 from dcg_torch.fitting.objective import likelihood, max_norm
-from dcg_torch.fitting.on_device import minimise
 from dcg_torch.fitting.psi import Floats, LogLinearFactor, scores
 from dcg_torch.fitting.reduction import Reduced, reduce
 from dcg_torch.fitting.rows import ArrowheadRows, SparseRows
+from dcg_torch.fitting.sparse_rows import weight_at, write_out
 from dcg_torch.fitting.threads import one_thread
-from dcg_torch.fitting.written import weight_at, write_out
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -133,7 +133,7 @@ def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_])
 
 
 class Problem(NamedTuple):
-    """What `reduction.reduce` and `written.write_out` start from."""
+    """What `reduction.reduce` and `sparse_rows.write_out` start from."""
 
     designs: Sequence[DesignMatrix]
     weight: Floats

@@ -21,8 +21,7 @@ from dcg_torch.fitting.design import DesignMatrix, Ints, concatenate, stack
 from dcg_torch.fitting.objective import Objective
 from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
-from dcg_torch.fitting.written import (
+from dcg_torch.fitting.sparse_rows import (
     Mask,
     Written,
     at_cells,
@@ -34,6 +33,7 @@ from dcg_torch.fitting.written import (
     weight_at,
     write_out,
 )
+from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
 
 _FEW_ENTRIES, _SOME_ENTRIES, _MOST_ENTRIES = 50_000, 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out: always; unless they share many weights and are

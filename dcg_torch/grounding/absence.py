@@ -19,8 +19,8 @@ import numpy as np
 
 from dcg_torch.english.dictionary import english
 from dcg_torch.fitting.psi import Floats
-from dcg_torch.grounding.contrary import contradicted
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.contradictions import contradicted
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group

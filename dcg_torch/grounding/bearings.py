@@ -12,9 +12,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import ASLANT, UNSURE
 from dcg_torch.grounding.nearness import nearest_of_a_kind
-from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BESIDE_THE_WAY, WITHIN
 from dcg_torch.scene.layout import OF_ROBOT

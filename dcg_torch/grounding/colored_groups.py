@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.palette import named_rgb

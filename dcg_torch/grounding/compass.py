@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import that_way
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import ON_A_SIDE
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import ON_A_SIDE
 from dcg_torch.names.vocabulary import BY_COMPASS
 from dcg_torch.types import ParseTree
 

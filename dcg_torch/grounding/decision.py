@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.types import Object
 
 _EQUAL = math.log(0.9)

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import WAYS, behind, start_of_line
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group

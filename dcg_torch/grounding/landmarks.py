@@ -8,10 +8,10 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.scored import Scored
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.phrase_scores import Scored
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.everyday import is_everyday
+from dcg_torch.names.everyday_names import is_everyday
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_named

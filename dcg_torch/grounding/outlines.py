@@ -10,8 +10,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import inside_of, within_reach
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import inside_of, within_reach
 from dcg_torch.names.vocabulary import AT_END, OF_OUTLINE, TOWARDS
 from dcg_torch.scene.layout import HEADINGS
 

@@ -9,13 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.grounding.by_thing import ByThing
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
 from dcg_torch.grounding.frames import as_viewed
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.grounding.thing_values import ByThing
+from dcg_torch.interpretation.appearance_words import Looks, told_by_looking
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.interpretation.containers import in_what_holds_it
 from dcg_torch.interpretation.factor_tree import (
@@ -28,8 +29,7 @@ from dcg_torch.interpretation.factor_tree import (
     speaks_of,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
-from dcg_torch.interpretation.in_the_scene import in_the_scene
-from dcg_torch.interpretation.looking import Looks, told_by_looking
+from dcg_torch.interpretation.parser_protocol import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.plain_places import of_two_sides
 from dcg_torch.interpretation.room_parts import with_corners
 from dcg_torch.interpretation.rooms import (
@@ -39,8 +39,8 @@ from dcg_torch.interpretation.rooms import (
     with_rooms,
 )
 from dcg_torch.interpretation.scene_kinds import is_close_by
+from dcg_torch.interpretation.scene_rewrites import in_the_scene
 from dcg_torch.interpretation.shelves import with_tiers
-from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import with_levels
 from dcg_torch.names.attributes import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix, Ints
 from dcg_torch.fitting.psi import Bag, Floats
-from dcg_torch.grounding.encode import encode
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Said, child_feature, ranking
-from dcg_torch.grounding.features.said import facts
+from dcg_torch.grounding.features.name_facts import facts
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, PhraseKind
 
 Value = TypeVar("Value")

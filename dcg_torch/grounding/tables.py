@@ -15,7 +15,7 @@ import torch
 
 from dcg_torch import scene
 from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Ranking, Said, padded, ranking
 from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
 

@@ -24,7 +24,7 @@ from dcg_torch.names.attributes import (
     states_value,
 )
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.normal import normalise, singular
+from dcg_torch.names.normal_form import normalise, singular
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS, SIDED
 from dcg_torch.names.weights import log_odds, names_one_of

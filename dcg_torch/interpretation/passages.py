@@ -11,8 +11,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.scene_kinds import scene_kind
-from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BESIDE_THE_WAY, LATERAL, LIKE_RELATION, ORDINALS
 from dcg_torch.names.weights import names_one_of

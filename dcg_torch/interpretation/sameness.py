@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dcg_torch.names.attributes import attribute_key
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import lab
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import Object

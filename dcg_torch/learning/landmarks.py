@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, Modified
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.hypotheses import Combos, ModifierFactor
 from dcg_torch.grounding.readings import Reading

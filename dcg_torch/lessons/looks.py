@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import COLORS, KINDS, Scene, Told
 from dcg_torch.lessons.selections import ORDINALS
 from dcg_torch.types import Percept, Pose
 

@@ -17,25 +17,25 @@ from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.fit import FitResult, fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.command import ground_command
-from dcg_torch.grounding.encode import WorldEncoder, encode
+from dcg_torch.grounding.encoding import WorldEncoder, encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.interpretation.marks import heard
-from dcg_torch.interpretation.spoken import ReadCommand
+from dcg_torch.interpretation.parser_protocol import ReadCommand
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.caches import Followed, Kept
 from dcg_torch.model.growth import start_as_the_last, widened
-from dcg_torch.model.kept import Followed, Kept
-from dcg_torch.model.stored import Stored, write
-from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
+from dcg_torch.model.serialization import Stored, write
 from dcg_torch.model.teacher import Told, forgotten, interpret, settled
+from dcg_torch.model.training import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.variant import Variant, initial_features, restrict
 from dcg_torch.scene.upsilon import nearest_first, with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places

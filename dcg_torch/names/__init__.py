@@ -16,7 +16,7 @@ written out as they came.
 """
 
 from dcg_torch.names.evidence import evidence
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.weights import fact_weights, log_odds
 
 __all__ = ["evidence", "fact_weights", "log_odds", "normalise"]

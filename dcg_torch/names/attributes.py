@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 from typing import Final
 
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.normal import normalise, read_data
+from dcg_torch.names.normal_form import normalise, read_data
 from dcg_torch.names.palette import region
 from dcg_torch.names.weights import log_odds
 

@@ -17,7 +17,7 @@ from rapidfuzz.distance import OSA
 
 from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
 from dcg_torch.names.evidence import evidence, unheard_of
-from dcg_torch.names.normal import normalise, read_data, singular
+from dcg_torch.names.normal_form import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 from dcg_torch.names.rooms import room_keys, room_named
 

@@ -12,12 +12,12 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.kept_rows import KeptRows
 from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
 from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
+from dcg_torch.scene.row_cache import KeptRows
 from dcg_torch.scene.views import views
 
 _Over: TypeAlias = tuple[Bools, Bools] | None

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.simulator import navigation
-from dcg_torch.simulator.base import ROBOT_RADIUS, Base
 from dcg_torch.simulator.bodies import add_object, extent, footprint
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.client import Client, Closing
@@ -21,6 +20,7 @@ from dcg_torch.simulator.limits import ARRIVED, AT_PLACE, LEFT, MAX_DISTANCE, ch
 from dcg_torch.simulator.navigation import Circle, Points
 from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.simulator.view import Pixels
+from dcg_torch.simulator.wheels import ROBOT_RADIUS, Base
 from dcg_torch.simulator.window import OPTIONS, Window
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.types.geometry import bearing

@@ -10,12 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFilter
 
-from dcg_torch.simulator.base import add_robot
 from dcg_torch.simulator.bodies import add_model, add_object, extent, footprint
 from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.tiles import TILES, paint_floor, tiled
 from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
+from dcg_torch.simulator.wheels import add_robot
 from dcg_torch.types import Pose
 from dcg_torch.world.files import World
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from dcg_torch.evaluation.baselines.base import Array, Baseline, Guess, choose, fit_temperature, places_meant
 from dcg_torch.evaluation.episodes import Episode
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 
 _TOYS = {"ball": "sphere", "block": "cube", "box": "cube", "brick": "cube", "square": "cube"}
 """The few synonyms that whoever works with blocks would think of."""

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch import scene
 from dcg_torch.fitting.psi import Bag
+from dcg_torch.grounding.features.name_facts import Said, facts
 from dcg_torch.grounding.features.names import (
     PAIRS,
     Feature,
@@ -23,7 +24,6 @@ from dcg_torch.grounding.features.names import (
     scene_features,
     word_features,
 )
-from dcg_torch.grounding.features.said import Said, facts
 from dcg_torch.types import (
     LOOKED_ROUND,
     Child,
@@ -258,7 +258,7 @@ class FeatureSet:
         """Columns of what the names of things say about a phrase.
 
         Args:
-            looks: of each thing, see `said.look_codes`.
+            looks: of each thing, see `target_descriptions.look_codes`.
             kinds: what was found before under these columns, of things that are called alike; more is added.
         """
         kinds, denies = {} if kinds is None else kinds, said.denies()
