@@ -220,6 +220,18 @@ def test_the_checker_leaves_alone(module: str, source: str) -> None:
     assert violations({**dict.fromkeys(["model", "types"], ""), module: source}) == []
 
 
+def test_the_types_of_arrays_have_one_home() -> None:
+    """No module gives the types of arrays their names anew; `names` stands beside `types` and spells its own out."""
+    named = {"Floats", "Bools", "Ints", "Points"}
+    found = {
+        module
+        for module, source in sources().items()
+        for node in ast.parse(source).body
+        if isinstance(node, ast.Assign) and {ast.unparse(target) for target in node.targets} & named
+    }
+    assert found == {"types.arrays"}
+
+
 def test_a_model_needs_no_simulator_no_parser_and_no_configuration() -> None:
     """Nor do worlds, speakers and reports need torch."""
     heavy = "pybullet", "spacy", "hydra", "omegaconf"

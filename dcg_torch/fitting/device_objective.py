@@ -15,8 +15,8 @@ import torch
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.objective import max_norm
-from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.sparse_rows import Written
+from dcg_torch.types.arrays import Floats
 
 _CG_STEPS = 1000
 """Conjugate gradient steps at the most for one Newton step."""

@@ -17,7 +17,6 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.design import DesignMatrix
@@ -25,11 +24,12 @@ from dcg_torch.fitting.device_objective import minimise
 from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.lifting import lift
 from dcg_torch.fitting.objective import likelihood, max_norm
-from dcg_torch.fitting.psi import Floats, LogLinearFactor, scores
+from dcg_torch.fitting.psi import LogLinearFactor, scores
 from dcg_torch.fitting.reduction import Reduced, reduce
 from dcg_torch.fitting.rows import ArrowheadRows, SparseRows
 from dcg_torch.fitting.sparse_rows import weight_at, write_out
 from dcg_torch.fitting.threads import one_thread
+from dcg_torch.types.arrays import Bools, Floats
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -60,7 +60,7 @@ def fit(
     designs: Sequence[DesignMatrix],
     *,
     l2: float | Floats,
-    free: NDArray[np.bool_] | None = None,
+    free: Bools | None = None,
     prior: Floats | None = None,
     tolerance: float = 1e-7,
     max_steps: int = 500,
@@ -115,7 +115,7 @@ def fit(
     )
 
 
-def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
+def _strength(l2: float | Floats, active: Bools) -> Floats:
     """(L, G) of the penalty.
 
     Raises:
@@ -127,7 +127,7 @@ def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
     return strength
 
 
-def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:
+def _with_prior(weight: Floats, prior: Floats | None, active: Bools) -> Floats:
     """New weights (P, L, G), the prior where they are to move."""
     return np.where(active, 0.0 if prior is None else prior, weight)
 
@@ -138,7 +138,7 @@ class Problem(NamedTuple):
     designs: Sequence[DesignMatrix]
     weight: Floats
     fixed: Floats
-    active: NDArray[np.bool_]
+    active: Bools
     strength: Floats
     times: Floats | None
 

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import DesignMatrix, Ints, numbered
+from dcg_torch.fitting.design import DesignMatrix, numbered
 from dcg_torch.fitting.objective import likelihood
-from dcg_torch.fitting.psi import Bag, Floats, scores, wrapped
+from dcg_torch.fitting.psi import Bag, scores, wrapped
 from dcg_torch.fitting.symmetry import Incidence, bits_of, count_distinct, row_keys
-
-Mask = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _SCATTERED = 8
 """By how much longer it takes to look at a weight here and there than at all in a row."""
@@ -46,7 +44,7 @@ def write_out(
     designs: Sequence[DesignMatrix],
     weight: Floats,
     fixed: Floats,
-    active: Mask,
+    active: Bools,
     strength: Floats,
     times: Floats | None = None,
 ) -> Written:
@@ -64,7 +62,7 @@ def write_out(
     return Written(incidence, count, offset, start, own, columns, constant)
 
 
-def count_firing(designs: Sequence[DesignMatrix], active: Mask) -> int:
+def count_firing(designs: Sequence[DesignMatrix], active: Bools) -> int:
     """How many of the active weights fire in some row."""
     seen = np.zeros((active.shape[0] + 1) * (active.shape[1] + 1), dtype=np.bool_)
     for design in designs:
@@ -112,7 +110,7 @@ def _compact(bag: Bag) -> tuple[Ints, Bag]:
     return columns, number[bag]
 
 
-def constant_of(count: Floats, offset: Floats | None, rows: Mask) -> float:
+def constant_of(count: Floats, offset: Floats | None, rows: Bools) -> float:
     """The negative log-likelihood of some rows, whose scores are `offset`."""
     own = count[:, rows]
     u = np.zeros((len(count) - 1, own.shape[1])) if offset is None else offset[:, rows]
@@ -133,7 +131,7 @@ def _codes(design: DesignMatrix, shape: tuple[int, int]) -> Ints:
     return left[:, :, None] + wrapped(design.grounding, groundings + 1)[:, None, :]
 
 
-def _one_more(mask: Mask) -> Mask:
+def _one_more(mask: Bools) -> Bools:
     """(L + 1, G + 1) with what padding fires: nothing."""
     found = np.zeros((mask.shape[0] + 1, mask.shape[1] + 1), dtype=np.bool_)
     found[:-1, :-1] = mask
@@ -155,7 +153,7 @@ def _offset(designs: Sequence[DesignMatrix], codes: Sequence[Ints], fixed: Float
     return np.concatenate(totals, axis=1)
 
 
-def _not_zero(designs: Sequence[DesignMatrix], weight: Floats) -> Mask:
+def _not_zero(designs: Sequence[DesignMatrix], weight: Floats) -> Bools:
     """(L + 1, G + 1) which of the pairs that may fire have a weight; of others it may say anything."""
     firing = [tuple(_compact(bag)[0] for bag in (design.language, design.grounding)) for design in designs]
     if sum(len(left) * len(right) for left, right in firing) * _SCATTERED > weight[0].size:
@@ -166,7 +164,7 @@ def _not_zero(designs: Sequence[DesignMatrix], weight: Floats) -> Mask:
     return some
 
 
-def _written_out(codes: Sequence[Ints], active: Mask) -> tuple[Incidence, Ints, Ints]:
+def _written_out(codes: Sequence[Ints], active: Bools) -> tuple[Incidence, Ints, Ints]:
     """Which pairs fire: of the rows in which some does, the rows' numbers, and the cells of (L, G) that do."""
     groundings = active.shape[1]
     mask = _one_more(active)

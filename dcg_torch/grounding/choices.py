@@ -26,18 +26,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.design import row_hashes, stack_bags
-from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
+from dcg_torch.fitting.psi import Bag, LogLinearFactor
 from dcg_torch.fitting.threads import one_thread
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.hypotheses import SLIP
 from dcg_torch.types import Correspondence, Phrase
-
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True)

@@ -6,14 +6,12 @@ import functools
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, states_value
 from dcg_torch.names.vocabulary import WORKED_OUT
 from dcg_torch.types import Object
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _UNMARKED = 2.0
 """As many such words is a mark that a thing does not bear: "block 7" of block 8."""

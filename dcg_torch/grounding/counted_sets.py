@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features.name_facts import look_scores
@@ -23,9 +22,7 @@ from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
 from dcg_torch.scene.neighbours import nearest
 from dcg_torch.scene.order import highest
 from dcg_torch.types import ParseTree, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _IN_THE_SET = math.log(0.5)
 _BEYOND = 1e6

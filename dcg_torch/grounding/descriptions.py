@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
@@ -46,9 +45,7 @@ from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, TIER, TOGETHER, counted
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _IN_THE_SET = math.log(0.5)
 _GROUP_IN_THE_SET = math.log(0.1)

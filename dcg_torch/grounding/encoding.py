@@ -26,8 +26,7 @@ from dcg_torch.grounding.features import (
 from dcg_torch.interpretation.scene_kinds import stands_among
 from dcg_torch.scene.order import numbered
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, WorldModel
-
-Ints = NDArray[np.int64]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _FEW = 256
 """Things up to which it does not pay to look for rows that are alike."""
@@ -114,7 +113,7 @@ class WorldEncoder:
         return {thing.id: j for j, thing in enumerate(self.all)}
 
     @cached_property
-    def perceived(self) -> NDArray[np.bool_]:
+    def perceived(self) -> Bools:
         """(things,) is it there, as far as the robot can tell?"""
         return np.array([not o.hypothetical for o in self.all], dtype=np.bool_)
 
@@ -176,7 +175,7 @@ class WorldEncoder:
         columns = self.features.said_columns(said, things, looks[one].tolist(), self._kinds)
         return Coded(np.hstack([objects.bag[objects.code[one]], padded(columns)]), code)
 
-    def ranked(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Bag:
+    def ranked(self, phrase: Phrase, members: Bools | None = None) -> Bag:
         """(things, k) bag of a noun phrase's factors.
 
         Args:
@@ -184,7 +183,7 @@ class WorldEncoder:
         """
         return self.noun(phrase, members).rows
 
-    def noun(self, phrase: Phrase, members: NDArray[np.bool_] | None = None) -> Coded:
+    def noun(self, phrase: Phrase, members: Bools | None = None) -> Coded:
         """The same, things that are alike once."""
         counted = ranking(phrase)
         if counted is None or not self.related:
@@ -202,12 +201,12 @@ class WorldEncoder:
         return scene.Relations(self.layout)
 
     def relations(
-        self, landmarks: Sequence[tuple[int, ...]], counted: Ranking, members: NDArray[np.bool_] | None = None
+        self, landmarks: Sequence[tuple[int, ...]], counted: Ranking, members: Bools | None = None
     ) -> NDArray[np.int16]:
         """(families, landmarks, things) to each tuple of numbers of landmarks, see `scene.Relations`."""
         return self._relations.to(landmarks, counted.among, members, counted.ordinal, counted.count)
 
-    def distances(self, landmarks: Sequence[int]) -> NDArray[np.float64]:
+    def distances(self, landmarks: Sequence[int]) -> Floats:
         """(landmarks, things) units from each to every thing, between their extents; not to be written to."""
         return self._relations.standing.of(landmarks)[1]
 
@@ -215,7 +214,7 @@ class WorldEncoder:
         self,
         landmarks: Sequence[tuple[int, ...]],
         counted: Ranking | None,
-        members: NDArray[np.bool_] | None = None,
+        members: Bools | None = None,
     ) -> Bag:
         """(landmarks, things, k) bag of a modifier's factors, to each tuple of numbers of landmarks.
 
@@ -252,8 +251,8 @@ class _Labelled:
 
     phrase: Phrase
     grounding: Bag
-    label: NDArray[np.int64]
-    weight: NDArray[np.float64]
+    label: Ints
+    weight: Floats
 
 
 def _labelled(examples: Sequence[Example], features: FeatureSet) -> list[_Labelled]:
@@ -301,7 +300,7 @@ def _merged(rows: Sequence[_Labelled], features: FeatureSet, correspondences: Se
     )
 
 
-def firing(designs: Sequence[DesignMatrix], shape: tuple[int, int]) -> NDArray[np.bool_]:
+def firing(designs: Sequence[DesignMatrix], shape: tuple[int, int]) -> Bools:
     """(L, G) the features that fire in some labelled factor."""
     found = np.zeros((shape[0] + 1, shape[1] + 1), dtype=np.bool_)  # the last of each is the padding
     for design in designs:

@@ -6,14 +6,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.evidence import evidence
 from dcg_torch.types import OPAQUE, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _EQUAL, _OTHERWISE = "name: equal", frozenset({"name: none", "name: shared word", "name: class is word"})
 _BEHIND = 3.0

@@ -11,7 +11,6 @@ from collections.abc import Collection
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import behind
 from dcg_torch.grounding.encoding import WorldEncoder
@@ -20,9 +19,7 @@ from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.vocabulary import ORDINALS
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Object, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _EVEN = 0.04
 """Logarithms of measures that differ by less are even."""

@@ -8,12 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.relations import listed
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _ON = listed("on the ground")
 _RESTS = -4.0

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.interpretation.plain_words import in_group
@@ -16,8 +15,7 @@ from dcg_torch.names.vocabulary import GROUP_WORDS, LATERAL, OWNERS, counted
 from dcg_torch.scene.groups import CLUSTER, ROW
 from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _OTHER = 5.0
 """Nats that a group of another number loses."""

@@ -9,16 +9,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.measured_relations import ASLANT, NEARNESS, ON_A_SIDE, UNSURE, aslant
 from dcg_torch.grounding.stated_distances import gaps_between
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import NO_OTHER, NOTHING
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _TOUCHING, _NEAR = 0.05, 0.6
 """Metres of a gap below which things touch, and units up to which one is near another."""

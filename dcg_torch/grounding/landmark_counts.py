@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import behind
 from dcg_torch.grounding.encoding import WorldEncoder
@@ -19,8 +18,7 @@ from dcg_torch.interpretation.plain_words import COUNTED_FROM
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import ORDINALS, is_superlative
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _ALIKE = 0.7
 """Nats by which what is counted may be described less well than the best, apart from where it is."""

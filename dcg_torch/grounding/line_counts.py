@@ -8,15 +8,12 @@ from __future__ import annotations
 from collections.abc import Collection
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import EVEN, WAYS, behind, start_of_line
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.vocabulary import ORDINALS, cardinal, is_superlative
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _LAST = "last"
 _ALONE = 2.0

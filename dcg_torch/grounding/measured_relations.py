@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.modifiers import ranks_from
@@ -21,9 +20,8 @@ from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.relation_names import RELATION_NAMES
 from dcg_torch.scene.relations import between
 from dcg_torch.types import NOT, ParseTree, Phrase
+from dcg_torch.types.arrays import Bools, Floats
 
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
 Column = Floats | float
 
 

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.extents import measured
 from dcg_torch.grounding.first_few import first_few
@@ -16,9 +13,7 @@ from dcg_torch.grounding.line_ends import outermost
 from dcg_torch.grounding.odd_one_out import odd_one
 from dcg_torch.grounding.receding_rows import in_a_row_ahead
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 
 def by_measure(

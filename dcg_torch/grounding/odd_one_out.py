@@ -11,16 +11,13 @@ from collections.abc import Hashable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.palette import lab
 from dcg_torch.names.vocabulary import ODD, WORKED_OUT
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import LOOKED_ROUND, Object, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _NOT_IT = -6.0
 """Nats that a thing loses that is not the odd one."""

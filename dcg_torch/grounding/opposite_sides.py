@@ -8,12 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.stated_distances import gaps_between
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats, Ints
 
 OPPOSITE = "opposite"
 _REACH = 1.0
@@ -50,7 +48,7 @@ def opposite(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], e
     return np.maximum(found, 2.0 * _LEAST)
 
 
-def _between(mark: int, solid: NDArray[np.int64], encoder: WorldEncoder) -> list[int]:
+def _between(mark: int, solid: Ints, encoder: WorldEncoder) -> list[int]:
     """What a landmark stands at and others may stand at: larger things near by."""
     bodies = encoder.layout.bodies
     if bodies is None or mark >= len(bodies.half):

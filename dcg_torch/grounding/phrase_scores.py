@@ -7,14 +7,11 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.hypotheses import Combos, Highest, ModifierFactor
 from dcg_torch.scene.order import highest
 from dcg_torch.types import Correspondence, ParseTree, PhraseKind
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 FEW = 256
 """Things up to which it does not pay to look for those whose scores are equal."""
@@ -42,7 +39,7 @@ class Scored(NamedTuple):
     combos: Combos
     meant: Sequence[Correspondence]
     scores: Floats
-    code: NDArray[np.int64] | None = None
+    code: Ints | None = None
     modifiers: Sequence[ModifierFactor] = ()
     log_odds: Floats | None = None
     log_fit: Floats | None = None

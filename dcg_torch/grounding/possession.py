@@ -10,15 +10,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.measured_relations import alike_by, gaps
 from dcg_torch.names.relations import listed
 from dcg_torch.scene.order import numbered
 from dcg_torch.types import NOT, ParseTree, Phrase
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _WITH = "with"
 _ASIDE, _E_FOLD, _STEP = 1.0, 2.0, 0.2
@@ -71,13 +69,13 @@ def of_having(
     return found
 
 
-def _own(own: Floats) -> NDArray[np.bool_]:
+def _own(own: Floats) -> Bools:
     """(landmarks, things) which are a thing's own: all that are on it, or else about as near as the nearest."""
-    covered: NDArray[np.bool_] = own > np.minimum(_OWN, own.max(axis=0) - _AS_NEAR)
+    covered: Bools = own > np.minimum(_OWN, own.max(axis=0) - _AS_NEAR)
     return covered & (own > _NOT_ITS)
 
 
-def _of_number(phrase: Phrase, counts: NDArray[np.int64], encoder: WorldEncoder) -> Floats:
+def _of_number(phrase: Phrase, counts: Ints, encoder: WorldEncoder) -> Floats:
     """(things,) what those lose that have more or fewer than is said: "with two mugs", "with the most mugs".
 
     Args:
@@ -124,5 +122,5 @@ def _as_points(half: Floats, mark: Sequence[int]) -> Floats:
     return found
 
 
-def _padded(covers: NDArray[np.bool_], things: int) -> NDArray[np.bool_]:
+def _padded(covers: Bools, things: int) -> Bools:
     return np.pad(covers, ((0, 0), (0, things - covers.shape[1])))

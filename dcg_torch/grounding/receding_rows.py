@@ -9,15 +9,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import behind
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.names.vocabulary import ORDINALS
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _ENDS = {"leftmost": 1.0, "rightmost": -1.0, "left": 1.0, "right": -1.0, "from the left": 1.0, "from the right": -1.0}
 """Word -> whether the first is the one that is seen farthest to the left."""

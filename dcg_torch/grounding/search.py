@@ -6,7 +6,6 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.contradictions import of_missing_marks
@@ -26,9 +25,7 @@ from dcg_torch.grounding.thing_values import ByThing
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Correspondence, ParseTree, Phrase, PhraseKind
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""

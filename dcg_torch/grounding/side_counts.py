@@ -10,16 +10,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, PLACE_WORDS, SIDED, VERTICAL
 from dcg_torch.types import ParseTree, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _ALIKE = math.log(0.5)
 _PARTS = (1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0)

@@ -8,14 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.interpretation.distances import Apart, said_apart, said_turn
 from dcg_torch.names.vocabulary import NEARER_OF_TWO, NEARER_THAN, SO_FAR
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _SLIP = 0.001
 """The least probability that a thing is meant that is farther or closer than is said."""

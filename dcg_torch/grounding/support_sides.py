@@ -10,15 +10,12 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.measured_relations import ON_A_SIDE, TOUCHING, sides_of
 from dcg_torch.names.vocabulary import BESIDE_WHOM
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from dcg_torch.types.arrays import Floats, Ints
 
 _ALIKE = math.pi / 4.0
 """Angle by which views of one side differ at most."""

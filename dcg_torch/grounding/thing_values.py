@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
 import numpy as np
-from numpy.typing import NDArray
+
+from dcg_torch.types.arrays import Floats
 
 
 class ByThing(Mapping[str, float]):
@@ -17,7 +18,7 @@ class ByThing(Mapping[str, float]):
         values: (things,) those of the first of them.
     """
 
-    def __init__(self, number: Mapping[str, int], values: NDArray[np.float64]) -> None:
+    def __init__(self, number: Mapping[str, int], values: Floats) -> None:
         self._number = number
         self._values = values
 

@@ -9,16 +9,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import ranks_from
 from dcg_torch.names.vocabulary import ORDINALS, is_superlative
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _ENDS = {"highest": 1.0, "lowest": -1.0}
 _OTHER_TIER = -8.0

@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.measured_relations import TOUCHING, gaps
@@ -18,10 +17,7 @@ from dcg_torch.names.relations import listed
 from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.layout import Layout
 from dcg_torch.scene.neighbours import SAME_SPOT
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-Ints = NDArray[np.int64]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _OVER, _UNDER = listed("straight over"), listed("straight under")
 _ON, _UPRIGHT = listed("resting on"), {"above"} | _UNDER

@@ -7,16 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.psi import Floats, LogLinearFactor
+from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, KindColumns
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.types import Example, WorldModel
-
-Mask = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _MOST_KINDS = 1 << 14
 """Kinds of things whose columns are kept from world to world."""
@@ -79,7 +77,7 @@ class Followed:
     prior: Floats | None
     examples: Sequence[Example]
     soft: Sequence[SoftLabels]
-    free: Mask | None
+    free: Bools | None
 
     def same(self, other: Followed) -> bool:
         """Would a fit find the same weights again? Examples are the same only if they are the same objects."""
@@ -100,5 +98,5 @@ def _equal(one: SoftLabels, other: SoftLabels) -> bool:
     return np.array_equal(one.active, other.active) and np.array_equal(one.inactive, other.inactive)
 
 
-def _same_mask(one: Mask | None, other: Mask | None) -> bool:
+def _same_mask(one: Bools | None, other: Bools | None) -> bool:
     return one is other if one is None or other is None else np.array_equal(one, other)

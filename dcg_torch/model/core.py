@@ -10,7 +10,6 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.devices import device_of
@@ -40,6 +39,7 @@ from dcg_torch.model.variant import Variant, initial_features, restrict
 from dcg_torch.scene.upsilon import nearest_first, with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
+from dcg_torch.types.arrays import Bools, Floats
 
 
 class GroundingModel:
@@ -60,8 +60,8 @@ class GroundingModel:
         self.features = features
         self.factor = factor
         self.learner = learner
-        self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
-        self.prior: NDArray[np.float64] | None = None
+        self.held: Bools = np.zeros(features.shape, dtype=np.bool_)
+        self.prior: Floats | None = None
         self.fitted: FitResult | None = None
         self._kept = Kept(Statistics(features.groups))
 
@@ -310,7 +310,7 @@ class GroundingModel:
         self.held = widened(self.held, features.shape)
         self.prior = None if self.prior is None else widened(self.prior, features.shape)
 
-    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
+    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: Bools | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place: see `fit`."""
         self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior)
         return self.fitted

@@ -15,7 +15,6 @@ from pathlib import Path
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from pydantic import ConfigDict, TypeAdapter, ValidationError
 from pydantic.dataclasses import dataclass as checked
 from safetensors import SafetensorError
@@ -31,6 +30,7 @@ from dcg_torch.model.variant import Variant
 from dcg_torch.storage.atomic_files import read_whole_files, write_whole_files
 from dcg_torch.storage.errors import UserError
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Bools, Floats
 
 WEIGHTS, DESCRIPTION = "weights.safetensors", "model.json"
 FORMAT = 2
@@ -67,8 +67,8 @@ class Stored:
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
-    prior: NDArray[np.float64] | None
-    held: NDArray[np.bool_]
+    prior: Floats | None
+    held: Bools
 
 
 def write(stored: Stored, directory: Path | str) -> None:

@@ -7,7 +7,6 @@ from dataclasses import replace
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.fit import FitResult
@@ -38,6 +37,7 @@ from dcg_torch.model.variant import Variant
 from dcg_torch.names.weights import log_odds
 from dcg_torch.scene.upsilon import with_known
 from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
+from dcg_torch.types.arrays import Bools, Floats
 
 RELATION_L2 = 1.0
 """Penalty on the weights that are taught by generated lessons."""
@@ -60,8 +60,8 @@ class Teachable(Protocol):
     features: FeatureSet
     factor: LogLinearFactor
     learner: Learner
-    prior: NDArray[np.float64] | None
-    held: NDArray[np.bool_]
+    prior: Floats | None
+    held: Bools
 
     @property
     def known_types(self) -> tuple[str, ...]:
@@ -76,7 +76,7 @@ class Teachable(Protocol):
         """Of a tree of factors."""
         ...
 
-    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
+    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: Bools | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place."""
         ...
 
@@ -148,11 +148,11 @@ def _fit(
     parts: Sequence[Part],
     always: Sequence[Choice],
     *,
-    free: NDArray[np.bool_] | None,
+    free: Bools | None,
     l2: float,
     rounds: int,
     progress: Progress | None,
-) -> NDArray[np.bool_]:
+) -> Bools:
     """Fit the free weights to what is meant and to choices that are always there; (L, G) which features fired last."""
     fired = np.zeros(model.features.shape, dtype=np.bool_)
     prior = np.zeros(tuple(model.factor.weight.shape)) if model.prior is None else model.prior
@@ -178,7 +178,7 @@ def _fit(
     return fired
 
 
-def _as_if_named(model: Teachable, said: Taught) -> NDArray[np.float64]:
+def _as_if_named(model: Teachable, said: Taught) -> Floats:
     """(P, L, G) what makes a type that a word was settled on as good as one that is called by the word.
 
     Where all that is there is of one type, no choice tells that the word names it, and yet it does. Where there was a

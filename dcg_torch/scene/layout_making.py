@@ -8,11 +8,12 @@ import math
 import numpy as np
 
 from dcg_torch.scene.bodies import Bodies, bodies
-from dcg_torch.scene.layout import DIRECTION, EDGES, GROUND, HEADINGS, OF_SPEAKER, Floats, Ints, Layout
+from dcg_torch.scene.layout import DIRECTION, EDGES, GROUND, HEADINGS, OF_SPEAKER, Layout
 from dcg_torch.scene.order import TIE
 from dcg_torch.scene.outlooks import outlooks
 from dcg_torch.scene.upright_pictures import before_it, laid_flat
 from dcg_torch.types import Object, Pose, WorldModel
+from dcg_torch.types.arrays import Floats, Ints
 from dcg_torch.types.geometry import positions, to_robot_frame
 
 _ROBOT = "robot"

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dcg_torch.types.arrays import Ints
+
 Arrays = tuple[NDArray[Any], ...]
 
 _MANY = 1024
@@ -22,7 +24,7 @@ class KeptRows:
         count: of all numbers.
     """
 
-    def __init__(self, find: Callable[[NDArray[np.int64]], Arrays], count: int) -> None:
+    def __init__(self, find: Callable[[Ints], Arrays], count: int) -> None:
         self._find = find
         self._count = count
         self._row: dict[int, int] = {}

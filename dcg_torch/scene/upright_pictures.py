@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.scene.order import TIE, Floats
+from dcg_torch.scene.order import TIE
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.arrays import Bools, Floats
 from dcg_torch.types.geometry import positions, to_robot_frame
 
 _SPOT = 0.05
@@ -74,7 +74,7 @@ def _next_row(height: Floats) -> float:
     return 1.5 * float(steps.max()) if even else np.inf
 
 
-def _is_full_grid(beside: NDArray[np.bool_], height: Floats) -> bool:
+def _is_full_grid(beside: Bools, height: Floats) -> bool:
     """Whether things (n,) fill at least two rows of three, so that there are as many in every column.
 
     Args:

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
@@ -20,6 +19,7 @@ from dcg_torch.names.evidence import evidence
 from dcg_torch.names.palette import named_rgb
 from dcg_torch.names.weights import FACTS, fact_weights, log_odds
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, Phrase
+from dcg_torch.types.arrays import Floats, Ints
 
 _SAME_COLOR = frozenset({"color: equal", "color: same hue", "color: alike"})
 _TRUST = 0.6
@@ -129,7 +129,7 @@ def _denies(word: str, thing: Object, named: bool) -> bool:
     )
 
 
-def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.int64] | None:
+def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> Ints | None:
     """How far each thing that shows its colour stays behind the one that the words fit best.
 
     Returns:
@@ -144,7 +144,7 @@ def look_codes(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.i
     return found
 
 
-def look_scores(words: tuple[str, ...], things: Sequence[Object]) -> NDArray[np.float64] | None:
+def look_scores(words: tuple[str, ...], things: Sequence[Object]) -> Floats | None:
     """(things,) how well words fit what each looks like, among these things; NaN for what shows no colour.
 
     Where none shows it, the names of their colours say what they look like. None where the words say nothing of it.
