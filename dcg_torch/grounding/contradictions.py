@@ -8,7 +8,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_evidence, states_value
+from dcg_torch.names.attribute_values import states_value
+from dcg_torch.names.attributes import NOT_, attribute_evidence
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import WORKED_OUT
 from dcg_torch.types import Object
 from dcg_torch.types.arrays import Floats

@@ -16,7 +16,7 @@ from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features.name_facts import look_scores
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import ranks_from, tells_which_few
-from dcg_torch.names.attributes import size_side
+from dcg_torch.names.attribute_values import size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
 from dcg_torch.scene.neighbours import nearest

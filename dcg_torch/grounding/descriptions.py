@@ -40,8 +40,10 @@ from dcg_torch.grounding.vertical_relations import by_height
 from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.interpretation.sameness import SAME_AS, log_same
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence, says_size, size_side
+from dcg_torch.names.attribute_values import says_size, size_side
+from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import CELL, GROUP_WORDS, TIER, TOGETHER, counted
 from dcg_torch.types import NOT, Correspondence, ParseTree, Phrase, PhraseKind

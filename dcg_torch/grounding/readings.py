@@ -42,7 +42,7 @@ from dcg_torch.interpretation.scene_kinds import is_close_by
 from dcg_torch.interpretation.scene_rewrites import in_the_scene
 from dcg_torch.interpretation.shelves import with_tiers
 from dcg_torch.interpretation.stacks import with_levels
-from dcg_torch.names.attributes import OF_KEY
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel

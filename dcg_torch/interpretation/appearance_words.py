@@ -7,7 +7,7 @@ import operator
 import re
 from dataclasses import dataclass, replace
 
-from dcg_torch.names.attributes import stated_values
+from dcg_torch.names.attribute_values import stated_values
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.weights import names_one_of

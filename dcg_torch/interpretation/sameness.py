@@ -7,8 +7,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from dcg_torch.names.attributes import attribute_key
 from dcg_torch.names.color_names import color_evidence
+from dcg_torch.names.keys import attribute_key
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import lab
 from dcg_torch.scene.bodies import bulk

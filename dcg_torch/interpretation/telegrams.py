@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from dcg_torch.english.forms import parts
-from dcg_torch.names.attributes import says_value
+from dcg_torch.names.attribute_values import says_value
 from dcg_torch.names.normal_form import read_data
 
 

@@ -15,8 +15,9 @@ from typing import Any, Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
+from dcg_torch.names.attribute_values import describes
 from dcg_torch.names.evidence import evidence, unheard_of
+from dcg_torch.names.keys import OF_KEY, attribute_key
 from dcg_torch.names.normal_form import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 from dcg_torch.names.rooms import room_keys, room_named

@@ -1,7 +1,7 @@
 """Where things are, as names of binary features: states, ranks, and relations between things.
 
 places      what can be spoken of beside the objects: places, and groups of objects
-layout      a world's things as arrays, seen from the robot (made by `layout_making`)
+layout      a world's things as arrays, seen from the robot (`layout_making` makes them)
 ranks       by itself: clear or covered, on the floor, held ...; among those alike: leftmost, second, biggest ...
 relations   to a landmark: above, beside, at which distance and on which side, closest to it of those alike ...
 """
