@@ -174,13 +174,7 @@ def comparison_set(
     several = close or picked_from(phrase)
     shades = comparing_words(phrase.look) if several else ()  # they compare those, not all in view
     told = of_attributes(phrase.words, encoder)
-    apart = tuple(word for word in told if not says_size(word))
-    look = tuple(w for w in phrase.look if w not in shades)
-    bare = phrase if (apart, look) == (phrase.words, phrase.look) else replace(phrase, words=apart, look=look)
-    table = tables.unranked(encoder, bare)
-    number = tables.factor.correspondences.index
-    fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
-    odds = fit - table[number(Correspondence.INACTIVE)]
+    fit, odds = _fit_of(_that_describes(phrase, told, shades), encoder, tables)
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
@@ -206,6 +200,20 @@ def comparison_set(
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
     phrase, log_measure = by_measure(phrase, told, modifiers, (described, fit), encoder)
     return Comparison(described, log_size + log_shade + log_measure, phrase)
+
+
+def _that_describes(phrase: Phrase, told: Sequence[str], shades: Sequence[str]) -> Phrase:
+    """A noun phrase of the words alone that describe by themselves: neither sizes nor shades, which compare."""
+    words = tuple(word for word in told if not says_size(word))
+    look = tuple(word for word in phrase.look if word not in shades)
+    return phrase if (words, look) == (phrase.words, phrase.look) else replace(phrase, words=words, look=look)
+
+
+def _fit_of(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> tuple[Floats, Floats]:
+    """(things,) log Psi of what a noun phrase says, -inf of what is not perceived; and its log-odds against nothing."""
+    table, number = tables.unranked(encoder, phrase), tables.factor.correspondences.index
+    fit: Floats = np.where(encoder.perceived, table[number(Correspondence.ACTIVE)], -np.inf)
+    return fit, fit - table[number(Correspondence.INACTIVE)]
 
 
 def _sized(
