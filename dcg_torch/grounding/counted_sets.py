@@ -43,7 +43,7 @@ _TOUCHING = 0.02
 """Share of the diagonal of the box around all below which distances are alike."""
 
 
-def so_many(
+def counted_set(
     several: int, own: Floats, fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder, close: bool
 ) -> tuple[Bools, Floats] | None:
     """The so many things that a phrase speaks of, and the log-factor of being one of them.

@@ -13,29 +13,29 @@ from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.compass import by_compass
 from dcg_torch.grounding.contradictions import of_contradictions
-from dcg_torch.grounding.counted_sets import evenly, shaded, shades_among, so_many
+from dcg_torch.grounding.counted_sets import counted_set, evenly, shaded, shades_among
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.grounding.exact_names import by_that_name
+from dcg_torch.grounding.exact_names import compared_by_name
 from dcg_torch.grounding.features import picked_from, ranking
 from dcg_torch.grounding.features.name_facts import is_ruled_out
-from dcg_torch.grounding.floor_support import on_the_ground
+from dcg_torch.grounding.floor_support import by_floor_support
 from dcg_torch.grounding.group_membership import log_of_group, of_members
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
-from dcg_torch.grounding.isolation import nothing_near
+from dcg_torch.grounding.isolation import of_isolation
 from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured_relations import means_all, means_several, of_all, of_denied
-from dcg_torch.grounding.measurement import by_measure, of_some
+from dcg_torch.grounding.measurement import by_measurement, by_measurement_of_few
 from dcg_torch.grounding.modifiers import counted_landmark, is_in_a_group, ranks_from
 from dcg_torch.grounding.nearness import by_nearness, nearer_between
-from dcg_torch.grounding.opposite_sides import opposite
+from dcg_torch.grounding.opposite_sides import by_opposite_side
 from dcg_torch.grounding.outlines import by_outline
-from dcg_torch.grounding.possession import of_having
-from dcg_torch.grounding.side_counts import so_many_deep, so_many_on_a_side
-from dcg_torch.grounding.size_deviation import off_size
+from dcg_torch.grounding.possession import of_possession
+from dcg_torch.grounding.side_counts import counted_on_side, deepest_few
+from dcg_torch.grounding.size_deviation import size_deviation
 from dcg_torch.grounding.stated_distances import MEASURED, log_distance
-from dcg_torch.grounding.support_sides import by_side_upon
+from dcg_torch.grounding.support_sides import by_support_side
 from dcg_torch.grounding.tables import Tables
-from dcg_torch.grounding.tiers import in_its_tier
+from dcg_torch.grounding.tiers import of_tier
 from dcg_torch.grounding.vertical_relations import by_height
 from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
@@ -80,7 +80,7 @@ def modifier_factor(
     several, combos = counted_landmark(tree), Combos(beams, _fewer(beams))
     log_psi = _log_psi(tree, combos.things, encoder, tables, compared)
     first = [of[0] for of in combos.things]
-    having = of_having(tree, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
+    having = of_possession(tree, log_psi, first, combos.log_scores, several, encoder) if len(beams) == 1 else None
     log_psi = log_psi if having is None else having
     if of_each := several > 0 and len(combos) >= several:
         chosen = list(itertools.combinations(range(min(len(combos), _LANDMARKS)), several))
@@ -119,11 +119,11 @@ def _log_psi(
     log_psi: Floats = table[tables.factor.correspondences.index(asserted)]
     if denied:
         return log_psi
-    log_psi = by_outline(name, on_the_ground(name, log_psi, landmarks, encoder), landmarks, encoder)
-    log_psi = by_side_upon(tree.phrase, log_psi, landmarks, encoder)
+    log_psi = by_outline(name, by_floor_support(name, log_psi, landmarks, encoder), landmarks, encoder)
+    log_psi = by_support_side(tree.phrase, log_psi, landmarks, encoder)
     log_psi = by_height(name, log_psi, landmarks, encoder, whole=means_several(tree.phrase))
-    log_psi = opposite(name, log_psi, landmarks, encoder)
-    log_psi = so_many_deep(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
+    log_psi = by_opposite_side(name, log_psi, landmarks, encoder)
+    log_psi = deepest_few(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     first = [of[0] for of in landmarks]
     log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)
     log_psi = by_compass(tree, log_psi, first, compared, encoder)
@@ -178,27 +178,29 @@ def comparison_set(
     named, own = _described(fit, odds), odds
     for modifier in modifiers:
         fit, odds = fit + modifier.log_psi, odds + modifier.log_psi
-    phrase, tier = in_its_tier(phrase, named, modifiers, encoder)
+    phrase, tier = of_tier(phrase, named, modifiers, encoder)
     again = of_contradictions(told, encoder) + of_colors(tree.phrase, encoder, tables) + tier
-    again += nothing_near(phrase.words, encoder)
+    again += of_isolation(phrase.words, encoder)
     phrase, log_size, denied = _sized(phrase, told, (fit + again, odds + again), named, encoder, tables)
     denied = denied + _ruled_out(phrase, encoder)
     log_size, fit, odds = log_size + again, fit + again + denied, odds + again + denied
     of_color = own >= own.max() - _NEAR if phrase.color is not None else np.isfinite(own)
     counts = np.where(of_color, own if close else fit + log_size, -np.inf)
-    among = so_many(several, counts, fit, modifiers, encoder, bool(close)) if several else None
+    among = counted_set(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
-        phrase, log_extent = of_some(phrase, told, (among[0], fit), encoder)
+        phrase, log_extent = by_measurement_of_few(phrase, told, (among[0], fit), encoder)
         log_size = log_size + shades_among(shades, among[0], encoder) + log_extent + evenly(tree, among[0], modifiers)
         return Comparison(among[0], log_size + among[1], phrase)
     log_size = log_size + log_of_group(phrase, encoder)
     groups = phrase.noun in GROUP_WORDS or (phrase.plural and in_group(phrase))
-    described = by_that_name(phrase, _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET), own, encoder)
-    described = so_many_on_a_side(phrase, modifiers, fit, described, encoder)
+    described = compared_by_name(
+        phrase, _described(fit, odds, _GROUP_IN_THE_SET if groups else _IN_THE_SET), own, encoder
+    )
+    described = counted_on_side(phrase, modifiers, fit, described, encoder)
     if phrase.color is not None:
         described &= own >= own[described].max(initial=-np.inf) - _NEAR
     phrase, log_shade = shaded(tree.phrase, phrase, described, encoder)
-    phrase, log_measure = by_measure(phrase, told, modifiers, (described, fit), encoder)
+    phrase, log_measure = by_measurement(phrase, told, modifiers, (described, fit), encoder)
     return Comparison(described, log_size + log_shade + log_measure, phrase)
 
 
@@ -234,12 +236,12 @@ def _sized(
     sizes = {word: side for word in phrase.words if word not in told and (side := size_side(word)) is not None}
     denied = _denied_sizes(phrase.words)
     kind = of_kind(phrase, encoder, tables) if sizes or denied else named
-    off = off_size(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
+    off = size_deviation(tuple(sizes.values()), encoder, _described(*described), named, kind) if sizes else None
     if off is not None:
         phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in sizes))
         log_size, out = -_SIZED * off**2, np.where(off > _OFF, -_BEHIND - 1.0, 0.0)
     for side in denied:
-        off = off_size((side,), encoder, named, kind)
+        off = size_deviation((side,), encoder, named, kind)
         if off is not None:
             log_size = log_size - _SIZED * (1.0 - off) ** 2
             out = np.where(off < _OFF, -_BEHIND - 1.0, out)

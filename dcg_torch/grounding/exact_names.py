@@ -17,7 +17,7 @@ _BEHIND = 3.0
 """Nats by which what goes by another name stays behind: who was taught that a crate is a box speaks of both."""
 
 
-def by_that_name(phrase: Phrase, described: Bools, odds: Floats, encoder: WorldEncoder) -> Bools:
+def compared_by_name(phrase: Phrase, described: Bools, odds: Floats, encoder: WorldEncoder) -> Bools:
     """(things,) those of the described that a noun phrase compares.
 
     Args:

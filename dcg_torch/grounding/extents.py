@@ -14,7 +14,7 @@ import numpy as np
 
 from dcg_torch.grounding.counting import behind
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.grounding.line_counts import counted_along
+from dcg_torch.grounding.line_counts import counted_on_line
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.vocabulary import ORDINALS
 from dcg_torch.scene.bodies import bulk
@@ -33,7 +33,7 @@ _BULKY = {"biggest": 1.0, "largest": 1.0, "smallest": -1.0}
 """Words for what has the most of its whole size, or the least."""
 
 
-def measured(
+def of_extents(
     phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder, *, anchored: bool = False
 ) -> tuple[Phrase, Floats]:
     """What the words of a noun phrase that measure or count things say of each.
@@ -47,7 +47,7 @@ def measured(
         The phrase without the words that are taken up, and the log-factor of each thing.
     """
     words = [word for word in phrase.words if (word in dimensions() or word in _BULKY) and word not in told]
-    counted, log = counted_along(phrase, told, among, encoder, anchored=anchored)
+    counted, log = counted_on_line(phrase, told, among, encoder, anchored=anchored)
     compared, of_extents = _by_extents(phrase, words, among, encoder)
     denied, of_denied = _not_the_most(phrase.words, among, encoder)
     taken = counted | compared | denied

@@ -22,7 +22,7 @@ _THERE = -0.1
 """Log Psi of what stands there."""
 
 
-def on_the_ground(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+def by_floor_support(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
     """(combos, things) how well things stand on the ground, where that is the landmark; else what is learned.
 
     Args:

@@ -27,7 +27,7 @@ _LEVEL = 0.02
 """Metres by which things may be in one another that are not beside one another."""
 
 
-def nothing_near(words: Sequence[str], encoder: WorldEncoder) -> Floats:
+def of_isolation(words: Sequence[str], encoder: WorldEncoder) -> Floats:
     """(things,) the log-probability that things have nothing beside them, where the words of a noun phrase say so."""
     log = np.zeros(len(encoder.all))
     where = encoder.layout

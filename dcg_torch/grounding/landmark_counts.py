@@ -32,7 +32,7 @@ def is_anchored(modifiers: Sequence[ModifierFactor]) -> bool:
     return any(m.tree.phrase.words[0] not in _AMONG for m in modifiers)
 
 
-def counted_away(
+def counted_from_landmark(
     phrase: Phrase, modifiers: Sequence[ModifierFactor], fit: Floats, encoder: WorldEncoder
 ) -> tuple[Phrase, Floats]:
     """What the ordinal of a noun phrase says of things on a side of one landmark.

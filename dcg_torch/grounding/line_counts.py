@@ -25,7 +25,7 @@ _DEEP = {"from the back", "from the front"}
 """From where things are counted -> the direction of the first; in the depth only in a picture, as up and down."""
 
 
-def counted_along(
+def counted_on_line(
     phrase: Phrase, told: Collection[str], among: Bools, encoder: WorldEncoder, *, anchored: bool
 ) -> tuple[frozenset[str], Floats]:
     """What a noun phrase counts among what the rest of it describes.

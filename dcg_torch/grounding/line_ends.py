@@ -19,7 +19,7 @@ _NOT_THERE = -8.0
 """Nats that a thing loses that is not at an end, or is."""
 
 
-def outermost(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+def of_line_ends(phrase: Phrase, among: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
     """What a noun phrase in the plural says of ends.
 
     Args:

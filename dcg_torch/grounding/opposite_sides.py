@@ -22,7 +22,7 @@ _LEAST = -5.0
 """The most nats that are lost."""
 
 
-def opposite(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
+def by_opposite_side(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
     """(combos, things) how straight across from a landmark each thing is.
 
     Args:

@@ -25,7 +25,7 @@ _NOT_ITS = -8.0
 """The most that is lost."""
 
 
-def of_having(
+def of_possession(
     tree: ParseTree, log_psi: Floats, landmarks: Sequence[int], scores: Floats, several: int, encoder: WorldEncoder
 ) -> Floats | None:
     """(landmarks, things) of "with" and "without" among things that have extents.

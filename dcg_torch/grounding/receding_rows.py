@@ -24,7 +24,7 @@ _LEVEL, _ASIDE = 0.3, 0.5
 """Share of how far a row leads away by which its things differ to the side at most, and by which all are aside."""
 
 
-def in_a_row_ahead(phrase: Phrase, described: tuple[Bools, Floats], encoder: WorldEncoder) -> tuple[Phrase, Floats]:
+def of_receding_row(phrase: Phrase, described: tuple[Bools, Floats], encoder: WorldEncoder) -> tuple[Phrase, Floats]:
     """What a noun phrase in the singular says of an end of such a row.
 
     Args:

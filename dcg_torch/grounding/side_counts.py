@@ -23,7 +23,7 @@ _PARTS = (1.0 / 3.0, 1.0 / 2.0, 2.0 / 3.0)
 """Shares of all that is there, from its edge, that are looked at in turn."""
 
 
-def so_many_on_a_side(
+def counted_on_side(
     phrase: Phrase, modifiers: Sequence[ModifierFactor], fit: Floats, described: Bools, encoder: WorldEncoder
 ) -> Bools:
     """(things,) those that a noun phrase with an ordinal picks from.
@@ -51,7 +51,7 @@ def so_many_on_a_side(
     return described
 
 
-def so_many_deep(tree: ParseTree, log_psi: Floats, encoder: WorldEncoder) -> Floats:
+def deepest_few(tree: ParseTree, log_psi: Floats, encoder: WorldEncoder) -> Floats:
     """(combos, things) of a modifier: "the three cubes in the back" are the three of their kind that are farthest back.
 
     Args:

@@ -19,7 +19,7 @@ _UNLIKE_SIZES = 0.5
 """Those that differ by so much are as unlike as can be, and by less the less."""
 
 
-def off_size(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floats | None:
+def size_deviation(sides: Sequence[int], encoder: WorldEncoder, *sets: Bools) -> Floats | None:
     """(things,) from 0 to 1: how far a thing is from the largest (1), smallest (-1) or mean size (0) that is said.
 
     Args:

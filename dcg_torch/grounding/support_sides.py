@@ -23,7 +23,7 @@ _OTHER_END = 4.0
 """Nats that the one at the other end loses; others by how far they are from this one."""
 
 
-def by_side_upon(
+def by_support_side(
     phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder
 ) -> Floats:
     """(combos, things) log Psi of a modifier, with what is measured of things that lie on its one landmark.

@@ -24,7 +24,7 @@ _APART, _LEVEL = 0.5, 0.5
 """Units by which tiers are apart at least, and share of that within which the things of a tier stand on a level."""
 
 
-def in_its_tier(
+def of_tier(
     phrase: Phrase, named: Bools, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder
 ) -> tuple[Phrase, Floats]:
     """What a noun phrase says of a tier that ranks otherwise, too.

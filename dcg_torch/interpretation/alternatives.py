@@ -14,7 +14,7 @@ _WHICHEVER = "whichever"
 _COMPARED = frozenset({"closer to", "farther from"})
 
 
-def by_whichever(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
+def by_alternatives(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
     """A tree in which each of the two is compared with the other: "the red box bigger than the blue box, or ...".
 
     Args:

@@ -39,7 +39,7 @@ class Looks:
 
 
 @functools.lru_cache(maxsize=1024)
-def told_by_looking(tree: ParseTree, text: str, looks: Looks) -> ParseTree:
+def with_appearance_words(tree: ParseTree, text: str, looks: Looks) -> ParseTree:
     """The tree whose noun phrases are also told of the command's words what is to be judged by looking.
 
     Where things show their colours the first noun phrase is told of all words, but of its own alone if the command

@@ -13,7 +13,7 @@ from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 _NOTHING, _ANYTHING, _THING, _OTHER, _NO = "nothing", "anything", "thing", "other", "no "
 
 
-def by_nothing(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
+def by_denials(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
     """A tree in which such a denial is a word of the noun phrase ("nothing touching"), or of the preposition.
 
     Args:

@@ -20,13 +20,13 @@ from dcg_torch.types import ParseTree, Phrase, PhraseKind
 _YOU = ParseTree(Phrase(PhraseKind.NOUN, "you", (), "you"))
 
 
-def from_you(tree: ParseTree, *, among: bool) -> ParseTree:
+def with_egocentric_places(tree: ParseTree, *, among: bool) -> ParseTree:
     """A tree in which such words are places: "in front of you", "behind you".
 
     Args:
         among: does the robot stand among the things? Else nothing is behind it, and "in front" is a side of theirs.
     """
-    children = tuple(_of_place(from_you(child, among=among), among) for child in tree.children)
+    children = tuple(_of_place(with_egocentric_places(child, among=among), among) for child in tree.children)
     phrase = tree.phrase
     if among and _counts_from_you(phrase, children):
         children = (*children, _place("", NEAREST))

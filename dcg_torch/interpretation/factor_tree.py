@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from dcg_torch.interpretation.coordination import each_meant, either_color
 from dcg_torch.interpretation.distances import said_apart, said_turn
-from dcg_torch.interpretation.egocentric_adverbs import from_you
+from dcg_torch.interpretation.egocentric_adverbs import with_egocentric_places
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import is_board, scene_kind, stands_among
@@ -164,7 +164,7 @@ def _low(heights: Sequence[float]) -> float:
 def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
     there, (flat, upright), scene, among = setting
-    said = from_you(in_whole_line(tree), among=among)
+    said = with_egocentric_places(in_whole_line(tree), among=among)
     plain = in_plain_words(said, there, flat=flat or upright, upright=upright)
     found = _described(_beyond(plain) if flat and "speaker" not in scene.split() else plain)
     return _said_in(found, scene) if scene else found

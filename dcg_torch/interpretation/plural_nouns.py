@@ -19,7 +19,7 @@ _PAIR = "pair"
 _SEVERAL = (QUANTIFIERS - {OR}) | NUMBER_WORDS.keys()
 
 
-def by_pairs(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
+def by_plural_nouns(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """A tree in which such noun phrases speak of one thing.
 
     Args:

@@ -15,7 +15,7 @@ from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 _OTHER, _ONE = "other", "one"
 
 
-def by_others(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
+def by_same_kind(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
     """A tree in which "the other two" and "the last one" have the noun of what stands to them.
 
     Args:

@@ -2,37 +2,37 @@
 
 from __future__ import annotations
 
-from dcg_torch.interpretation.alternatives import by_whichever
+from dcg_torch.interpretation.alternatives import by_alternatives
 from dcg_torch.interpretation.bearers import by_bearers
 from dcg_torch.interpretation.compounds import by_compounds
-from dcg_torch.interpretation.denials import by_nothing
+from dcg_torch.interpretation.denials import by_denials
 from dcg_torch.interpretation.faces import by_faces
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.passages import by_passages
 from dcg_torch.interpretation.plain_lines import lines_from_here
 from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair
-from dcg_torch.interpretation.plural_nouns import by_pairs
+from dcg_torch.interpretation.plural_nouns import by_plural_nouns
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls
 from dcg_torch.interpretation.rooms import by_rooms
-from dcg_torch.interpretation.same_kind_landmarks import by_others
+from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
     by_passages,
-    by_pairs,
+    by_plural_nouns,
     by_members,
-    by_others,
+    by_same_kind,
     by_rooms,
     by_compounds,
     by_faces,
     by_corners,
     by_walls,
     by_bearers,
-    by_whichever,
-    by_nothing,
+    by_alternatives,
+    by_denials,
     by_heights,
     by_levels,
     by_shelves,
@@ -44,7 +44,7 @@ _REWRITES = (
 """What turns words into others that say the same in a scene, in the order in which they are tried."""
 
 
-def in_the_scene(tree: ParseTree, world: WorldModel) -> ParseTree:
+def in_scene_words(tree: ParseTree, world: WorldModel) -> ParseTree:
     """A tree in the words of a scene; few commands say anything that would be said in others."""
     said = Words.of(tree)
     for rewrite in _REWRITES:
