@@ -246,9 +246,9 @@ def _told_apart(types: Sequence[str]) -> tuple[dict[str, list[str]], str]:
 
 @functools.lru_cache(256)
 def kinds_of(types: frozenset[str]) -> dict[str, str]:
-    """Class -> what kind of thing it is, where classes are of one kind and told apart by marks: "shell block".
+    """Class -> what kind of thing it is, where four of five classes or more are of one kind and told apart by marks.
 
-    >>> kinds_of(frozenset({"shell block", "bmw block", "esso block", "table"}))["bmw block"]
+    >>> kinds_of(frozenset({"shell block", "bmw block", "esso block", "ups block", "table"}))["bmw block"]
     'block'
     """
     board, head = _told_apart(sorted(types))
