@@ -8,11 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix, merge
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 both_settings = pytest.mark.parametrize("correspondences", [BINARY, TERNARY], ids=["binary", "ternary"])
 
@@ -22,7 +22,7 @@ class Problem:
     """Labelled factors as lists of what fires: the phrases, and (phrase, grounding, label, weight) of each factor."""
 
     correspondences: tuple[Correspondence, ...]
-    pairs: NDArray[np.bool_]
+    pairs: Bools
     phrases: list[list[int]]
     rows: list[tuple[int, list[int], int, float]]
 
@@ -48,7 +48,7 @@ class Problem:
             len(self.correspondences),
         )
 
-    def products(self) -> NDArray[np.float64]:
+    def products(self) -> Floats:
         """(n, L * G): each factor's features written out, without those that `pairs` leaves out."""
         out = np.zeros((len(self.rows), *self.pairs.shape))
         for row, (phrase, grounding, _, _) in zip(out, self.rows, strict=True):
@@ -57,7 +57,7 @@ class Problem:
                     row[left, right] = self.pairs[left, right]
         return out.reshape(len(self.rows), -1)
 
-    def loss(self, weight: NDArray[np.float64], l2: float) -> float:
+    def loss(self, weight: Floats, l2: float) -> float:
         """The objective as its formula stands, a factor at a time."""
         terms = []
         for phrase, grounding, label, count in self.rows:
@@ -67,7 +67,7 @@ class Problem:
         return math.fsum(terms) + 0.5 * l2 * math.fsum(float(w) ** 2 for w in weight.flat)
 
 
-def bag(rows: list[list[int]]) -> NDArray[np.int64]:
+def bag(rows: list[list[int]]) -> Ints:
     width = max(map(len, rows), default=0)
     return np.array([[*row, *[-1] * (width - len(row))] for row in rows], dtype=np.int64).reshape(len(rows), width)
 

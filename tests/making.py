@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from oracle import Oracle
 
 from dcg_torch.fitting.psi import LogLinearFactor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.model import GroundingModel
 from dcg_torch.simulator import FakeRobot

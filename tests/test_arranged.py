@@ -10,7 +10,7 @@ import pytest
 
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.language import Parser
-from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
+from dcg_torch.lessons.arrangements import KINDS, Scene, arranged_lessons, cluster_scene, row_scene, table_scene
 from dcg_torch.lessons.boards import board_scene
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.lessons.handling import stack_scene

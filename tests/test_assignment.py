@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from dcg_torch.learning.assignment import exact, marginals, propagate
+from dcg_torch.types.arrays import Bools, Floats
 
-Problem = tuple[NDArray[np.float64], float, NDArray[np.bool_]]
+Problem = tuple[Floats, float, Bools]
 
 
 @st.composite
@@ -72,7 +72,7 @@ def test_propagation_is_a_distribution(problem: Problem) -> None:
     assert ((found.taken >= 0) & (found.taken <= 1 + 1e-9)).all()
 
 
-def as_they_arise(rng: np.random.Generator, words: int, types: int, share: float) -> NDArray[np.float64]:
+def as_they_arise(rng: np.random.Generator, words: int, types: int, share: float) -> Floats:
     """Words that fit some of the types, the right one among them."""
     psi = np.where(rng.random((words, types)) < share, 1.0, 0.005)
     psi[np.arange(words), np.arange(words)] = 1.0
@@ -129,6 +129,6 @@ def test_elimination_names_the_last_type() -> None:
 
 
 @pytest.mark.parametrize(("psi", "repeat"), [(np.ones((2, 2)), 1.5), (np.zeros((1, 2)), 0.1), (np.ones((2, 3)), 0.1)])
-def test_nonsense_is_refused(psi: NDArray[np.float64], repeat: float) -> None:
+def test_nonsense_is_refused(psi: Floats, repeat: float) -> None:
     with pytest.raises(ValueError):
         marginals(psi, repeat, np.ones(2, dtype=np.bool_))

@@ -8,7 +8,8 @@ from dcg_torch.evaluation.episodes import EpisodeObject
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.language import parse_command, target_phrase
 from dcg_torch.model.pretrain import pretrained
-from dcg_torch.names.attributes import attribute_evidence, named_key
+from dcg_torch.names.attributes import attribute_evidence
+from dcg_torch.names.keys import named_key
 from dcg_torch.types import Percept, Pose
 
 PEOPLE = (

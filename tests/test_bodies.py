@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from dcg_torch.simulator.bodies import Model, Part, add_object, extent, footprint, register, registered, rgb
 from dcg_torch.simulator.bodies.looks import model
 from dcg_torch.simulator.bodies.meshes import Mesh, ball, box, extruded, lathed, merged, rod, rounded_rectangle
+from dcg_torch.types.arrays import Floats, Ints
 from dcg_torch.world import generator
 
 MODELLED = (*generator.TYPES, "crate")
@@ -28,7 +29,7 @@ def client() -> Iterator[int]:
 
 def render(
     client: int, eye: list[float], target: list[float], up: list[float], degrees: float, pixels: int = 160
-) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+) -> tuple[NDArray[np.uint8], Ints]:
     _, _, colors, _, bodies = pybullet.getCameraImage(
         pixels,
         pixels,
@@ -42,7 +43,7 @@ def render(
     return image, np.asarray(bodies, dtype=np.int64).reshape(pixels, pixels)
 
 
-def silhouette(client: int, eye: list[float], up: list[float]) -> NDArray[np.float64]:
+def silhouette(client: int, eye: list[float], up: list[float]) -> Floats:
     """What is covered of the square metre about (0, 0, 0.4), from 40 m away: (n, 2) metres to the right and up."""
     _, mask = render(client, eye, [0.0, 0.0, 0.4], up, math.degrees(2 * math.atan(0.5 / 40.0)), pixels=250)
     rows, columns = np.nonzero(mask >= 0)

@@ -7,7 +7,7 @@ import pytest
 
 from dcg_torch.evaluation.certify import certify
 from dcg_torch.evaluation.episodes import Episode
-from dcg_torch.evaluation.perturb import (
+from dcg_torch.evaluation.perturbations import (
     PERTURBATIONS,
     garble,
     swap_absent_color,
@@ -15,8 +15,8 @@ from dcg_torch.evaluation.perturb import (
     swap_noun,
     take_away,
 )
-from dcg_torch.evaluation.said import Perturbed
-from dcg_torch.evaluation.turned import swap_ordinal, swap_side
+from dcg_torch.evaluation.target_descriptions import Perturbed
+from dcg_torch.evaluation.turned_texts import swap_ordinal, swap_side
 
 
 def episode(text: str, things: str, target: str = "0", **keys: Any) -> Episode:

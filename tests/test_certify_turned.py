@@ -8,7 +8,7 @@ import pytest
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.made_scenes import made_episodes
-from dcg_torch.evaluation.turned import swap_ordinal, swap_side
+from dcg_torch.evaluation.turned_texts import swap_ordinal, swap_side
 
 ROBOT = {"x": 0.0, "y": 0.0, "yaw": 0.0}  # it looks along x; its left is +y
 FACING = {"x": 8.0, "y": 0.0}

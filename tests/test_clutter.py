@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 
 import dcg_torch
-from dcg_torch.grounding.describing import comparison_set, modifier_factor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.descriptions import comparison_set, modifier_factor
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import target_of
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.language import Parser
-from dcg_torch.lessons.arranged import KINDS, Scene, arranged_lessons
+from dcg_torch.lessons.arrangements import KINDS, Scene, arranged_lessons
 from dcg_torch.lessons.clutter import clutter_scene
 from dcg_torch.model import GroundingModel
-from dcg_torch.scene.laying_out import layout
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.layout_making import layout
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import Object, ParseTree, Percept, Pose, WorldModel
 

@@ -15,11 +15,11 @@ from making import percept, typed
 
 import dcg_torch
 from dcg_torch.evaluate import main
+from dcg_torch.fitting.device_objective import DeviceObjective, minimise
 from dcg_torch.fitting.devices import DeviceError, device_of
 from dcg_torch.fitting.fit import fit, objective_at
-from dcg_torch.fitting.on_device import DeviceObjective, minimise
 from dcg_torch.fitting.psi import LogLinearFactor
-from dcg_torch.fitting.written import Written, weight_at, write_out
+from dcg_torch.fitting.sparse_rows import Written, weight_at, write_out
 from dcg_torch.types import Correspondence, Pose
 
 CUDA = pytest.mark.skipif(not torch.cuda.is_available(), reason="no CUDA device here")

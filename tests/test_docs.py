@@ -2,27 +2,41 @@
 
 from __future__ import annotations
 
+import doctest
 import importlib
 import re
+import shlex
 from pathlib import Path
 
 import pytest
+from hydra import compose, initialize_config_dir
 
 from dcg_torch.apps.collect.settings import HitSettings, ImportSettings, ServeSettings
+from dcg_torch.cli.config import evaluate_settings_of, register, settings_of
 from dcg_torch.settings import EvaluateSettings, Settings, described
+from dcg_torch.storage.resources import resource
 
 SCHEMAS = (Settings, EvaluateSettings, ServeSettings, HitSettings, ImportSettings)
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted([ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").rglob("*.md")])
-HISTORY = ROOT / "docs" / "results.md"
-"""Its figures of version 0.1.0 name settings of that version."""
+COMPOSED = {"": ("config", settings_of), ".evaluate": ("evaluate", evaluate_settings_of)}
+"""What follows `python -m dcg_torch` -> the configuration that Hydra composes for it, and what checks it."""
 
 
 def prose(page: Path) -> str:
-    """A page, without what it says of earlier versions."""
-    text = page.read_text(encoding="utf-8")
-    return text.partition("## Version 0.1.0")[0] if page == HISTORY else text
+    return page.read_text(encoding="utf-8")
+
+
+def composed_commands(text: str) -> list[tuple[str, tuple[str, ...]]]:
+    """The commands of a page whose settings Hydra composes, and these: on lines of their own and within sentences.
+
+    Sweeps and what only shows the form of a command ("[KEY=VALUE ...]") are left out.
+    """
+    found = re.findall(r"(?:^|`)python -m dcg_torch(|\.evaluate)(?: ([^`#\n]*))?(?=[`#\n])", text, re.MULTILINE)
+    whole = [(program, given) for program, given in found if "[KEY" not in given and not given.startswith("-")]
+    split = [(program, shlex.split(given.replace(",...]", "]"))) for program, given in whole]
+    return [(program, tuple(word for word in words if not word.startswith("hydra."))) for program, words in split]
 
 
 def exists(dotted: str) -> bool:
@@ -60,6 +74,41 @@ def test_settings_in_commands_are_settings(page: Path) -> None:
     commands = re.findall(r"^(?:python -m dcg_torch|dcg-torch)\b.*$", prose(page), re.MULTILINE)
     given = [word for command in commands for word in re.findall(r" '?([a-z_.]+)=", command.partition("#")[0])]
     assert [key for key in given if key not in keys and not key.startswith("hydra")] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_the_settings_in_commands_can_be_composed(page: Path) -> None:
+    """Also their values: "baseline=true" names a setting, but one that is a list."""
+    register()
+    for program, given in composed_commands(prose(page)):
+        name, settings = COMPOSED[program]
+        with initialize_config_dir(str(resource("conf")), version_base="1.3"):
+            settings(compose(name, overrides=list(given)))
+
+
+def test_commands_are_found_in_text_and_on_lines() -> None:
+    text = """Say `python -m dcg_torch.evaluate train='[FILE,...]' halves=true` here.
+python -m dcg_torch experiment=paper trials=2 hydra.run.dir=runs/two   # two trials
+python -m dcg_torch -m seed=0,1
+python -m dcg_torch.evaluate test=FILE [KEY=VALUE ...]
+`python -m dcg_torch.report runs` and `python -m dcg_torch`
+"""
+    assert composed_commands(text) == [
+        (".evaluate", ("train=[FILE]", "halves=true")),
+        ("", ("experiment=paper", "trials=2")),
+        ("", ()),
+    ]
+
+
+EXAMPLES = sorted(p for p in (ROOT / "dcg_torch").rglob("*.py") if ">>>" in p.read_text("utf-8"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.relative_to(ROOT).as_posix())
+def test_the_examples_in_docstrings_hold(path: Path) -> None:
+    module = importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
+    done = doctest.testmod(module)
+    assert done.attempted > 0
+    assert done.failed == 0
 
 
 def test_every_room_has_its_line_in_the_architecture() -> None:

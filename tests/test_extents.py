@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from dcg_torch.lessons.furnished import furnished_scene
-from dcg_torch.lessons.sized import THING
+from dcg_torch.lessons.furniture import furnished_scene
+from dcg_torch.lessons.sized_things import THING
 from dcg_torch.lessons.table_tops import table_top_scene
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
-from dcg_torch.scene.laying_out import layout
+from dcg_torch.scene.layout_making import layout
 from dcg_torch.scene.relation_names import RELATION_NAMES
 from dcg_torch.scene.relations import Relations
 from dcg_torch.types import Object, Percept, Pose, WorldModel

@@ -11,7 +11,6 @@ import torch
 from factors import Problem, both_settings, problems, seeds, solid_problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 from sklearn.linear_model import LogisticRegression
 
@@ -20,10 +19,11 @@ from dcg_torch.fitting.fit import Solver, fit, objective_at
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.fitting.reduction import reduce
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.fitting.written import count_firing
-from dcg_torch.grounding.encode import encode
+from dcg_torch.fitting.sparse_rows import count_firing
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.model import GroundingModel
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Floats
 
 every_solver = pytest.mark.parametrize("solver", get_args(Solver))
 TOLERANCE: dict[Solver, float] = {"auto": 1e-7, "newton": 1e-7, "lbfgs": 1e-7, "lbfgs-torch": 1e-5}
@@ -213,7 +213,7 @@ class TestFit:
         result = fit(model, [problem.design()], l2=l2)
         free = np.argwhere(np.broadcast_to(problem.pairs, problem.shape))
 
-        def loss(values: NDArray[np.float64]) -> float:
+        def loss(values: Floats) -> float:
             weight = np.zeros(problem.shape)
             weight[tuple(free.T)] = values
             return problem.loss(weight, l2)

@@ -15,7 +15,7 @@ from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.census import FrameCounts
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.scene.frames import seen_by_speaker
-from dcg_torch.scene.laying_out import layout
+from dcg_torch.scene.layout_making import layout
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
 

@@ -7,7 +7,7 @@ from asked import shipped
 
 from dcg_torch.language import default_parser
 from dcg_torch.names.weights import log_odds
-from dcg_torch.scene.laying_out import layout
+from dcg_torch.scene.layout_making import layout
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 

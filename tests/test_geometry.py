@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from numpy.typing import NDArray
 
 from dcg_torch.types import Pose
+from dcg_torch.types.arrays import Floats
 from dcg_torch.types.geometry import (
     bearing,
     from_robot_frame,
@@ -22,8 +22,6 @@ from dcg_torch.types.geometry import (
     wrap_angle,
     wrap_angles,
 )
-
-Floats = NDArray[np.float64]
 
 metres = st.floats(-10.0, 10.0)
 poses = st.builds(Pose, metres, metres, st.floats(-10.0, 10.0))

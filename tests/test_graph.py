@@ -30,11 +30,11 @@ from making import (
 from oracle import KIND, Configuration
 
 from dcg_torch.fitting.psi import BINARY, TERNARY
-from dcg_torch.grounding.by_thing import ByThing
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.hypotheses import Hypothesis
 from dcg_torch.grounding.solution import Solution
+from dcg_torch.grounding.thing_values import ByThing
 from dcg_torch.types import (
     Child,
     Correspondence,

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 from dcg_torch.evaluation.episodes import read_episodes, turned_note, unused_keys, unused_note
 from dcg_torch.lessons import read_training
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import _QuickLoader
+from dcg_torch.storage.untrusted_files import _QuickLoader
 from dcg_torch.world.files import load_world
 
 READERS: dict[str, tuple[Callable[[Path], Any], dict[str, Any]]] = {

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from making import command_tree
 
-from dcg_torch.scene.kept_rows import Arrays, KeptRows
+from dcg_torch.scene.row_cache import Arrays, KeptRows
 
 
 @pytest.mark.parametrize("count", [100, 5_000])

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from dcg_torch.fitting import lifting
 from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.fit import fit, objective_at
 from dcg_torch.fitting.lifting import lift
 from dcg_torch.fitting.psi import BINARY, LogLinearFactor
+from dcg_torch.types.arrays import Bools, Floats
 
 WORDS, TYPES = 12, 6
 LANGUAGE, GROUNDING = WORDS + 2, TYPES + 1
@@ -32,9 +32,7 @@ def told(different: int = 0) -> DesignMatrix:
     return DesignMatrix(language, grounding, phrase, np.stack([np.full(WORDS * TYPES, 1.5), active.reshape(-1)]))
 
 
-def optimum(
-    design: DesignMatrix, l2: float | NDArray[np.float64], free: NDArray[np.bool_], weight: NDArray[np.float64]
-) -> LogLinearFactor:
+def optimum(design: DesignMatrix, l2: float | Floats, free: Bools, weight: Floats) -> LogLinearFactor:
     factor = LogLinearFactor(np.ones((LANGUAGE, GROUNDING), dtype=np.bool_), BINARY)
     factor.set_weight(weight.copy())
     fit(factor, [design], l2=l2, free=free)

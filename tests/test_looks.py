@@ -12,7 +12,7 @@ from dcg_torch.lessons.looks import height_scene, lonely_scene, shelf_scene
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.scene.neighbours import nearest_other
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Percept, Pose
 
 

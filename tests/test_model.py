@@ -13,7 +13,7 @@ from making import COLORS, KNOWN, VARIANTS, command_tree, noun_phrase, percept, 
 
 from dcg_torch.fitting.fit import fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
-from dcg_torch.grounding.encode import encode
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN

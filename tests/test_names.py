@@ -13,11 +13,11 @@ from hypothesis import strategies as st
 from name_pairs import MEANT, NOT_MEANT
 from noun_table import fit_weights, make_table
 
-from dcg_torch.grounding.features.said import fact_odds
+from dcg_torch.grounding.features.name_facts import fact_odds
 from dcg_torch.names import embedding
 from dcg_torch.names.evidence import FORMS, KINDS, evidence
-from dcg_torch.names.normal import DATA as DATA_FOLDER
-from dcg_torch.names.normal import normalise, read_data, singular
+from dcg_torch.names.normal_form import DATA as DATA_FOLDER
+from dcg_torch.names.normal_form import normalise, read_data, singular
 from dcg_torch.names.weights import fact_weights, log_odds
 from dcg_torch.names.wordnet import nouns
 

@@ -13,7 +13,7 @@ from matplotlib.colors import to_rgb
 from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
 from dcg_torch.names.color_names import COLOR_FACTS, color_evidence
 from dcg_torch.names.colors import FEATURES, WEIGHTS, color_features, color_scores
-from dcg_torch.names.normal import DATA
+from dcg_torch.names.normal_form import DATA
 from dcg_torch.names.palette import LISTED, color_log_likelihood, lab, named_rgb, region
 
 RED, GREEN, BLUE = (230, 20, 20), (20, 180, 40), (20, 60, 220)

@@ -16,7 +16,6 @@ from scipy.ndimage import label
 
 from dcg_torch.simulator.navigation import (
     Circle,
-    Points,
     approach,
     clearance,
     is_clear,
@@ -27,6 +26,7 @@ from dcg_torch.simulator.navigation import (
     shrink_to_reach,
 )
 from dcg_torch.simulator.roadmap import tightened
+from dcg_torch.types.arrays import Points
 
 coordinate = st.floats(-4.0, 4.0).map(lambda v: round(v, 3))
 circles = st.lists(st.builds(Circle, coordinate, coordinate, st.floats(0.1, 1.0)), max_size=8)

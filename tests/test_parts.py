@@ -13,7 +13,7 @@ import pytest
 
 from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.language import default_parser, target_phrase
-from dcg_torch.lessons.arranged import KINDS
+from dcg_torch.lessons.arrangements import KINDS
 from dcg_torch.lessons.parts import part_scene
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Object, Percept, Pose, WorldModel

@@ -13,7 +13,8 @@ from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import default_parser
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
-from dcg_torch.names.attributes import attribute_evidence, attribute_key, counts
+from dcg_torch.names.attributes import attribute_evidence
+from dcg_torch.names.keys import attribute_key, counts
 from dcg_torch.names.weights import log_odds
 from dcg_torch.types import Percept, Pose
 

@@ -12,8 +12,9 @@ from dcg_torch.fitting import design as designs
 from dcg_torch.fitting.design import DesignMatrix, merge, runs
 from dcg_torch.fitting.fit import objective_at
 from dcg_torch.fitting.phrase_rows import PhraseRows
-from dcg_torch.fitting.psi import BINARY, TERNARY, Floats, LogLinearFactor
+from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.fitting.reduction import Reduced, reduce
+from dcg_torch.types.arrays import Floats
 
 ROWS, SHAPE = 40_000, (150, 120)
 

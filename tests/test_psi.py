@@ -11,11 +11,11 @@ import torch
 from factors import Problem, bag, both_settings, problems, seeds, solid_problem
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.fit import fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Bools
 
 
 class TestLogPsi:
@@ -147,7 +147,7 @@ class TestGrowth:
         ],
         ids=["fewer rows", "fewer columns", "another mask", "a feature gone"],
     )
-    def test_a_mask_that_does_not_extend_is_refused(self, pairs: NDArray[np.bool_]) -> None:
+    def test_a_mask_that_does_not_extend_is_refused(self, pairs: Bools) -> None:
         model = LogLinearFactor(np.ones((2, 2), dtype=np.bool_))
         model.weight.add_(1.0)
         with pytest.raises(ValueError, match="does not extend"):

@@ -9,7 +9,7 @@ import pytest
 
 from dcg_torch import scene
 from dcg_torch.fitting.psi import TERNARY
-from dcg_torch.grounding.encode import WorldEncoder, encode
+from dcg_torch.grounding.encoding import WorldEncoder, encode
 from dcg_torch.grounding.explanation import explain
 from dcg_torch.grounding.features import PAPER, Group, ranking
 from dcg_torch.grounding.graph import FactorGraph

@@ -162,9 +162,9 @@ def test_a_disk_that_is_full_at_any_moment(
         return call
 
     with monkeypatch.context() as patch:
-        patch.setattr("dcg_torch.storage.whole._to_disk", failing(Path.exists))
-        patch.setattr("dcg_torch.storage.whole.os.replace", failing(os.replace))
-        patch.setattr("dcg_torch.storage.whole.os.rename", failing(os.rename))
+        patch.setattr("dcg_torch.storage.atomic_files._to_disk", failing(Path.exists))
+        patch.setattr("dcg_torch.storage.atomic_files.os.replace", failing(os.replace))
+        patch.setattr("dcg_torch.storage.atomic_files.os.rename", failing(os.rename))
         with pytest.raises(OSError, match="No space left"):
             go_on(tmp_path / "run")
     go_on(tmp_path / "run")

@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
-from numpy.typing import NDArray
 from PIL import Image
 
 from dcg_torch.simulator.screenshot import HIGHLIGHT, save_pair_screenshots, world_screenshot
 from dcg_torch.simulator.stage import Stage
 from dcg_torch.simulator.view import View, direction, fitting_view
+from dcg_torch.types.arrays import Floats
 from dcg_torch.world.files import World, load_worlds
 
 SIZE = (320, 240)
@@ -46,7 +46,7 @@ def test_only_a_highlight_has_its_colour_and_it_moves_with_the_object(worlds: li
     st.floats(0.2, 1.0),
 )
 def test_the_camera_has_all_points_in_the_picture_and_is_no_further_than_needed(
-    points: NDArray[np.float64], yaw: float, down: float, fov: float
+    points: Floats, yaw: float, down: float, fov: float
 ) -> None:
     forward = np.array([math.cos(down) * math.cos(yaw), math.cos(down) * math.sin(yaw), -math.sin(down)])
     view = fitting_view(points, forward, fov, SIZE)

@@ -11,9 +11,9 @@ import pytest
 from physics import distance, everything, seen, world
 
 from dcg_torch.simulator import Client, SimulatedRobot, SimulatorError
-from dcg_torch.simulator.base import ROBOT_RADIUS
 from dcg_torch.simulator.bodies import footprint
 from dcg_torch.simulator.client import STEP
+from dcg_torch.simulator.wheels import ROBOT_RADIUS
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.world.files import World
 from dcg_torch.world.generator import generate_world

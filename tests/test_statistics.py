@@ -12,7 +12,7 @@ from making import KNOWN, noun_phrase
 from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.fit import objective_at
 from dcg_torch.fitting.psi import TERNARY, LogLinearFactor
-from dcg_torch.grounding.encode import encode
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.learning.commit_first import contrast, contrasts, with_meant

@@ -16,10 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.storage.claim import LOCK, ClaimError, check_place, claim
-from dcg_torch.storage.errors import explain_os_error
-from dcg_torch.storage.foreign import misspelt, plain, shown
-from dcg_torch.storage.whole import (
+from dcg_torch.storage.atomic_files import (
     _to_disk,
     read_whole_files,
     sweep_parts,
@@ -27,6 +24,9 @@ from dcg_torch.storage.whole import (
     write_whole_files,
     write_whole_folder,
 )
+from dcg_torch.storage.claim import LOCK, ClaimError, check_place, claim
+from dcg_torch.storage.errors import explain_os_error
+from dcg_torch.storage.untrusted_files import misspelt, plain, shown
 
 
 class TestWhole:
@@ -94,8 +94,8 @@ class TestWhole:
             return step
 
         with monkeypatch.context() as patch:
-            patch.setattr("dcg_torch.storage.whole._to_disk", dying(_to_disk))
-            patch.setattr("dcg_torch.storage.whole.os.replace", dying(os.replace))
+            patch.setattr("dcg_torch.storage.atomic_files._to_disk", dying(_to_disk))
+            patch.setattr("dcg_torch.storage.atomic_files.os.replace", dying(os.replace))
             with pytest.raises(_Killed):
                 write_whole_files(tmp_path, {"weights": b"new", "description": b"new"})
         description = tmp_path / "description"

@@ -1,4 +1,4 @@
-"""What people say to a partner across a table of cubes: ranks on a side, several landmarks, pairs. We wrote the commands."""
+"""What people say to a partner across a table of cubes: ranks on a side, pairs, surroundings. We wrote the commands."""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ import torch
 from making import command_tree, noun_phrase, saw
 
 from dcg_torch import scene
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import PAPER, Group, padded
 from dcg_torch.grounding.patterns import Spread
 from dcg_torch.grounding.tables import Tables

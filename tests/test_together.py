@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from dcg_torch.grounding.together import closest_together
+from dcg_torch.grounding.counted_sets import closest_together
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numpy.typing import NDArray
 from PIL import Image
 
 from dcg_torch.agent.command import Look
@@ -41,6 +40,7 @@ from dcg_torch.types import (
     Pose,
     WorldModel,
 )
+from dcg_torch.types.arrays import Bools
 from dcg_torch.world.files import World, WorldObject
 from dcg_torch.world.speaker import Command
 
@@ -232,7 +232,7 @@ def test_every_look_and_the_end_are_shown_in_order(looking: list[bool]) -> None:
     assert all(shot.hold >= 100 for shot in shots)
 
 
-def near(image: Image.Image, color: paint.RGB) -> NDArray[np.bool_]:
+def near(image: Image.Image, color: paint.RGB) -> Bools:
     difference = np.asarray(image, dtype=int) - np.array(color)
     return np.asarray(abs(difference).max(axis=2) < 12)
 

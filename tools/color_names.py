@@ -12,7 +12,7 @@ import sys
 
 from matplotlib.colors import CSS4_COLORS, XKCD_COLORS
 
-from dcg_torch.names.normal import DATA
+from dcg_torch.names.normal_form import DATA
 from dcg_torch.names.palette import LISTED
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.names.evidence import evidence
-from dcg_torch.names.normal import DATA, read_data
+from dcg_torch.names.normal_form import DATA, read_data
 from dcg_torch.names.weights import FACTS, WEIGHTS
 from dcg_torch.names.wordnet import TABLE
 

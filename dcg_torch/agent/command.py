@@ -15,7 +15,7 @@ from dcg_torch.agent.explore import Explorer, TurnInPlace
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.interpretation.marks import heard
-from dcg_torch.interpretation.spoken import CommandParser, ParsedCommand, ReadCommand
+from dcg_torch.interpretation.parser_protocol import CommandParser, ParsedCommand, ReadCommand
 from dcg_torch.learning.learner import Experience
 from dcg_torch.scene.percepts import checked
 from dcg_torch.types import DriveResult, Percept, Pose, WorldModel

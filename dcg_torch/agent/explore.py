@@ -12,11 +12,11 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.agent.robot import Robot
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.types import Percept
+from dcg_torch.types.arrays import Bools, Floats
 from dcg_torch.types.geometry import FIELD_OF_VIEW, segment_distances
 
 Point = tuple[float, float]
@@ -215,7 +215,7 @@ def next_place(here: Point, places: Sequence[Point], percepts: Sequence[Percept]
     return (float(stands[best, 0]), float(stands[best, 1])) if score[best] > 0.0 else None
 
 
-def in_sight(places: NDArray[np.float64], cells: NDArray[np.float64], discs: NDArray[np.float64]) -> NDArray[np.bool_]:
+def in_sight(places: Floats, cells: Floats, discs: Floats) -> Bools:
     """(places, cells): is the line between them free of discs? Cells on a disc count by what is before it."""
     starts, ends = np.repeat(places, len(cells), axis=0), np.tile(cells, (len(places), 1))
     free = np.ones(len(starts), dtype=np.bool_)

@@ -39,8 +39,8 @@ from dcg_torch.model.pretrain import pretrained
 from dcg_torch.settings import Settings
 from dcg_torch.simulator import FakeRobot, SimulatedRobot
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.resources import resource
-from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import Percept
 from dcg_torch.world.files import load_worlds
 from dcg_torch.world.generator import TYPES

@@ -13,9 +13,9 @@ from typing import Any
 
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import read_json, read_text
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import read_json, read_text
 
 BEGIN, END = "<!-- tables: begin -->", "<!-- tables: end -->"
 _PROJECT = "this project"

@@ -18,8 +18,9 @@ from dcg_torch.bench.result import Result, cpu_milliseconds, repeated, result
 from dcg_torch.bench.rows import Rows, dense_rows, sparse_rows
 from dcg_torch.fitting.design import merge
 from dcg_torch.fitting.fit import fit, objective_at
-from dcg_torch.fitting.psi import Floats, LogLinearFactor
+from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.types.arrays import Floats
 
 
 def ours(rows: Rows, solver: str = "auto") -> LogLinearFactor:

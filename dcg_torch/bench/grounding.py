@@ -18,7 +18,7 @@ from dcg_torch.bench.result import Result, cpu_milliseconds, result
 from dcg_torch.grounding.features import PAPER, Group
 from dcg_torch.language import default_parser
 from dcg_torch.lessons import initial_training
-from dcg_torch.lessons.generated import generated_lessons
+from dcg_torch.lessons.curriculum import generated_lessons
 from dcg_torch.model import GroundingModel, Variant
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose, WorldModel

@@ -25,7 +25,7 @@ from dcg_torch.language import default_parser
 from dcg_torch.learning.beliefs import Beliefs, Evidence
 from dcg_torch.learning.learner import Experience
 from dcg_torch.learning.word_posterior import WordPosterior
-from dcg_torch.lessons.generated import generated_lessons
+from dcg_torch.lessons.curriculum import generated_lessons
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.settings import Settings, Speaker

@@ -11,8 +11,8 @@ from typing import Any
 from dcg_torch.bench.result import Result, shown_number
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import write_whole
 
 _HEAD = """# Performance
 

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from dcg_torch.bench.rows import Rows
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.types.arrays import Floats
 
 L2 = 1.0
 TOLERANCE = 1e-6

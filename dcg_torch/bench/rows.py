@@ -6,11 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import Ints
 from dcg_torch.fitting.psi import BINARY, TERNARY, Bag, LogLinearFactor
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Bools, Ints
 
 
 @dataclass(frozen=True)
@@ -30,7 +29,7 @@ class Rows:
     grounding: Bag
     phrase: Ints
     label: Ints
-    pairs: NDArray[np.bool_]
+    pairs: Bools
     correspondences: tuple[Correspondence, ...]
 
     def factor(self) -> LogLinearFactor:
@@ -75,7 +74,7 @@ def _labelled(
     language: Bag,
     grounding: Bag,
     phrase: Ints,
-    pairs: NDArray[np.bool_],
+    pairs: Bools,
     correspondences: tuple[Correspondence, ...],
     rng: np.random.Generator,
 ) -> Rows:

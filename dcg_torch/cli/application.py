@@ -17,7 +17,7 @@ from dcg_torch import __version__
 from dcg_torch.cli.config import CONFIG_ERRORS, explain, refuse_nothing, register
 from dcg_torch.report.terminal import CLOSED, close_output, open_closed
 from dcg_torch.storage.errors import UserError, explain_os_error
-from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.untrusted_files import plain
 
 _LONGEST = 1_000  # characters of a message
 GOES_ON: ContextVar[str] = ContextVar("GOES_ON", default="")

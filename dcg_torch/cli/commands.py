@@ -84,7 +84,10 @@ def _help_on(name: str, program: str, commands: Mapping[str, Command]) -> int:
 
 def _refuse(typed: str, name: str, commands: Mapping[str, Command]) -> int:
     """Say that there is no such command, and which is like it; the exit status."""
-    from dcg_torch.storage.foreign import misspelt, plain  # here: Ctrl-C while it loads is to be one line as well
+    from dcg_torch.storage.untrusted_files import (  # here: Ctrl-C while it loads is to be one line as well
+        misspelt,
+        plain,
+    )
 
     near = misspelt(name, tuple(commands))
     hint = f"did you mean {near}?" if near else f"take {', '.join(commands)}"

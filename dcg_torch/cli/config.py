@@ -32,9 +32,9 @@ from dcg_torch.settings import (
     check_values,
     described,
 )
-from dcg_torch.storage.foreign import plain, shown
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.resources import resource
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import plain, shown
 
 T = TypeVar("T")
 CONFIG_ERRORS = (HydraException, OmegaConfBaseException)

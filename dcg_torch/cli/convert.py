@@ -15,7 +15,7 @@ from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.console import Bar, make_console
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError
 from dcg_torch.storage.arguments import Arguments
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.atomic_files import write_whole
 
 
 class Kind(NamedTuple):

@@ -39,9 +39,9 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
 from dcg_torch.report.runs import PREDICTIONS
 from dcg_torch.settings import EvaluateSettings, SettingsError
+from dcg_torch.storage.atomic_files import write_whole, write_whole_folder
 from dcg_torch.storage.claim import claim
 from dcg_torch.storage.resources import resource
-from dcg_torch.storage.whole import write_whole, write_whole_folder
 
 SUMMARY, MODEL = "summary.json", "model"
 MARKS = (PREDICTIONS, f"{PREDICTIONS}.part", SUMMARY, MODEL, ".hydra")

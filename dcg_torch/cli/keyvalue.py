@@ -10,7 +10,7 @@ from omegaconf.errors import OmegaConfBaseException
 
 from dcg_torch.cli.settings_help import setting_lines
 from dcg_torch.settings import SettingsError, check_values, described
-from dcg_torch.storage.foreign import misspelt
+from dcg_torch.storage.untrusted_files import misspelt
 
 T = TypeVar("T")
 

@@ -7,8 +7,8 @@ from pathlib import Path
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.evaluation.made_scenes import made_episodes
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import write_whole
 
 _MOST = 100_000
 

@@ -18,8 +18,8 @@ from dcg_torch.cli.application import one_line_errors
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.lessons.files import TrainingFile
 from dcg_torch.storage.arguments import Arguments
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.records import Iteration
-from dcg_torch.storage.whole import write_whole
 from dcg_torch.world.files import World
 
 _FILES: dict[str, tuple[type[BaseModel], str]] = {

@@ -7,7 +7,7 @@ import numpy as np
 from dcg_torch.evaluation.episodes import Episode, read_episodes
 from dcg_torch.evaluation.splits import Split, cross_validation, split_halves
 from dcg_torch.settings import EvaluateSettings, SettingsError
-from dcg_torch.storage.foreign import at_home
+from dcg_torch.storage.untrusted_files import at_home
 
 
 def read_splits(settings: EvaluateSettings) -> list[Split]:

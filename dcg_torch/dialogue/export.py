@@ -13,8 +13,8 @@ from dcg_torch.dialogue.file import Input, SessionError, with_stops
 from dcg_torch.dialogue.session import Session, standing_at
 from dcg_torch.dialogue.situation import Errand
 from dcg_torch.experiment.recording.recorder import Moment, RecordedCommand
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.records import Iteration, ObjectRecord, PoseRecord
-from dcg_torch.storage.whole import write_whole
 from dcg_torch.types import DriveResult, Percept, Pose
 from dcg_torch.world.files import World
 from dcg_torch.world.speaker import Command

@@ -15,7 +15,7 @@ from pydantic import BaseModel, Field, ValidationError, model_validator
 from dcg_torch.model.checkpoint import DESCRIPTION, WEIGHTS
 from dcg_torch.model.pretrain import SHIPPED
 from dcg_torch.storage.errors import UserError, explain_os_error
-from dcg_torch.storage.foreign import Strict, problem_of, read_json, read_text
+from dcg_torch.storage.untrusted_files import Strict, problem_of, read_json, read_text
 from dcg_torch.world.files import FileName, Metres, Radians, World, WorldObject
 
 MOST_CHARACTERS = 2_000

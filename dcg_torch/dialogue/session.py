@@ -33,8 +33,8 @@ from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
 from dcg_torch.model.pretrain import SHIPPED
 from dcg_torch.speech_acts.requests import Question
-from dcg_torch.storage.foreign import plain
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.atomic_files import write_whole
+from dcg_torch.storage.untrusted_files import plain
 from dcg_torch.types import Percept, Pose
 from dcg_torch.world.files import RobotStart, World, WorldObject
 
@@ -301,7 +301,7 @@ class Session:
 
 def _robot(simulator: str) -> InteractiveRobot:
     if simulator == "fake":
-        from dcg_torch.simulator.fake import FakeRobot
+        from dcg_torch.simulator.fake_robot import FakeRobot
 
         return FakeRobot()
     from dcg_torch.simulator.robot import SimulatedRobot  # here: PyBullet need not be there for the fake robot

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 
 from dcg_torch.evaluation.episodes import Episode
-from dcg_torch.evaluation.perturb import PERTURBATIONS
+from dcg_torch.evaluation.perturbations import PERTURBATIONS
 
 Answer = Callable[[Episode], Collection[str]]
 """The ids that are answered for an episode; none where nothing is meant, or where it is no order about a thing."""

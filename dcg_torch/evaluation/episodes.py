@@ -15,7 +15,7 @@ from dcg_torch import scene
 from dcg_torch.names.keys import attributes_of, is_used
 from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import misspelt, plain, read_json, read_text, shown
+from dcg_torch.storage.untrusted_files import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
 
 

@@ -13,7 +13,7 @@ from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
 from dcg_torch.grounding.readings import worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.interpretation.marks import heard
-from dcg_torch.interpretation.spoken import CommandParser, ParsedCommand
+from dcg_torch.interpretation.parser_protocol import CommandParser, ParsedCommand
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace

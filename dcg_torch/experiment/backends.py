@@ -18,7 +18,7 @@ from typing import Any, TypeVar
 
 from dcg_torch.experiment.pool import TICK, WorkerKilledError, cores, leave_with_parent, portable, workers_folder
 from dcg_torch.settings import Backend, SettingsError
-from dcg_torch.storage.whole import remove
+from dcg_torch.storage.atomic_files import remove
 
 T = TypeVar("T")
 

@@ -12,10 +12,10 @@ from pydantic import ValidationError
 
 from dcg_torch.report.summary import flatten
 from dcg_torch.settings import LearnerKind, Settings
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import at_home, pipe_in, plain
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import at_home, pipe_in, plain
 
 ITERATIONS, TIMINGS, MODEL, PARTS = "iterations.jsonl", "timings.jsonl", "model", "trials"
 SETTINGS, ORIGIN = "settings.json", "origin.json"

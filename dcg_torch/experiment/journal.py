@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from dcg_torch.experiment.folder import ITERATIONS, TIMINGS, part_of, split_lines
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.records import Iteration
-from dcg_torch.storage.whole import write_whole
 
 
 class Journal:

@@ -21,7 +21,7 @@ from dcg_torch.report.runs import read_rows, read_timings, varied_settings
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, read_summary, write_summary
 from dcg_torch.settings import Metric, Settings
-from dcg_torch.storage.whole import sweep_parts
+from dcg_torch.storage.atomic_files import sweep_parts
 from dcg_torch.world.files import World
 
 _FIGURES = "figures"

@@ -7,8 +7,8 @@ import functools
 import numpy as np
 
 from dcg_torch.settings import Order, Settings, SettingsError
-from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.resources import resource
+from dcg_torch.storage.untrusted_files import at_home
 from dcg_torch.world.files import World, load_worlds
 from dcg_torch.world.generator import generate_world
 from dcg_torch.world.names import MORE_COLORS, MORE_TYPES

@@ -35,7 +35,7 @@ if TYPE_CHECKING:  # it takes a while to load, and `prepare` is to be called bef
 
 T = TypeVar("T")
 
-_PRELOADED = ("dcg_torch.__main__", "dcg_torch.experiment.ready")
+_PRELOADED = ("dcg_torch.__main__", "dcg_torch.experiment.preloads")
 """Modules that are imported once, for all processes."""
 TICK = 0.25
 """Seconds after which `work_off` speaks up even if no task has ended."""

@@ -10,7 +10,7 @@ import numpy as np
 
 from dcg_torch.agent.robot import SimulationRobot
 from dcg_torch.settings import RobotKind, SimulatorSettings
-from dcg_torch.simulator.fake import FakeRobot
+from dcg_torch.simulator.fake_robot import FakeRobot
 from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.world.names import MORE_TYPES
 

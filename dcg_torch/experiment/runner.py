@@ -32,8 +32,8 @@ from dcg_torch.experiment.lessons_note import lessons_note
 from dcg_torch.experiment.plan import trial_commands
 from dcg_torch.experiment.pool import TICK, cores, may_start_processes, work_off, works_alone
 from dcg_torch.settings import Backend, ModelSettings, RobotKind, Settings, SettingsError
-from dcg_torch.storage.foreign import at_home
 from dcg_torch.storage.records import Iteration
+from dcg_torch.storage.untrusted_files import at_home
 
 SEEN_WITHIN = 90.0
 """Seconds after which a file that another machine has written should be seen here; NFS remembers for 60."""
@@ -153,7 +153,7 @@ def _far(settings: Settings) -> Settings:
 
 def _run_here(settings: Settings, directory: Path, trials: Sequence[int], tick: Callable[[], None]) -> None:
     """Run trials in this process, one after another."""
-    import dcg_torch.experiment.ready  # noqa: F401
+    import dcg_torch.experiment.preloads  # noqa: F401
 
     last = time.monotonic()
 

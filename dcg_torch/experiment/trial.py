@@ -13,7 +13,7 @@ from dcg_torch.agent.asking import AskingPolicy, truthful
 from dcg_torch.agent.command import Look, Outcome, Stopwatch, carry_out
 from dcg_torch.agent.explore import Explorer
 from dcg_torch.agent.robot import SimulationRobot
-from dcg_torch.interpretation.spoken import CommandParser
+from dcg_torch.interpretation.parser_protocol import CommandParser
 from dcg_torch.model import GroundingModel
 from dcg_torch.report.seconds import PHASES
 from dcg_torch.storage.records import Iteration, ObjectRecord, ParsedRecord, PoseRecord, Timing
@@ -45,19 +45,15 @@ def run_trial(
         asking: when to ask back; the speaker answers truthfully. None: never.
     """
     book = _Book(trial, model, robot)
+    obey = functools.partial(carry_out, model=model, robot=robot, parse=parse, spin_step=spin_step, asking=asking)
     for command in commands:
         clock = Stopwatch()
         with clock("load_world"):
             robot.load(command.world, rng=rng)
         book.open(command)
-        outcome = carry_out(
+        outcome = obey(
             command.text,
-            model,
-            robot,
-            parse=parse,
-            spin_step=spin_step,
             explorer=explorer and explorer(),
-            asking=asking,
             listener=truthful(command.target),
             watch=watch and functools.partial(watch, command),
             stopwatch=clock,

@@ -24,7 +24,7 @@ from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import save
 from dcg_torch.settings import LearnerKind, Settings
-from dcg_torch.storage.whole import write_whole, write_whole_folder
+from dcg_torch.storage.atomic_files import write_whole, write_whole_folder
 from dcg_torch.types import Pose
 from dcg_torch.world.speaker import Command
 

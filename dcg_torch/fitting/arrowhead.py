@@ -7,10 +7,10 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.fitting.design import Ints, numbered, scrambled
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.design import numbered, scrambled
 from dcg_torch.fitting.rows import ArrowheadRows
 from dcg_torch.fitting.symmetry import Incidence
+from dcg_torch.types.arrays import Floats, Ints
 
 _MOSTLY_APART = 0.9
 """Share of patterns among rows from which on it takes less time to treat each row as its own."""

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import DesignMatrix, Ints, may_have_few
+from dcg_torch.fitting.design import DesignMatrix, may_have_few
 from dcg_torch.fitting.phrase_rows import PhraseRows
 from dcg_torch.fitting.psi import Bag, Numbers, binary
 from dcg_torch.fitting.rows import GridRows, SparseRows, smallest_index
-
-Mask = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Ints
 
 _GRID = 0.25
 """Share of phrases and groundings that occur together from which on the whole product is the faster way."""
@@ -28,7 +26,7 @@ def fills_grid(design: DesignMatrix) -> bool:
 
 
 def cell_rows(
-    design: DesignMatrix, fires: Mask, *, whole: bool, unique: bool
+    design: DesignMatrix, fires: Bools, *, whole: bool, unique: bool
 ) -> tuple[GridRows | PhraseRows | SparseRows, Ints | slice]:
     """What fires, and where the design's rows are in the grid, or which of them are left.
 
@@ -58,7 +56,7 @@ def _grid(design: DesignMatrix, shape: tuple[int, int], active: Ints | None) -> 
     return GridRows(language, binary(things, shape[1]), active), design.phrase * len(things) + thing
 
 
-def _used_cells(design: DesignMatrix, moving: Mask) -> tuple[Ints, tuple[Ints, Numbers], Ints]:
+def _used_cells(design: DesignMatrix, moving: Bools) -> tuple[Ints, tuple[Ints, Numbers], Ints]:
     """The rows in which something moves, which cells each has, by their numbers, and the cells of all.
 
     Args:
@@ -76,7 +74,7 @@ def _used_cells(design: DesignMatrix, moving: Mask) -> tuple[Ints, tuple[Ints, N
     return rows, (_starts(length[rows]), number), np.flatnonzero(occurs)
 
 
-def _variables(language: Bag, cells: tuple[Ints, Ints], fires: Mask, active: Ints) -> tuple[Ints, Numbers]:
+def _variables(language: Bag, cells: tuple[Ints, Ints], fires: Bools, active: Ints) -> tuple[Ints, Numbers]:
     """Which variables each cell, of a phrase and a grounding column, has: where each one's begin, and their numbers."""
     phrase, column = cells
     variable = np.full(fires.size + 1, -1, dtype=smallest_index(fires.size))
@@ -94,7 +92,7 @@ def _starts(lengths: Ints) -> Ints:
     return np.concatenate([[0], np.cumsum(lengths)])
 
 
-def firing(design: DesignMatrix, active: Mask) -> Mask:
+def firing(design: DesignMatrix, active: Bools) -> Bools:
     """(L, G) which of the active weights fire."""
     together = np.zeros((len(design.language), active.shape[1] + 1), dtype=np.bool_)
     for column in design.grounding.T:

@@ -16,9 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.fitting.psi import Bag, Floats, Numbers, distinct
+from dcg_torch.fitting.psi import Bag, Numbers, distinct
+from dcg_torch.types.arrays import Floats, Ints
 
-Ints = NDArray[np.int64]
 Hashes = NDArray[np.uint64]
 
 _1, _27, _30, _31 = (np.uint64(number) for number in (1, 27, 30, 31))

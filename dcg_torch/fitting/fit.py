@@ -17,19 +17,19 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 import torch
-from numpy.typing import NDArray
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.device_objective import minimise
 from dcg_torch.fitting.devices import device_of
-from dcg_torch.fitting.lifting import lift
+from dcg_torch.fitting.lifting import Lifted, lift
 from dcg_torch.fitting.objective import likelihood, max_norm
-from dcg_torch.fitting.on_device import minimise
-from dcg_torch.fitting.psi import Floats, LogLinearFactor, scores
+from dcg_torch.fitting.psi import LogLinearFactor, scores
 from dcg_torch.fitting.reduction import Reduced, reduce
 from dcg_torch.fitting.rows import ArrowheadRows, SparseRows
+from dcg_torch.fitting.sparse_rows import weight_at, write_out
 from dcg_torch.fitting.threads import one_thread
-from dcg_torch.fitting.written import weight_at, write_out
+from dcg_torch.types.arrays import Bools, Floats
 
 Solver = Literal["auto", "newton", "lbfgs", "lbfgs-torch"]
 
@@ -60,7 +60,7 @@ def fit(
     designs: Sequence[DesignMatrix],
     *,
     l2: float | Floats,
-    free: NDArray[np.bool_] | None = None,
+    free: Bools | None = None,
     prior: Floats | None = None,
     tolerance: float = 1e-7,
     max_steps: int = 500,
@@ -87,35 +87,37 @@ def fit(
         DeviceError: the device is not there.
     """
     began = time.perf_counter()
+    where = factor.weight.device if device is None else device_of(device)
+    with one_thread():
+        problem, lifted = _problem_of(factor, designs, l2, free, prior)
+        solved = _solved(problem, where, tolerance, max_steps, solver)
+    lifted.spread(solved.weight)
+    factor.set_weight(solved.weight)
+    return solved.result(seconds=time.perf_counter() - began)
+
+
+def _problem_of(
+    factor: LogLinearFactor,
+    designs: Sequence[DesignMatrix],
+    l2: float | Floats,
+    free: Bools | None,
+    prior: Floats | None,
+) -> tuple[Problem, Lifted]:
+    """What is to be solved, with words of the same history as one, and how their weights are shared out again.
+
+    Raises:
+        ValueError: l2 is not positive.
+    """
     weight = factor.weight.detach().cpu().numpy()
     pairs = factor.pairs.cpu().numpy()
     active = pairs if free is None else pairs & free
     strength = _strength(l2, active)
     fixed = _with_prior(weight, prior, active)
-    where = factor.weight.device if device is None else device_of(device)
-    with one_thread():
-        lifted = lift(designs, fixed, active, strength)
-        problem = Problem(lifted.designs, weight, fixed, active, strength, lifted.times)
-        if where.type == "cpu":
-            found, new, constant, rows = _on_processor(problem, tolerance, max_steps, solver)
-        elif solver == "auto":
-            found, new, constant, rows = _on_device(problem, where, tolerance, max_steps)
-        else:
-            raise ValueError(f"solver={solver} runs on the processor alone; on {where} there is auto")
-    lifted.spread(new)
-    factor.set_weight(new)
-    return FitResult(
-        value=found.point.value + constant,
-        gradient=found.point.norm,
-        steps=found.steps,
-        evaluations=found.evaluations,
-        rows=rows,
-        status=found.status,
-        seconds=time.perf_counter() - began,
-    )
+    lifted = lift(designs, fixed, active, strength)
+    return Problem(lifted.designs, weight, fixed, active, strength, lifted.times), lifted
 
 
-def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
+def _strength(l2: float | Floats, active: Bools) -> Floats:
     """(L, G) of the penalty.
 
     Raises:
@@ -127,39 +129,70 @@ def _strength(l2: float | Floats, active: NDArray[np.bool_]) -> Floats:
     return strength
 
 
-def _with_prior(weight: Floats, prior: Floats | None, active: NDArray[np.bool_]) -> Floats:
+def _with_prior(weight: Floats, prior: Floats | None, active: Bools) -> Floats:
     """New weights (P, L, G), the prior where they are to move."""
     return np.where(active, 0.0 if prior is None else prior, weight)
 
 
 class Problem(NamedTuple):
-    """What `reduction.reduce` and `written.write_out` start from."""
+    """What `reduction.reduce` and `sparse_rows.write_out` start from."""
 
     designs: Sequence[DesignMatrix]
     weight: Floats
     fixed: Floats
-    active: NDArray[np.bool_]
+    active: Bools
     strength: Floats
     times: Floats | None
 
 
-_Found = tuple[solvers.Minimum, Floats, float, int]
-"""Where a solver ended, the weights (P, L, G) there, a constant to add to the value, and the rows that it saw."""
+class _Solved(NamedTuple):
+    """Where a solver ended.
+
+    Attributes:
+        found: its minimum, in its own variables.
+        weight: (P, L, G) the weights there.
+        constant: to add to the value of the minimum.
+        rows: distinct ones that the solver saw.
+    """
+
+    found: solvers.Minimum
+    weight: Floats
+    constant: float
+    rows: int
+
+    def result(self, seconds: float) -> FitResult:
+        """How the fit went that took so many seconds."""
+        found = self.found
+        value, gradient = found.point.value + self.constant, found.point.norm
+        return FitResult(value, gradient, found.steps, found.evaluations, self.rows, found.status, seconds)
 
 
-def _on_processor(problem: Problem, tolerance: float, max_steps: int, solver: Solver) -> _Found:
+def _solved(problem: Problem, device: torch.device, tolerance: float, max_steps: int, solver: Solver) -> _Solved:
+    """The optimum, where the device can find it.
+
+    Raises:
+        ValueError: it has no such solver.
+    """
+    if device.type == "cpu":
+        return _on_processor(problem, tolerance, max_steps, solver)
+    if solver == "auto":
+        return _on_device(problem, device, tolerance, max_steps)
+    raise ValueError(f"solver={solver} runs on the processor alone; on {device} there is auto")
+
+
+def _on_processor(problem: Problem, tolerance: float, max_steps: int, solver: Solver) -> _Solved:
     reduced = reduce(*problem, prefer=solver)
     found = _solve(reduced, tolerance, max_steps, solver)
-    return found, reduced.weight(found.point.at), reduced.constant, reduced.objective.count.shape[1]
+    return _Solved(found, reduced.weight(found.point.at), reduced.constant, reduced.objective.count.shape[1])
 
 
-def _on_device(problem: Problem, device: torch.device, tolerance: float, max_steps: int) -> _Found:
+def _on_device(problem: Problem, device: torch.device, tolerance: float, max_steps: int) -> _Solved:
     if not problem.designs:
         return _on_processor(problem, tolerance, max_steps, "auto")
     written = write_out(*problem)
     found = minimise(written, device, tolerance=tolerance, max_steps=max_steps)
     d = found.point.at.reshape(len(problem.weight) - 1, -1)
-    return found, weight_at(d, problem.fixed, written.columns), written.constant, written.incidence.rows
+    return _Solved(found, weight_at(d, problem.fixed, written.columns), written.constant, written.incidence.rows)
 
 
 def _solve(reduced: Reduced, tolerance: float, max_steps: int, solver: Solver) -> solvers.Minimum:

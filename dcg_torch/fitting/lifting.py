@@ -12,13 +12,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import DesignMatrix, Hashes, Ints, row_hashes, scrambled
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.design import DesignMatrix, Hashes, row_hashes, scrambled
 from dcg_torch.fitting.symmetry import bits_of, count_distinct
-
-Mask = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _ROWS = 1_000
 """Rows from which on it pays to look."""
@@ -53,7 +50,7 @@ class Lifted:
             weight[:, np.array(others)[:, None], alike.grounding] = weight[:, first, alike.grounding][:, None]
 
 
-def lift(designs: Sequence[DesignMatrix], fixed: Floats, active: Mask, strength: Floats) -> Lifted:
+def lift(designs: Sequence[DesignMatrix], fixed: Floats, active: Bools, strength: Floats) -> Lifted:
     """Leave out the rows of phrases that are like others.
 
     Args:
@@ -108,7 +105,7 @@ def _alike(design: DesignMatrix, own: Ints) -> Iterator[Ints]:
     yield from _groups(np.flatnonzero((own >= 0) & used), keys)
 
 
-def _with_equal_cells(columns: Ints, firing: Ints, fixed: Floats, active: Mask, strength: Floats) -> Iterator[Ints]:
+def _with_equal_cells(columns: Ints, firing: Ints, fixed: Floats, active: Bools, strength: Floats) -> Iterator[Ints]:
     """Positions in `columns` of those that are free in the same cells, and have the same values where they are not."""
     cells = np.ix_(columns, firing)
     values = [active[cells].astype(np.float64), *fixed[:, columns[:, None], firing]]

@@ -23,11 +23,10 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.fitting.design import Ints
 from dcg_torch.fitting.phrase_rows import PhraseRows
-from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, Rows
 from dcg_torch.fitting.solvers import Direction, Function, Point
+from dcg_torch.types.arrays import Floats, Ints
 
 _SETTLED = 1e-10
 """Variables of a block whose gradient is less stay where they are."""

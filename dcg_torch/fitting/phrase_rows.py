@@ -13,9 +13,10 @@ from typing import TYPE_CHECKING, NamedTuple, Self
 
 import numpy as np
 
-from dcg_torch.fitting.design import DesignMatrix, Ints, Run, runs
-from dcg_torch.fitting.psi import Bag, Floats
+from dcg_torch.fitting.design import DesignMatrix, Run, runs
+from dcg_torch.fitting.psi import Bag
 from dcg_torch.fitting.rows import Bend, gathered, ones_at, spread
+from dcg_torch.types.arrays import Floats, Ints
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 from torch import nn
 
 from dcg_torch.types import Correspondence
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 Numbers = NDArray[np.signedinteger[Any]]
 Bag = Numbers
-Floats = NDArray[np.float64]
 
 TERNARY = (Correspondence.INVERTED, Correspondence.INACTIVE, Correspondence.ACTIVE)
 BINARY = (Correspondence.INACTIVE, Correspondence.ACTIVE)
@@ -51,7 +51,7 @@ class LogLinearFactor(nn.Module):
 
     def __init__(
         self,
-        pairs: NDArray[np.bool_],
+        pairs: Bools,
         correspondences: tuple[Correspondence, ...] = TERNARY,
         device: torch.device | str | None = None,
     ) -> None:
@@ -72,7 +72,7 @@ class LogLinearFactor(nn.Module):
             raise ValueError(f"weights of shape {tuple(values.shape)} for a factor of {tuple(self.weight.shape)}")
         self.weight = nn.Parameter(values.detach(), requires_grad=self.weight.requires_grad)
 
-    def grow(self, pairs: NDArray[np.bool_]) -> None:
+    def grow(self, pairs: Bools) -> None:
         """Add columns of zero weight; every old probability stays bit-identical.
 
         Args:
@@ -94,7 +94,7 @@ class LogLinearFactor(nn.Module):
         self.pairs = mask
         self.weight = nn.Parameter(weight, requires_grad=old.requires_grad)
 
-    def log_psi(self, language: Bag, grounding: Bag, phrase: NDArray[np.int64]) -> torch.Tensor:
+    def log_psi(self, language: Bag, grounding: Bag, phrase: Ints) -> torch.Tensor:
         """log Psi of n factors.
 
         On the processor equal factors have equal bits wherever they stand, or a tie between two objects would not be
@@ -116,7 +116,7 @@ class LogLinearFactor(nn.Module):
         total -= np.log(np.exp(total).sum(axis=0))
         return torch.from_numpy(total.T)
 
-    def _differentiable(self, language: Bag, grounding: Bag, phrase: NDArray[np.int64]) -> torch.Tensor:
+    def _differentiable(self, language: Bag, grounding: Bag, phrase: Ints) -> torch.Tensor:
         """The same in torch: for other devices, and where gradients are asked for."""
         weight = self.weight
         left, right = (
@@ -148,7 +148,7 @@ def distinct(bag: Bag) -> Bag:
     return np.sort(rows, axis=1)
 
 
-def scores(weight: Floats, language: Bag, grounding: Bag, phrase: NDArray[np.int64]) -> Floats:
+def scores(weight: Floats, language: Bag, grounding: Bag, phrase: Ints) -> Floats:
     """(P, n) scores of factors whose bags name no column twice; for the arguments see `LogLinearFactor.log_psi`."""
     size, m = weight.shape[2] + 1, len(language)
     of_phrase = np.zeros((len(weight), m, size))  # the last column stays zero: it is what padding adds
@@ -165,9 +165,9 @@ def scores(weight: Floats, language: Bag, grounding: Bag, phrase: NDArray[np.int
     return total
 
 
-def wrapped(bag: Bag, size: int) -> NDArray[np.int64]:
+def wrapped(bag: Bag, size: int) -> Ints:
     """The columns of a bag, and size - 1 where it is padded."""
-    found: NDArray[np.int64] = bag.astype(np.int64, copy=False) % size  # short integers may not hold the size
+    found: Ints = bag.astype(np.int64, copy=False) % size  # short integers may not hold the size
     return found
 
 

@@ -17,13 +17,10 @@ import numpy as np
 
 from dcg_torch.fitting.arrowhead import Split, split
 from dcg_torch.fitting.cells import cell_rows, fills_grid, firing
-from dcg_torch.fitting.design import DesignMatrix, Ints, concatenate, stack
+from dcg_torch.fitting.design import DesignMatrix, concatenate, stack
 from dcg_torch.fitting.objective import Objective
-from dcg_torch.fitting.psi import Floats
 from dcg_torch.fitting.rows import ArrowheadRows, GridRows, SparseRows
-from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
-from dcg_torch.fitting.written import (
-    Mask,
+from dcg_torch.fitting.sparse_rows import (
     Written,
     at_cells,
     constant_of,
@@ -34,6 +31,8 @@ from dcg_torch.fitting.written import (
     weight_at,
     write_out,
 )
+from dcg_torch.fitting.symmetry import Classes, Incidence, bits_of, classes
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _FEW_ENTRIES, _SOME_ENTRIES, _MOST_ENTRIES = 50_000, 200_000, 2_000_000
 """Pairs that may fire, over all rows, up to which rows are written out: always; unless they share many weights and are
@@ -82,7 +81,7 @@ def reduce(
     designs: Sequence[DesignMatrix],
     weight: Floats,
     fixed: Floats,
-    active: Mask,
+    active: Bools,
     strength: Floats,
     times: Floats | None = None,
     *,
@@ -170,7 +169,7 @@ def _alike(incidence: Incidence, count: Floats, offset: Floats | None, strength:
     return classes(incidence, rows, bits_of(strength[None], incidence.columns))
 
 
-def _may_be_written(designs: Sequence[DesignMatrix], active: Mask) -> bool:
+def _may_be_written(designs: Sequence[DesignMatrix], active: Bools) -> bool:
     """May it pay to write rows out? Not if so many share each of many weights that Newton's method takes long."""
     entries: int = sum(design.grounding.size * design.language.shape[1] for design in designs)
     if entries <= _FEW_ENTRIES or entries > _MOST_ENTRIES:
@@ -184,7 +183,7 @@ def _factored(
     designs: Sequence[DesignMatrix],
     weight: Floats,
     fixed: Floats,
-    active: Mask,
+    active: Bools,
     strength: Floats,
     times: Floats | None,
 ) -> Reduced:

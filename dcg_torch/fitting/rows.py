@@ -15,9 +15,9 @@ from typing import TYPE_CHECKING, Protocol, Self, cast
 
 import numpy as np
 
-from dcg_torch.fitting.design import Ints
-from dcg_torch.fitting.psi import Floats, Numbers
+from dcg_torch.fitting.psi import Numbers
 from dcg_torch.fitting.symmetry import Incidence
+from dcg_torch.types.arrays import Floats, Ints
 
 if TYPE_CHECKING:
     from scipy.sparse import csr_array

@@ -15,7 +15,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 import torch
 
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.types.arrays import Floats
 
 _SUFFICIENT, _CURVATURE = 1e-4, 0.9
 """Constants of the strong Wolfe conditions."""

@@ -15,10 +15,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import Hashes, Ints, numbered, run_starts, scrambled
-from dcg_torch.fitting.psi import Floats
+from dcg_torch.fitting.design import Hashes, numbered, run_starts, scrambled
+from dcg_torch.types.arrays import Floats, Ints
 
 
 @dataclass(frozen=True)
@@ -90,7 +89,7 @@ def row_keys(incidence: Incidence) -> Hashes:
     return np.add.reduceat(bits[incidence.column], incidence.starts)
 
 
-def bits_of(values: Sequence[NDArray[np.float64]] | Floats, size: int) -> Hashes:
+def bits_of(values: Sequence[Floats] | Floats, size: int) -> Hashes:
     """(size,) a hash of each column of `values` (n, size), bit by bit."""
     total = np.zeros(size, dtype=np.uint64)
     for row in values:

@@ -18,9 +18,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from dcg_torch.english.dictionary import english
-from dcg_torch.fitting.psi import Floats
-from dcg_torch.grounding.contrary import contradicted
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.contradictions import contradicted
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
@@ -29,6 +28,7 @@ from dcg_torch.names.palette import lab, region
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import LOOKED_ROUND, OPAQUE, Object, Phrase, PhraseKind
+from dcg_torch.types.arrays import Floats
 
 _RARE = -5.0
 """Log-odds that a command means what is not there, where something has the name and the colour that it says."""

@@ -10,19 +10,16 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import ASLANT, UNSURE
 from dcg_torch.grounding.nearness import nearest_of_a_kind
-from dcg_torch.grounding.reach import ASLANT, UNSURE
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BESIDE_THE_WAY, WITHIN
 from dcg_torch.scene.layout import OF_ROBOT
 from dcg_torch.scene.order import TIE
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _AT = listed("on a side") | {WITHIN}
 _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0, 0.0)}

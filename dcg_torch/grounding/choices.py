@@ -10,8 +10,9 @@ it may describe several, and one best. So commands whose objects are known are f
     Psi_m(j)      = (1 - slip) sum_c p(c) Psi(asserted | j, c) + slip           `hypotheses.ModifierFactor`
 
 with p(c), the probability of a modifier's landmarks, as the model has it before. What is denied of several landmarks
-of one name counts for each of them here, where the graph takes the worst (`reach.of_denied`). What moves is the
-difference of the weights of ACTIVE and INACTIVE; their mean stays, and so do the weights of other correspondences.
+of one name counts for each of them here, where the graph takes the worst (`measured_relations.of_denied`). What
+moves is the difference of the weights of ACTIVE and INACTIVE; their mean stays, and so do the weights of other
+correspondences.
 
 Conventions
     R rows of factors, distinct ones; N candidates, those of one choice after another; C choices
@@ -25,18 +26,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting import solvers
 from dcg_torch.fitting.design import row_hashes, stack_bags
-from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
+from dcg_torch.fitting.psi import Bag, LogLinearFactor
 from dcg_torch.fitting.threads import one_thread
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.hypotheses import SLIP
 from dcg_torch.types import Correspondence, Phrase
-
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 
 @dataclass(frozen=True)

@@ -9,17 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.palette import named_rgb
 from dcg_torch.scene.groups import STACK
 from dcg_torch.types import Correspondence, Phrase
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
+from dcg_torch.types.arrays import Floats, Ints
 
 _ANOTHER = -5.0
 """The most that a group loses for a thing of another colour, or for a colour that none of its things has, in nats."""

@@ -8,7 +8,7 @@ from dcg_torch.grounding.frames import faced, views
 from dcg_torch.grounding.readings import SharedSearch, sum_over_frames, told_where, worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.speakers import about_the_speaker
-from dcg_torch.interpretation.spoken import ReadCommand
+from dcg_torch.interpretation.parser_protocol import ReadCommand
 from dcg_torch.types import WorldModel
 
 

@@ -10,16 +10,13 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.bearings import that_way
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import ON_A_SIDE
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import ON_A_SIDE
 from dcg_torch.names.vocabulary import BY_COMPASS
 from dcg_torch.types import ParseTree
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _SLANT = math.radians(25.0)
 """Angle at which a thing is half a nat less that way than one straight on."""

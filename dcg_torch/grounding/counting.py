@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.scene.layout import HEADINGS
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _CALLED = {"left": "left side", "right": "right side", "back": "far side", "front": "near side"}
 WAYS = {side: HEADINGS[heading] for side, heading in _CALLED.items()}

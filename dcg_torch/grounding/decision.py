@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.types import Object
+from dcg_torch.types.arrays import Floats
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
@@ -17,7 +17,7 @@ _SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
 """Log of the probability that something is there from which on something is meant that is."""
 
 
-def instead_of(best: Object, totals: NDArray[np.float64], encoder: WorldEncoder, *, several: bool) -> str:
+def instead_of(best: Object, totals: Floats, encoder: WorldEncoder, *, several: bool) -> str:
     """Id of the thing that is meant, which is the likeliest configuration's unless names count, or several are meant.
 
     Where names count, something that is there is meant if that is twice as likely as that nothing there is. A phrase

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from dcg_torch.fitting.psi import LogLinearFactor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.hypotheses import Hypothesis
 from dcg_torch.grounding.solution import Solution

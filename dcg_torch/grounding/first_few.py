@@ -11,18 +11,15 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.counting import WAYS, behind, start_of_line
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import NEAREST, ORDINALS, TOGETHER, is_superlative
 from dcg_torch.types import Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _BY_PLACE = 5.0
 """Nats that a thing loses for each place by which it stays behind the few."""
@@ -71,7 +68,7 @@ def first_few(
     return replace(phrase, words=tuple(word for word in phrase.words if word not in words)), log
 
 
-def _away(ranked: ModifierFactor, at: NDArray[np.int64], encoder: WorldEncoder) -> Floats | None:
+def _away(ranked: ModifierFactor, at: Ints, encoder: WorldEncoder) -> Floats | None:
     """(at,) the higher, the earlier from the likeliest landmark of a modifier; None where that is nowhere."""
     position = encoder.layout.position[:, :2]
     landmark = ranked.combos.things[int(ranked.log_prior.argmax())][0]
@@ -79,7 +76,7 @@ def _away(ranked: ModifierFactor, at: NDArray[np.int64], encoder: WorldEncoder) 
     return away if len(ranked.combos.beams) == 1 and np.isfinite(away).all() else None
 
 
-def _places(words: Sequence[str], at: NDArray[np.int64], encoder: WorldEncoder) -> Floats | None:
+def _places(words: Sequence[str], at: Ints, encoder: WorldEncoder) -> Floats | None:
     """(at,) the higher, the earlier along what the words name; None where they name nothing that is measured so."""
     where, told = encoder.layout, {*words}
     position = where.position[at, :2]

@@ -19,7 +19,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from dcg_torch.fitting.psi import LogLinearFactor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution

@@ -10,9 +10,9 @@ from functools import cached_property
 from typing import NamedTuple, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.types import Child, Correspondence, Grounding, GroundingKind, Object, ParseTree, PhraseKind
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 T = TypeVar("T")
 
@@ -73,7 +73,7 @@ class Combos:
         return self._of_each([beam.things for beam in self.beams])
 
     @cached_property
-    def log_scores(self) -> NDArray[np.float64]:
+    def log_scores(self) -> Floats:
         """(choices,) of each its hypotheses' log-scores, added up."""
         columns = [beam.log_scores for beam in self.beams]
         if len(columns) == 1 and self._given is None:
@@ -198,29 +198,29 @@ class ModifierFactor:
 
     tree: ParseTree
     combos: Combos
-    mixture: NDArray[np.float64]
-    log_prior: NDArray[np.float64]
-    compared: NDArray[np.bool_] | None = None
+    mixture: Floats
+    log_prior: Floats
+    compared: Bools | None = None
     of_each: bool = False
 
     @cached_property
-    def _log_sum(self) -> NDArray[np.float64]:
-        total: NDArray[np.float64] = np.logaddexp.reduce(self.mixture, axis=0)
+    def _log_sum(self) -> Floats:
+        total: Floats = np.logaddexp.reduce(self.mixture, axis=0)
         return total
 
     @cached_property
-    def log_psi(self) -> NDArray[np.float64]:
+    def log_psi(self) -> Floats:
         """(things,) log Psi(thing)."""
         return np.logaddexp(math.log1p(-SLIP) + self._log_sum, math.log(SLIP))
 
     @cached_property
-    def _likeliest(self) -> NDArray[np.int64]:
+    def _likeliest(self) -> Ints:
         """(things,) the likeliest combo of each."""
-        best: NDArray[np.int64] = self.mixture.argmax(axis=0)
+        best: Ints = self.mixture.argmax(axis=0)
         return best
 
     @property
-    def posterior(self) -> NDArray[np.float64]:
+    def posterior(self) -> Floats:
         """(combos, things) p(landmarks | thing): what the modifier rests on if that thing is meant."""
         return np.exp(self.mixture - self._log_sum)
 

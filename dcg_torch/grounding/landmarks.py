@@ -6,16 +6,16 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.scored import Scored
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.phrase_scores import Scored
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.everyday import is_everyday
+from dcg_torch.names.everyday_names import is_everyday
 from dcg_torch.names.evidence import is_generic
 from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_named
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
+from dcg_torch.types.arrays import Floats, Ints
 
 _NAMES_ONE = math.log(0.5)
 """Log Psi from which a noun phrase names a thing that is there."""
@@ -86,7 +86,7 @@ def without_landmarks(log_odds: float, of_each: Sequence[float], found: Scored, 
     return math.log1p(-left) - math.log(left)
 
 
-def spread(landmarks: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[np.float64]:
+def spread(landmarks: Ints, place: Floats) -> Floats:
     """(combos,) how far the landmarks that are spoken of together are apart, beyond those that are closest, units.
 
     Args:
@@ -97,7 +97,5 @@ def spread(landmarks: NDArray[np.int64], place: NDArray[np.float64]) -> NDArray[
     apart = np.linalg.norm(at[:, :, None] - at[:, None], axis=3).max(axis=(1, 2))
     once = (ordered[:, 1:] == ordered[:, :-1]).any(axis=1)
     apart = np.where(np.isfinite(apart) & ~once, apart, np.inf)
-    near: NDArray[np.float64] = (
-        np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
-    )
+    near: Floats = np.minimum(apart - apart.min(), _FARTHEST) if np.isfinite(apart.min()) else np.zeros(len(apart))
     return near

@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import (
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import (
     ASLANT,
     NEARNESS,
     ON_A_SIDE,
@@ -25,10 +24,7 @@ from dcg_torch.grounding.reach import (
 )
 from dcg_torch.names.vocabulary import OF_TWO
 from dcg_torch.types import NOT, Phrase
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
-Ints = NDArray[np.int64]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 
 def by_nearness(

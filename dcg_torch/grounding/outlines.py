@@ -8,14 +8,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.grounding.encode import WorldEncoder
-from dcg_torch.grounding.reach import inside_of, within_reach
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import inside_of, within_reach
 from dcg_torch.names.vocabulary import AT_END, OF_OUTLINE, TOWARDS
 from dcg_torch.scene.layout import HEADINGS
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats, Ints
 
 _LONGER = 1.15
 """How many times as long as wide a thing is that has two ends."""
@@ -81,7 +79,7 @@ def _out_to_an_end(offset: Floats, half: Floats) -> Floats:
     return np.where(long[:, None], out, np.nan)
 
 
-def _halves(half: Floats, numbers: NDArray[np.int64]) -> Floats:
+def _halves(half: Floats, numbers: Ints) -> Floats:
     """(combos, 2) half extents, 0 of what has none."""
     found = np.zeros((len(numbers), 2))
     known = numbers < len(half)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.hypotheses import Beam
 from dcg_torch.grounding.tables import Pattern, Tables, exact_sum
 from dcg_torch.types import Child, Correspondence, GroundingKind, Phrase
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 
 def patterns_of(children: Sequence[Child], about: Sequence[int]) -> list[Pattern]:

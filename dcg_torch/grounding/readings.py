@@ -9,13 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
-from dcg_torch.grounding.by_thing import ByThing
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.exceptions import split_exceptions, without
 from dcg_torch.grounding.frames import as_viewed
 from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.grounding.thing_values import ByThing
+from dcg_torch.interpretation.appearance_words import Looks, with_appearance_words
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.interpretation.containers import in_what_holds_it
 from dcg_torch.interpretation.factor_tree import (
@@ -28,8 +29,7 @@ from dcg_torch.interpretation.factor_tree import (
     speaks_of,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
-from dcg_torch.interpretation.in_the_scene import in_the_scene
-from dcg_torch.interpretation.looking import Looks, told_by_looking
+from dcg_torch.interpretation.parser_protocol import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.plain_places import of_two_sides
 from dcg_torch.interpretation.room_parts import with_corners
 from dcg_torch.interpretation.rooms import (
@@ -39,10 +39,10 @@ from dcg_torch.interpretation.rooms import (
     with_rooms,
 )
 from dcg_torch.interpretation.scene_kinds import is_close_by
+from dcg_torch.interpretation.scene_rewrites import in_scene_words
 from dcg_torch.interpretation.shelves import with_tiers
-from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.stacks import with_levels
-from dcg_torch.names.attributes import OF_KEY
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
 from dcg_torch.types import OPAQUE, ParseTree, WorldModel
@@ -86,9 +86,9 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         for (r, weight), absent in zip(weighed, strange, strict=True)
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
-    trees = [in_the_scene(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
+    trees = [in_scene_words(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)
-    told = by_attributes([told_by_looking(tree, command.text, looks) for tree, _ in led], world)
+    told = by_attributes([with_appearance_words(tree, command.text, looks) for tree, _ in led], world)
     return [
         Reading(tree, weight - (_TO_A_ROOM if leads else 0.0), tuple(r.rules))
         for tree, (_, leads), (r, weight) in zip(by_cells(told, world), led, kept, strict=True)

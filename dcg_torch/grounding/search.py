@@ -6,29 +6,26 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
-from dcg_torch.grounding.by_thing import ByThing
-from dcg_torch.grounding.contrary import of_missing_marks
+from dcg_torch.grounding.contradictions import of_missing_marks
 from dcg_torch.grounding.decision import instead_of
-from dcg_torch.grounding.describing import comparison_set, is_narrowed, modifier_factor, of_attributes, of_kind, ranks
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.descriptions import comparison_set, is_narrowed, modifier_factor, of_attributes, of_kind, ranks
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
+from dcg_torch.grounding.measured_relations import ranked_among
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from, tells_which_few
 from dcg_torch.grounding.patterns import Spread
-from dcg_torch.grounding.reach import ranked_among
-from dcg_torch.grounding.scored import FEW, Scored
+from dcg_torch.grounding.phrase_scores import FEW, Scored
 from dcg_torch.grounding.solution import Solution, target_of
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.grounding.thing_values import ByThing
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.vocabulary import counted
 from dcg_torch.types import Correspondence, ParseTree, Phrase, PhraseKind
-
-Floats = NDArray[np.float64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats
 
 _NOT_THIS = 50.0
 """Nats that take a hypothetical object out."""

@@ -7,12 +7,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dcg_torch.grounding.hypotheses import Hypothesis, ModifierFactor
 from dcg_torch.names.vocabulary import ANY, FEW, GROUP_LIKE, HALF, SO_MANY
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.arrays import Bools
 
 _AS_WELL = 0.5
 """An object is one of several that are meant if it is described at least half as well as the best."""
@@ -56,7 +54,7 @@ class Solution:
     odds: Mapping[str, float] = field(default_factory=dict)
     runner_up: Hypothesis | None = None
     modifiers: tuple[ModifierFactor, ...] = field(default=(), compare=False)
-    compared: NDArray[np.bool_] | None = field(default=None, compare=False)
+    compared: Bools | None = field(default=None, compare=False)
     named: float = 0.0
     further: tuple[Solution, ...] = ()
     problem: str | None = None

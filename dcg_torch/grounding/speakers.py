@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 
 from dcg_torch.grounding.exceptions import without
 from dcg_torch.grounding.solution import target_of, with_target
-from dcg_torch.interpretation.spoken import ReadCommand, WeightedReading
-from dcg_torch.names.normal import read_data
+from dcg_torch.interpretation.parser_protocol import ReadCommand, WeightedReading
+from dcg_torch.names.normal_form import read_data
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _SAME_PLACE = 0.1  # metres

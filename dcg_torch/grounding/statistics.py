@@ -13,14 +13,14 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.fitting.design import DesignMatrix, Ints
-from dcg_torch.fitting.psi import Bag, Floats
-from dcg_torch.grounding.encode import encode
+from dcg_torch.fitting.design import DesignMatrix
+from dcg_torch.fitting.psi import Bag
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, Group, Said, child_feature, ranking
-from dcg_torch.grounding.features.said import facts
+from dcg_torch.grounding.features.name_facts import facts
 from dcg_torch.types import Correspondence, Example, GroundingKind, Object, Phrase, PhraseKind
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 Value = TypeVar("Value")
 
@@ -49,7 +49,7 @@ class SoftLabels:
     objects: Sequence[Object]
     active: Floats
     inactive: Floats
-    shown: NDArray[np.bool_] | None = None
+    shown: Bools | None = None
 
 
 class Statistics:

@@ -14,10 +14,11 @@ import numpy as np
 import torch
 
 from dcg_torch import scene
-from dcg_torch.fitting.psi import Bag, Floats, LogLinearFactor
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.fitting.psi import Bag, LogLinearFactor
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Ranking, Said, padded, ranking
 from dcg_torch.types import Child, Correspondence, GroundingKind, Object, Phrase
+from dcg_torch.types.arrays import Floats
 
 _ENTRIES = 1 << 16
 """Weights that are gathered at once; beyond, they are added column by column."""

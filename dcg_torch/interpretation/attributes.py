@@ -11,20 +11,11 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
 from dcg_torch.interpretation.people import OF_PEOPLE
-from dcg_torch.names.attributes import (
-    HAS,
-    NOT_,
-    OF_KEY,
-    attribute_key,
-    is_clothing,
-    is_told_apart,
-    named_key,
-    says_value,
-    says_whether,
-    states_value,
-)
+from dcg_torch.names.attribute_values import is_told_apart, says_value, says_whether, states_value
+from dcg_torch.names.attributes import HAS, NOT_
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.normal import normalise, singular
+from dcg_torch.names.keys import OF_KEY, attribute_key, is_clothing, named_key
+from dcg_torch.names.normal_form import normalise, singular
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS, SIDED
 from dcg_torch.names.weights import log_odds, names_one_of

@@ -6,7 +6,7 @@ from __future__ import annotations
 import itertools
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import GROUP_WORDS, SIDED
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel

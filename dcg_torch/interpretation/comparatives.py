@@ -8,15 +8,13 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.interpretation.dimensions import dimensions, measure
 from dcg_torch.names.palette import lab
 from dcg_torch.names.vocabulary import THAN
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import NOT, Object, ParseTree, PhraseKind, Pose
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _SURE = 0.98
 """Probability that a thing is more so than another, where what is known of them says so."""

@@ -11,9 +11,9 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.everyday import everyday
-from dcg_torch.names.normal import normalise
+from dcg_torch.interpretation.parser_protocol import Words
+from dcg_torch.names.everyday_names import everyday
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.rooms import room_named
 from dcg_torch.names.weights import log_odds
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel

@@ -10,8 +10,8 @@ import functools
 from collections.abc import Collection, Sequence
 from dataclasses import replace
 
-from dcg_torch.names.everyday import everyday
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.everyday_names import everyday
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import region
 from dcg_torch.names.relations import listed
 from dcg_torch.names.weights import names_one_of

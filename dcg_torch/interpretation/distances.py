@@ -7,7 +7,7 @@ import math
 import re
 from typing import NamedTuple
 
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.normal_form import read_data
 from dcg_torch.names.vocabulary import cardinal
 from dcg_torch.types import Phrase
 

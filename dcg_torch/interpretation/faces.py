@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, PLACE_WORDS, SIDED, TOWARDS
 from dcg_torch.names.weights import names_one_of

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from dcg_torch.interpretation.coordination import each_meant, either_color
 from dcg_torch.interpretation.distances import said_apart, said_turn
-from dcg_torch.interpretation.from_you import from_you
-from dcg_torch.interpretation.joined import each_meant, either_color
+from dcg_torch.interpretation.egocentric_adverbs import with_egocentric_places
 from dcg_torch.interpretation.plain_lines import in_whole_line
 from dcg_torch.interpretation.plain_words import in_group, in_plain_words
 from dcg_torch.interpretation.scene_kinds import is_board, scene_kind, stands_among
-from dcg_torch.names.normal import heads
+from dcg_torch.names.normal_form import heads
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (
     ANYTHING,
@@ -38,7 +38,7 @@ from dcg_torch.names.vocabulary import (
     is_superlative,
 )
 from dcg_torch.scene.layout import NEAREST
-from dcg_torch.scene.upright import is_upright
+from dcg_torch.scene.upright_pictures import is_upright
 from dcg_torch.scene.workspace import Beside
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions
@@ -164,7 +164,7 @@ def _low(heights: Sequence[float]) -> float:
 def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
     """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
     there, (flat, upright), scene, among = setting
-    said = from_you(in_whole_line(tree), among=among)
+    said = with_egocentric_places(in_whole_line(tree), among=among)
     plain = in_plain_words(said, there, flat=flat or upright, upright=upright)
     found = _described(_beyond(plain) if flat else plain)
     return _said_in(found, scene) if scene else found

@@ -8,7 +8,7 @@ from typing import Final
 from dcg_torch.english.forms import parts
 from dcg_torch.names.evidence import unheard_of
 from dcg_torch.names.marks import MARK_WORDS, WORD, Mark, Marks, mark_words
-from dcg_torch.names.normal import singular
+from dcg_torch.names.normal_form import singular
 
 _NAME: Final = 2  # letters of a name
 _SHORTENED: Final = ("no", "nr", "num")

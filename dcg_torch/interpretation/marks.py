@@ -16,13 +16,14 @@ from dataclasses import replace
 from typing import Any, Final, TypeVar
 
 from dcg_torch.interpretation.mark_finder import FoundMark, find_marks
+from dcg_torch.interpretation.parser_protocol import ParsedCommand
 from dcg_torch.interpretation.people import of_people
-from dcg_torch.interpretation.spoken import ParsedCommand
 from dcg_torch.interpretation.turns import in_one_voice
-from dcg_torch.names.attributes import OF_KEY, attribute_evidence
+from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.color_names import color_evidence
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.marks import OF_CLASS, Marks, is_strange, mark_words, marks_of, words_of
-from dcg_torch.names.normal import singular
+from dcg_torch.names.normal_form import singular
 from dcg_torch.names.relations import listed
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, ParseTree, Percept, Phrase, PhraseKind
 

@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.scene_kinds import scene_kind
-from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import NEAREST
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.groups import in_line
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 from dcg_torch.types.geometry import positions, to_robot_frame
 

@@ -9,14 +9,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.scene_kinds import scene_kind
-from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BESIDE_THE_WAY, LATERAL, LIKE_RELATION, ORDINALS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.arrays import Floats
 from dcg_torch.types.geometry import to_robot_frame
 
 _LAST, _FIRST, _TABLE, _LEFT = "last", "first", "table", "left"
@@ -86,12 +86,12 @@ def _is_passage(noun: str, side: str, world: WorldModel) -> bool:
     return _in_two_lines(x[own], y[own]) or (x[own].min() >= 0.0 and _in_a_line(x[own][beside], y[own][beside]))
 
 
-def _in_a_line(x: NDArray[np.float64], y: NDArray[np.float64]) -> bool:
+def _in_a_line(x: Floats, y: Floats) -> bool:
     off = float(np.abs(y).min(initial=np.inf))
     return len(y) >= _LEAST and bool(np.ptp(y) <= _STRAIGHT * off and np.ptp(x) >= _LONG * off)
 
 
-def _in_two_lines(x: NDArray[np.float64], y: NDArray[np.float64]) -> bool:
+def _in_two_lines(x: Floats, y: Floats) -> bool:
     left, right = y[y > 0.0], y[y <= 0.0]
     if len(y) < _LEAST or x.min() < 0.0 or not len(left) or not len(right):
         return False

@@ -12,8 +12,8 @@ from collections.abc import Iterable
 from typing import Final
 
 from dcg_torch.interpretation.telegrams import as_one_phrase
-from dcg_torch.names.attributes import attribute_key
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.keys import attribute_key
+from dcg_torch.names.normal_form import read_data
 from dcg_torch.types import LOOKED_ROUND, Object, Percept
 
 OF_PEOPLE: Final = frozenset(

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.scene_kinds import is_on_floor
-from dcg_torch.interpretation.spoken import Words
 from dcg_torch.names.vocabulary import (
     INSIDE,
     LINE_ACROSS,
@@ -18,7 +18,7 @@ from dcg_torch.names.vocabulary import (
     READ_FROM,
 )
 from dcg_torch.scene.grids import grid_of
-from dcg_torch.scene.upright import is_upright
+from dcg_torch.scene.upright_pictures import is_upright
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _SAME_END = {"from the back": "from the top", "from the front": "from the bottom"}

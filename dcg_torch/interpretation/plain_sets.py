@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.normal import heads, singular
+from dcg_torch.interpretation.parser_protocol import Words
+from dcg_torch.names.normal_form import heads, singular
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import BUILT_OF, GROUP_WORDS, INSIDE, MUTUAL, TOGETHER, counted
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel

@@ -6,8 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from dcg_torch.interpretation.comparatives import compared_twice, compared_with
-from dcg_torch.interpretation.its_own import lacking, seen_from_it
-from dcg_torch.interpretation.nearer import nearer_of_two
+from dcg_torch.interpretation.converse_relations import lacking, seen_from_it
 from dcg_torch.interpretation.plain_lines import line_of_all, read_along
 from dcg_torch.interpretation.plain_places import (
     MIDDLES,
@@ -22,6 +21,7 @@ from dcg_torch.interpretation.plain_places import (
     told_sides,
 )
 from dcg_torch.interpretation.plain_sets import middle_of_set, of_a_pair, one_of_those, together
+from dcg_torch.interpretation.relative_nearness import nearer_of_two
 from dcg_torch.interpretation.stacks import end_of_a_stack, from_the_ground, levels_of_stack
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import (

@@ -12,9 +12,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.interpretation.spoken import Words
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.attributes import NOT_
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT, TIERS
 from dcg_torch.names.weights import names_one_of

@@ -13,10 +13,11 @@ from collections import Counter
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.interpretation.joined import own_and_repeated
-from dcg_torch.interpretation.spoken import Words
-from dcg_torch.names.attributes import NOT_, OF_KEY, attribute_key
-from dcg_torch.names.normal import normalise
+from dcg_torch.interpretation.coordination import own_and_repeated
+from dcg_torch.interpretation.parser_protocol import Words
+from dcg_torch.names.attributes import NOT_
+from dcg_torch.names.keys import OF_KEY, attribute_key
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_keys, room_named, told_rooms, within_words
 from dcg_torch.names.vocabulary import LIKELY_ROOM

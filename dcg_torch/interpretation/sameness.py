@@ -6,16 +6,14 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.names.attributes import attribute_key
 from dcg_torch.names.color_names import color_evidence
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.keys import attribute_key
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import lab
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.types import Object
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 SAME_AS = {"same color as": "color", "same size as": "size", "same shape as": "shape", "same material as": "material"}
 """Prepositions, and in what two things are then alike."""

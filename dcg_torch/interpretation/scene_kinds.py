@@ -6,10 +6,8 @@ are taught together agree on what they share, and keep apart what they don't.
 
 from __future__ import annotations
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dcg_torch.types import WorldModel
+from dcg_torch.types.arrays import Floats
 
 _MANY = 25
 _TABLE, _YARD = 0.4, 2.0
@@ -51,7 +49,7 @@ def is_board(kind: str) -> bool:
     return "table" in names and "heights" in names and "classes" not in names
 
 
-def stands_among(seen: NDArray[np.float64]) -> bool:
+def stands_among(seen: Floats) -> bool:
     """Is there something on every side of the robot?
 
     Args:

@@ -15,14 +15,14 @@ import itertools
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_ENDS, ORDINALS, TIER, TIERS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.scene.bodies import boards
-from dcg_torch.scene.upright import is_upright
+from dcg_torch.scene.upright_pictures import is_upright
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _STEP = 0.1

@@ -10,7 +10,7 @@ from collections import defaultdict
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
-from dcg_torch.interpretation.spoken import Words
+from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, GROUP_WORDS, INSIDE, LEVEL, ORDINALS, PLACE_WORDS, counted
 from dcg_torch.scene.groups import stacks

@@ -13,8 +13,8 @@ from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 from dcg_torch.english.forms import parts
-from dcg_torch.names.attributes import says_value
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.attribute_values import says_value
+from dcg_torch.names.normal_form import read_data
 
 
 class _Piece(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import re
 
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.normal_form import read_data
 
 
 @functools.cache

@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 
 from dcg_torch.interpretation.guesses import told_by_answers
 from dcg_torch.interpretation.turn_words import pattern
-from dcg_torch.names.attributes import says_value, states_value
-from dcg_torch.names.normal import singular
+from dcg_torch.names.attribute_values import says_value, states_value
+from dcg_torch.names.normal_form import singular
 
 _LABEL = r"(?:(?<=^)|(?<=[\s.!?,'\"]))(?P<who>{})\s?:\s+"
 _ANY = r"[A-Za-z]{1,14}(?: ?\d)?"

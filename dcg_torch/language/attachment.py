@@ -1,6 +1,6 @@
 """A clause's phrases in their order -> the clause: what is said of which noun phrase, what stands beside what.
 
-`saying` decides where a noun phrase goes, `places` where a prepositional phrase goes.
+`phrase_roles` decides where a noun phrase goes, `places` where a prepositional phrase goes.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from dcg_torch.language.clauses import BEFORE_VERB, Clause
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import END, Item, Kind, deny, is_superlative, last_thing, settle_words
 from dcg_torch.language.lexicon import CHOICES, PLACING, RELATION_VERBS, SETS, VERBS
+from dcg_torch.language.phrase_roles import NounPhrases
 from dcg_torch.language.places import settle
-from dcg_torch.language.saying import NounPhrases
 
 
 def build(items: Sequence[Item], supplied: bool, decisions: Decisions) -> Clause:

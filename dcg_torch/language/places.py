@@ -13,7 +13,7 @@ from dcg_torch.language.clauses import Clause, main_object
 from dcg_torch.language.decisions import Decisions
 from dcg_torch.language.items import Item, Kind, last_thing, share_noun
 from dcg_torch.language.lexicon import CHOICES, PLACING, SETS, VERBS
-from dcg_torch.names.akin import is_akin
+from dcg_torch.names.noun_similarity import is_akin
 
 _MOST_SUPPORTS = 3  # "on A on B on C": the second says where it goes
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from dcg_torch.language.items import END, Item, Kind
 from dcg_torch.language.lexicon import PLACING, SETS
-from dcg_torch.names.akin import is_akin
+from dcg_torch.names.noun_similarity import is_akin
 
 _SAYING = frozenset({Kind.VERB, Kind.NOUN, Kind.PREPOSITION})
 

@@ -22,10 +22,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Matrix = NDArray[np.float64]
-Vector = NDArray[np.float64]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 EXACT_COST = 300_000
 """Words times types times sets of types, up to which the sum is exact (a few milliseconds)."""
@@ -48,12 +46,12 @@ class Marginals:
         sweeps: of belief propagation; 0 where the sum was exact.
     """
 
-    word: Matrix
-    taken: Vector
+    word: Floats
+    taken: Floats
     sweeps: int = 0
 
 
-def marginals(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> Marginals:
+def marginals(psi: Floats, repeat: float, free: Bools) -> Marginals:
     """The marginals: exact where that is cheap, otherwise propagated, and exact within small clusters.
 
     Raises:
@@ -78,7 +76,7 @@ def _cheap(words: int, types: int) -> bool:
     return types <= 16 and max(1, words) * max(1, types) * 2**types <= EXACT_COST
 
 
-def _clusters(linked: NDArray[np.bool_], free: NDArray[np.bool_]) -> list[tuple[NDArray[np.int64], NDArray[np.int64]]]:
+def _clusters(linked: Bools, free: Bools) -> list[tuple[Ints, Ints]]:
     """Words and repelling types that hang together, as (indices of words, indices of types)."""
     of_word: list[list[int]] = [[] for _ in range(len(linked))]
     of_type: list[list[int]] = [[] for _ in free]
@@ -99,7 +97,7 @@ def _clusters(linked: NDArray[np.bool_], free: NDArray[np.bool_]) -> list[tuple[
     return found
 
 
-def exact(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> Marginals:
+def exact(psi: Floats, repeat: float, free: Bools) -> Marginals:
     """Forward and backward sums over (words so far, set of types taken): O(W T 2^T)."""
     _check(psi, repeat, free)
     psi = _scaled(psi)
@@ -132,9 +130,7 @@ def exact(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> Marginals:
     return Marginals(word, taken)
 
 
-def propagate(
-    psi: Matrix, repeat: float, free: NDArray[np.bool_], *, tolerance: float = 1e-6, most: int = 500
-) -> Marginals:
+def propagate(psi: Floats, repeat: float, free: Bools, *, tolerance: float = 1e-6, most: int = 500) -> Marginals:
     """Loopy belief propagation, all messages at once.
 
     With odds[w, t] the message "w names t" of a word to a type and P the product of (1 + repeat * odds) over the
@@ -183,7 +179,7 @@ def _blocks(words: int, types: int) -> list[slice]:
     return [slice(start, start + step) for start in range(0, words, step)]
 
 
-def _totals(psi: Matrix, answer: Matrix, repeat: float, blocks: Sequence[slice], odds: Matrix) -> Vector:
+def _totals(psi: Floats, answer: Floats, repeat: float, blocks: Sequence[slice], odds: Floats) -> Floats:
     """(T,) of each type the product of (1 + repeat * odds) over all words, or the sum of odds at repeat 0.
 
     The odds are written into `odds`; there is no telling beyond 1e300.
@@ -203,7 +199,7 @@ def _totals(psi: Matrix, answer: Matrix, repeat: float, blocks: Sequence[slice],
     return total
 
 
-def _changes(total: Vector, repeat: float, held: NDArray[np.int64], answer: Matrix, odds: Matrix) -> Matrix:
+def _changes(total: Floats, repeat: float, held: Ints, answer: Floats, odds: Floats) -> Floats:
     """The types' answers to some words less those before; written over the odds."""
     if repeat == 0.0:
         np.subtract(1.0 + total, odds, out=odds)
@@ -220,11 +216,11 @@ def _changes(total: Vector, repeat: float, held: NDArray[np.int64], answer: Matr
     return renewed
 
 
-def _scaled(psi: Matrix) -> Matrix:
+def _scaled(psi: Floats) -> Floats:
     return psi / psi.max(axis=1, keepdims=True) if len(psi) else psi
 
 
-def _check(psi: Matrix, repeat: float, free: NDArray[np.bool_]) -> None:
+def _check(psi: Floats, repeat: float, free: Bools) -> None:
     if not 0.0 <= repeat <= 1.0:
         raise ValueError(f"repeat is {repeat}; a factor for further words lies between 0 and 1")
     if psi.ndim != 2 or free.shape != psi.shape[1:]:

@@ -25,11 +25,11 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.learning.assignment import marginals
 from dcg_torch.names.weights import log_odds
 from dcg_torch.types import OPAQUE
+from dcg_torch.types.arrays import Floats
 
 UNMET = "(unmet)"
 """Stands for all types that no object met so far was of."""
@@ -116,8 +116,8 @@ class Posterior:
 
     words: tuple[str, ...]
     types: tuple[str, ...]
-    table: NDArray[np.float64]
-    new: NDArray[np.float64]
+    table: Floats
+    new: Floats
 
     def of(self, word: str) -> dict[str, float]:
         """type -> probability; that of a new word if it was never heard."""
@@ -230,7 +230,7 @@ class Beliefs:
         return Posterior((*self.settled, *self.heard), types, np.vstack([fixed, found.word]), new / new.sum())
 
     @cached_property
-    def said_of(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    def said_of(self) -> tuple[Floats, Floats]:
         """How readily each word is said of an object of each type: the posterior, with slips.
 
         Returns:

@@ -7,7 +7,6 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.solution import Solution
@@ -18,6 +17,7 @@ from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Experience, Learned, Taught, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.types import Child, Correspondence, Example, Grounding, Object, Phrase, PhraseKind, Symbol, WorldModel
+from dcg_torch.types.arrays import Bools
 
 
 @dataclass(frozen=True)
@@ -115,7 +115,7 @@ class CommitFirst:
                 features = features.grow(symbol)
         return features
 
-    def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
+    def trainable(self, features: FeatureSet) -> Bools | None:
         """All weights."""
         return None
 

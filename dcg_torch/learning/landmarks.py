@@ -14,10 +14,9 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.choices import Choice, Modified
-from dcg_torch.grounding.encode import WorldEncoder
+from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.hypotheses import Combos, ModifierFactor
 from dcg_torch.grounding.readings import Reading
@@ -43,9 +42,8 @@ from dcg_torch.types import (
     PhraseKind,
     WorldModel,
 )
+from dcg_torch.types.arrays import Bools, Floats
 
-Bools = NDArray[np.bool_]
-Floats = NDArray[np.float64]
 GroundEncoded = Callable[[ParseTree, WorldModel, WorldEncoder], Solution]
 """Grounds a tree of factors in a world whose encoder is given."""
 

@@ -6,9 +6,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
@@ -16,6 +13,7 @@ from dcg_torch.learning.census import FrameCounts
 from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.types import Example, Symbol
+from dcg_torch.types.arrays import Bools
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,7 +119,7 @@ class Learner(Protocol):
     def columns(self, features: FeatureSet) -> FeatureSet:
         """The features, with columns for all that has been learned."""
 
-    def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
+    def trainable(self, features: FeatureSet) -> Bools | None:
         """(L, G) the weights that follow from the training examples; None: all."""
 
     def names(self) -> dict[str, str]:

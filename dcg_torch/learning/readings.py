@@ -11,14 +11,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.solvers import Point, lbfgs
 from dcg_torch.grounding.readings import Reading, log_weight, sense
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.learning.landmarks import Lesson
+from dcg_torch.types.arrays import Floats
 
-Floats = NDArray[np.float64]
 GroundAll = Callable[[Lesson], Sequence[Solution]]
 """Grounds every reading of a lesson."""
 

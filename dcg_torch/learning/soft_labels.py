@@ -21,11 +21,11 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.statistics import SoftLabels
 from dcg_torch.learning.beliefs import UNMET, Beliefs
 from dcg_torch.types import Object, Phrase, PhraseKind
+from dcg_torch.types.arrays import Bools, Floats
 
 NEVER_HEARD = "(never heard)"
 """A noun and a colour word that nobody says; it has no column, as no unheard word has."""
@@ -82,8 +82,8 @@ class _Odds:
 
     phrases: Sequence[Phrase]
     objects: Sequence[Object]
-    odds: NDArray[np.float64]
-    shown: NDArray[np.bool_] | None = None
+    odds: Floats
+    shown: Bools | None = None
 
 
 def _labelled(table: _Odds, strength: float) -> SoftLabels:

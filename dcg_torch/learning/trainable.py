@@ -10,12 +10,10 @@ from __future__ import annotations
 import functools
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_TYPES, PLACE_WORDS
-
-Mask = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools
 
 _TAUGHT_LANGUAGE = frozenset({"modifier", "word", "context", "landmark"})
 _TAUGHT_GROUNDING = frozenset({"relation", "state", "part", "rank", "stack color", "group color"})
@@ -27,14 +25,14 @@ _PLACES = {f"noun: {word}" for word in (*PLACE_WORDS, *GROUP_WORDS)}
 _OF_PLACES = {*(f"type: {kind}" for kind in PLACE_TYPES), "kind: place", "kind: group", "place: yes"}
 
 
-def believed_mask(features: FeatureSet) -> Mask:
+def believed_mask(features: FeatureSet) -> Bools:
     """(L, G) the weights of nouns, colours, verbs and prepositions."""
     rows = np.array([not _is_taught_language(name) for name in features.language], dtype=np.bool_)
     columns = np.array([not _is_taught_grounding(name) for name in features.grounding], dtype=np.bool_)
     return rows[:, None] & columns[None, :]
 
 
-def taught_mask(features: FeatureSet) -> Mask:
+def taught_mask(features: FeatureSet) -> Bools:
     """(L, G) what there is to be learned from generated lessons.
 
     Not what a noun is like by itself, nor how things stand in a context whatever the word: the lessons' worlds are
@@ -58,7 +56,7 @@ def taught_mask(features: FeatureSet) -> Mask:
     return np.array(rows, dtype=np.bool_).reshape(features.shape)
 
 
-def rows_mask(features: FeatureSet, words: frozenset[str]) -> Mask:
+def rows_mask(features: FeatureSet, words: frozenset[str]) -> Bools:
     """(L, G) all weights of some nouns and words for colours."""
     named = [name.removeprefix("noun: ").removeprefix("color: ") for name in features.language]
     rows = np.array([name in words for name in named], dtype=np.bool_)

@@ -16,9 +16,6 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import numpy as np
-from numpy.typing import NDArray
-
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import SoftLabels
@@ -31,6 +28,7 @@ from dcg_torch.learning.soft_labels import Unseen, soft_labels
 from dcg_torch.learning.trainable import believed_mask
 from dcg_torch.names.vocabulary import GROUP_WORDS, PLACE_WORDS
 from dcg_torch.types import LOOKED_ROUND, Example, Object, PhraseKind, Symbol
+from dcg_torch.types.arrays import Bools
 
 OUT_OF_VIEW = 1.0 - 57.0 / 360.0
 """Share of the ground that is out of view before the robot turns."""
@@ -254,7 +252,7 @@ class WordPosterior:
             colors=(*self.colors.posterior.words, *self.colors.types),
         )
 
-    def trainable(self, features: FeatureSet) -> NDArray[np.bool_] | None:
+    def trainable(self, features: FeatureSet) -> Bools | None:
         """The weights of nouns, colours, verbs and prepositions."""
         return believed_mask(features)
 

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import KINDS, Scene, Told
 from dcg_torch.lessons.selections import NUMBERS, ORDINALS
 from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.workspace import Workspace

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import COLORS, KINDS, Scene, Told
 from dcg_torch.lessons.selections import NUMBERS, ORDINALS, thing
 from dcg_torch.scene.places import scene_bounds
 from dcg_torch.scene.workspace import Workspace

@@ -14,7 +14,7 @@ from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import TrainingSet
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import Strict, at_home, problem_of, read_yaml, shown
+from dcg_torch.storage.untrusted_files import Strict, at_home, problem_of, read_yaml, shown
 from dcg_torch.types import Child, Correspondence, Example, Grounding, Percept, Phrase, PhraseKind, Symbol, WorldModel
 
 _Words = Annotated[str, Field(strict=True, min_length=1, max_length=200, pattern=r"\S")]

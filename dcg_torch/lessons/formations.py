@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import KINDS, Scene, Told
 from dcg_torch.lessons.selections import NUMBERS, ORDINALS, thing
 from dcg_torch.types import Percept, Pose
 

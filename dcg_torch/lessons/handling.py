@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import COLORS, KINDS, SEAT, TABLE, Scene, Told
+from dcg_torch.lessons.arrangements import COLORS, KINDS, SEAT, TABLE, Scene, Told
 from dcg_torch.types import Percept
 
 _TAKING = ("take", "pick up", "grab", "get", "lift", "move", "remove", "pick")

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import COLORS, KINDS, Scene, Told
 from dcg_torch.lessons.selections import ORDINALS
 from dcg_torch.types import Percept, Pose
+from dcg_torch.types.arrays import Floats
 
 _TALL = (("tallest", "shortest"), ("tall", "short"), ("taller", "shorter"))
 _HIGH = (("highest", "lowest"), ("higher", "lower"), ("high", "low"))
@@ -76,7 +76,7 @@ def _scattered(rng: np.random.Generator) -> list[Percept]:
     return [_percept(k, kind if k < 3 or rng.random() < 0.6 else other, rng, p) for k, p in enumerate(points)]
 
 
-def _percept(number: int, kind: str, rng: np.random.Generator, at: NDArray[np.float64]) -> Percept:
+def _percept(number: int, kind: str, rng: np.random.Generator, at: Floats) -> Percept:
     return Percept(f"o{number}", kind, str(rng.choice(COLORS)), (float(at[0]), float(at[1]), 0.0))
 
 

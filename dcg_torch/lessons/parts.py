@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import KINDS, Scene, Told
 from dcg_torch.lessons.ends import scattered
 from dcg_torch.lessons.selections import ORDINALS, ranked, thing
 from dcg_torch.scene.places import scene_bounds

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.learning.landmarks import Lesson
-from dcg_torch.lessons.arranged import Reading
+from dcg_torch.lessons.arrangements import Reading
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import Percept, Pose

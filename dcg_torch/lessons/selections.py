@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import COLORS, KINDS, Scene, Told
+from dcg_torch.lessons.arrangements import COLORS, KINDS, Scene, Told
 from dcg_torch.types import Percept, Pose
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth")

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from dcg_torch.lessons.arranged import COLORS, Scene
-from dcg_torch.lessons.sized import BY, THING, Body, scaled, scene_of
+from dcg_torch.lessons.arrangements import COLORS, Scene
+from dcg_torch.lessons.sized_things import BY, THING, Body, scaled, scene_of
 
 _SMALL = {
     **{"cup": (0.08, 0.08, 0.1), "box": (0.28, 0.28, 0.18), "ball": (0.08, 0.08, 0.08), "cube": (0.09, 0.09, 0.09)},

@@ -1,11 +1,11 @@
-"""Models saved to a folder, and loaded; `stored` says what the files hold."""
+"""Models saved to a folder, and loaded; `serialization` says what the files hold."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from dcg_torch.model.core import GroundingModel
-from dcg_torch.model.stored import DESCRIPTION, FORMAT, WEIGHTS, CheckpointError, read
+from dcg_torch.model.serialization import DESCRIPTION, FORMAT, WEIGHTS, CheckpointError, read
 
 
 def save(model: GroundingModel, directory: Path | str) -> None:

@@ -10,36 +10,36 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.fit import FitResult, fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.command import ground_command
-from dcg_torch.grounding.encode import WorldEncoder, encode
+from dcg_torch.grounding.encoding import WorldEncoder, encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.statistics import Statistics
 from dcg_torch.interpretation.marks import heard
-from dcg_torch.interpretation.spoken import ReadCommand
+from dcg_torch.interpretation.parser_protocol import ReadCommand
 from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.learning.learner import Experience, Learned, Learner, TrainingSet
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.learning.places import place_examples
 from dcg_torch.learning.trainable import rows_mask, taught_mask
+from dcg_torch.model.caches import Followed, Kept
 from dcg_torch.model.growth import start_as_the_last, widened
-from dcg_torch.model.kept import Followed, Kept
-from dcg_torch.model.stored import Stored, write
-from dcg_torch.model.teach import RELATION_L2, teach_corpus, teach_relations
+from dcg_torch.model.serialization import Stored, write
 from dcg_torch.model.teacher import Told, forgotten, interpret, settled
+from dcg_torch.model.training import RELATION_L2, teach_corpus, teach_relations
 from dcg_torch.model.variant import Variant, initial_features, restrict
 from dcg_torch.scene.upsilon import nearest_first, with_known, world_model
 from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import LOOKED_ROUND, ParseTree, Percept, Pose, Symbol, WorldModel
+from dcg_torch.types.arrays import Bools, Floats
 
 
 class GroundingModel:
@@ -60,8 +60,8 @@ class GroundingModel:
         self.features = features
         self.factor = factor
         self.learner = learner
-        self.held: NDArray[np.bool_] = np.zeros(features.shape, dtype=np.bool_)
-        self.prior: NDArray[np.float64] | None = None
+        self.held: Bools = np.zeros(features.shape, dtype=np.bool_)
+        self.prior: Floats | None = None
         self.fitted: FitResult | None = None
         self._kept = Kept(Statistics(features.groups))
 
@@ -310,7 +310,7 @@ class GroundingModel:
         self.held = widened(self.held, features.shape)
         self.prior = None if self.prior is None else widened(self.prior, features.shape)
 
-    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: NDArray[np.bool_] | None, l2: float) -> FitResult:
+    def fit_weights(self, designs: Sequence[DesignMatrix], *, free: Bools | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place: see `fit`."""
         self.fitted = fit(self.factor, designs, l2=l2, free=free, prior=self.prior)
         return self.fitted

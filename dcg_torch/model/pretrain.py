@@ -59,7 +59,7 @@ def train_open_world(
         assumed: what its learner takes for granted.
     """
     from dcg_torch.language import default_parser  # here: who takes the shipped model makes no lessons
-    from dcg_torch.lessons.generated import generated_lessons
+    from dcg_torch.lessons.curriculum import generated_lessons
 
     model = GroundingModel.trained(training, variant, WordPosterior.start(training, assumed or _ASSUMED))
     if lessons and variant.related:

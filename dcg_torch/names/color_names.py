@@ -7,7 +7,7 @@ from typing import Final
 
 import numpy as np
 
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import color_words, region
 
 COLOR_FACTS: Final = (

@@ -11,7 +11,7 @@ from typing import Final
 
 import numpy as np
 
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import Array, Region, color_words, lab, listed_colors, region
 
 FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "compared hue")

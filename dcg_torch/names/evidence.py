@@ -13,7 +13,7 @@ from typing import Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.names.everyday import Name, everyday, name_parts, share_a_name
+from dcg_torch.names.everyday_names import Name, everyday, name_parts, share_a_name
 from dcg_torch.names.wordnet import nouns
 
 FORMS: Final = (

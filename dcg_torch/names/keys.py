@@ -5,11 +5,18 @@ An attribute is a text: "held" of what is so, "glasses: no" of what is not, "mat
 
 from __future__ import annotations
 
+import functools
 from collections.abc import Mapping
 from typing import Final
 
-from dcg_torch.names.attributes import OF_KEY, counts
+from dcg_torch.names.attribute_values import words_listed
+from dcg_torch.names.normal_form import normalise, read_data
+from dcg_torch.names.weights import log_odds
 
+OF_KEY = ": "
+"""Between key and values, "|" between these, of a word that states just that: "brand: shell", "digit: 7|8"."""
+_KEY_ODDS = 1.5
+"""Log-odds from which a noun names a key."""
 _NUMBERED: Final = frozenset({"number", "digit", "label", "mark", "text", "name", "letter", "logo", "sign", "symbol"})
 """Keys whose numbers are names: "block 7"."""
 
@@ -30,6 +37,42 @@ def attributes_of(further: Mapping[str, object]) -> frozenset[str]:
 def is_used(key: str, value: object) -> bool:
     """Does a key with this value say something, or is it plainly empty?"""
     return isinstance(value, (str, type(None))) or _is_truth(key, value) or _is_number(key, value)
+
+
+@functools.lru_cache(maxsize=4096)
+def attribute_key(key: str) -> str:
+    """What the key of an attribute names.
+
+    >>> attribute_key("hasBeard"), attribute_key("hair_colour"), attribute_key("orientation")
+    ('beard', 'hair', 'orientation')
+    """
+    words = normalise(key).split(" ")
+    while len(words) > 1 and words[0] in ("has", "ha", "is", "with", "wears", "wear", "wearing"):
+        words = words[1:]
+    found = " ".join(words[:-1] if len(words) > 1 and words[-1] in ("color", "type") else words)
+    return str(read_data("values.yaml")["same_key"].get(found, found))
+
+
+@functools.lru_cache(maxsize=4096)
+def counts(key: str) -> bool:
+    """Are the values of a key numbers, so that 1 and 0 do not mean yes and no: "row"?"""
+    return attribute_key(key) in words_listed("counted")
+
+
+def is_clothing(key: str) -> bool:
+    """Does a key or a noun name what people wear, of which a colour is told: "in black"?"""
+    return key in words_listed("clothes")
+
+
+@functools.lru_cache(maxsize=4096)
+def named_key(noun: str, keys: frozenset[str]) -> str | None:
+    """The key that a noun names: "glasses" for "spectacles"; None if it names none of them.
+
+    Args:
+        keys: as `attribute_key` has them.
+    """
+    near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
+    return max(near, key=lambda key: log_odds(noun, key), default=None)
 
 
 def _is_truth(key: str, value: object) -> bool:

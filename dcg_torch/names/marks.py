@@ -15,9 +15,10 @@ from typing import Any, Final
 
 from rapidfuzz.distance import OSA
 
-from dcg_torch.names.attributes import OF_KEY, attribute_key, describes
+from dcg_torch.names.attribute_values import describes
 from dcg_torch.names.evidence import evidence, unheard_of
-from dcg_torch.names.normal import normalise, read_data, singular
+from dcg_torch.names.keys import OF_KEY, attribute_key
+from dcg_torch.names.normal_form import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 from dcg_torch.names.rooms import room_keys, room_named
 
@@ -245,9 +246,9 @@ def _told_apart(types: Sequence[str]) -> tuple[dict[str, list[str]], str]:
 
 @functools.lru_cache(256)
 def kinds_of(types: frozenset[str]) -> dict[str, str]:
-    """Class -> what kind of thing it is, where classes are of one kind and told apart by marks: "shell block".
+    """Class -> what kind of thing it is, where four of five classes or more are of one kind and told apart by marks.
 
-    >>> kinds_of(frozenset({"shell block", "bmw block", "esso block", "table"}))["bmw block"]
+    >>> kinds_of(frozenset({"shell block", "bmw block", "esso block", "ups block", "table"}))["bmw block"]
     'block'
     """
     board, head = _told_apart(sorted(types))

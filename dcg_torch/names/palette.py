@@ -16,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.names.normal import DATA, normalise, read_data
+from dcg_torch.names.normal_form import DATA, normalise, read_data
 
 Array = NDArray[np.float64]
 

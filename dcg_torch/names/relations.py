@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.normal_form import read_data
 
 
 @functools.cache

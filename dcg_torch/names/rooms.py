@@ -6,7 +6,7 @@ import functools
 from typing import Any
 
 from dcg_torch.names.evidence import evidence
-from dcg_torch.names.normal import normalise, read_data
+from dcg_torch.names.normal_form import normalise, read_data
 
 _SAME = frozenset({"kind: everyday"})
 

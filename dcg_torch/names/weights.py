@@ -13,7 +13,7 @@ import functools
 from collections.abc import Iterable, Mapping
 
 from dcg_torch.names.evidence import FORMS, KINDS, evidence, is_generic
-from dcg_torch.names.normal import read_data
+from dcg_torch.names.normal_form import read_data
 
 FACTS = FORMS + KINDS
 WEIGHTS = "weights.yaml"

@@ -16,7 +16,7 @@ from dcg_torch.report.summary import ReportError
 from dcg_torch.report.terminal import CLOSED, Output, close_output
 from dcg_torch.report.text import printable
 from dcg_torch.storage.arguments import Arguments
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.atomic_files import write_whole
 
 _FORMATS = ("png", "pdf", "svg")  # canvas.FORMATS: matplotlib is imported only where figures are asked for
 

@@ -14,12 +14,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+
+from dcg_torch.types.arrays import Floats, Ints
 
 BINS = 10
 _DRAWS = 400
-
-Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +96,7 @@ def _stated(probabilities: Sequence[float | None], correct: Sequence[bool]) -> t
     return stated, np.array([c for _, c in pairs], dtype=np.float64)
 
 
-def _bin_of(stated: Floats) -> NDArray[np.int64]:
+def _bin_of(stated: Floats) -> Ints:
     return np.minimum((stated * BINS).astype(np.int64), BINS - 1)
 
 

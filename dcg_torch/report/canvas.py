@@ -19,7 +19,7 @@ from matplotlib.ticker import MaxNLocator, PercentFormatter
 
 from dcg_torch.report.intervals import Estimate, wilson
 from dcg_torch.report.measures import Measures
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.atomic_files import write_whole
 
 BLUE, ORANGE, GREEN, RED, PURPLE, SKY, GREY = (
     "#0072B2",

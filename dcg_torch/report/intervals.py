@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from statistics import NormalDist
 
 import numpy as np
-from numpy.typing import NDArray
+
+from dcg_torch.types.arrays import Floats
 
 LEVEL = 0.95
 _Z = NormalDist().inv_cdf(0.5 + LEVEL / 2)
@@ -85,12 +86,12 @@ def slope_over_trials(trials: Sequence[tuple[Sequence[float], Sequence[float]]])
     return Estimate(value, value - half, value + half)
 
 
-def _slopes(sums: NDArray[np.float64]) -> NDArray[np.float64] | None:
+def _slopes(sums: Floats) -> Floats | None:
     n, x, y, xx, xy = sums.T
     varying = n * xx - x * x
     if (varying <= 1e-9 * np.maximum(1.0, n * xx)).any():
         return None
-    slopes: NDArray[np.float64] = (n * xy - x * y) / varying
+    slopes: Floats = (n * xy - x * y) / varying
     return slopes
 
 

@@ -18,8 +18,8 @@ from dcg_torch.report.measures import Measures, measure
 from dcg_torch.report.seconds import summarise_seconds
 from dcg_torch.report.summary import SUMMARY, ReportError, first_error, read_summary, unreadable
 from dcg_torch.report.text import printable
-from dcg_torch.storage.foreign import pipe_in, read_yaml
 from dcg_torch.storage.records import NO_EFFECT, Iteration, Timing
+from dcg_torch.storage.untrusted_files import pipe_in, read_yaml
 
 ROWS, TIMINGS, SETTINGS = "iterations.jsonl", "timings.jsonl", "settings.json"
 PREDICTIONS = "predictions.jsonl"  # what lies in the folder of `evaluate`, beside a summary of its own

@@ -10,9 +10,9 @@ from typing import Any
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from dcg_torch.report.measures import Measures
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import plain
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import plain
 
 SUMMARY = "summary.json"
 _LONGEST = 200  # characters of what a foreign file makes one say

@@ -10,10 +10,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from dcg_torch.scene.neighbours import Bools, Floats, Ints
 from dcg_torch.types import Object
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _POINT = 0.5
 """Half extents in units up to which a thing counts as a point: of what is as wide as neighbours are apart."""
@@ -123,7 +122,7 @@ def gap(one: Object, other: Object) -> float:
     return math.hypot(*(max(0.0, abs(one.position[k] - other.position[k]) - half[k]) for k in (0, 1)))
 
 
-def bodies(objects: Sequence[Object], height: NDArray[np.float64], turned: float, unit: float) -> Bodies | None:
+def bodies(objects: Sequence[Object], height: Floats, turned: float, unit: float) -> Bodies | None:
     """How large things are; None where of none it is known.
 
     A position may be a thing's foot or its middle. It is the foot if anything would else be half in the floor.

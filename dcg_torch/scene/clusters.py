@@ -6,7 +6,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from dcg_torch.scene.neighbours import SAME_SPOT, Floats, Ints
+from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.types.arrays import Floats, Ints
 
 _LEAST = 3
 """Spots that a cluster is on."""

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from dcg_torch.scene.laying_out import layout
 from dcg_torch.scene.layout import OF_ROBOT, OF_SPEAKER
+from dcg_torch.scene.layout_making import layout
 from dcg_torch.scene.places import places, scene_bounds
 from dcg_torch.types import Object, Pose, WorldModel
 from dcg_torch.types.geometry import wrap_angle

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dcg_torch.scene.order import Floats, Ints
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.arrays import Floats, Ints
 from dcg_torch.types.geometry import positions, to_robot_frame
 
 _LEAST, _FULL = 6, 0.6

@@ -15,11 +15,11 @@ import numpy as np
 
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
 from dcg_torch.scene.clusters import clusters
-from dcg_torch.scene.layout import Floats, Ints
 from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
 from dcg_torch.scene.order import TIE
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Object, Pose
+from dcg_torch.types.arrays import Floats, Ints
 from dcg_torch.types.geometry import positions, to_robot_frame
 
 ROW, STACK, CLUSTER = "row", "stack", "cluster"

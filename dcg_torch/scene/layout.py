@@ -12,7 +12,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.names.marks import kinds_of
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG
@@ -20,10 +19,7 @@ from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.neighbours import Neighbours, nearest_other, neighbours
 from dcg_torch.scene.order import Alike, numbered
 from dcg_torch.types import Object
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 NEAREST = 3
 """Ranks that are told apart by their number."""

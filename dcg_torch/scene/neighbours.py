@@ -10,11 +10,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 SAME_SPOT = 0.6
 """Units between two feet, seen from above, within which one thing is over the other."""

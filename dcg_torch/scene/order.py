@@ -9,11 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Bools = NDArray[np.bool_]
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 TIE = 1e-6
 """Values that differ by less are equal."""
@@ -170,7 +167,7 @@ def _searched(values: Floats, bound: Floats, alike: Alike) -> Ints:
     return out
 
 
-def highest(values: Floats, count: int) -> NDArray[np.int64]:
+def highest(values: Floats, count: int) -> Ints:
     """The numbers of the highest of (n,) values, the highest first; of equal ones the first."""
     if count == 1:
         return np.array([values.argmax()])

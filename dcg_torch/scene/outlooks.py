@@ -10,7 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from dcg_torch.scene.bodies import Bodies
-from dcg_torch.scene.order import TIE, Bools, Floats
+from dcg_torch.scene.order import TIE
+from dcg_torch.types.arrays import Bools, Floats
 
 _AT_WALL = 0.4
 """Metres from a wall up to which a thing stands at it."""

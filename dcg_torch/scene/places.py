@@ -12,7 +12,7 @@ import numpy as np
 
 from dcg_torch.names.vocabulary import SIDE_MIDDLE
 from dcg_torch.scene.layout import DIRECTION, GROUND, HEADINGS
-from dcg_torch.scene.upright import laid_flat
+from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Object, Pose
 from dcg_torch.types.geometry import from_robot_frame, to_robot_frame
 

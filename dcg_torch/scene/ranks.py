@@ -10,9 +10,10 @@ import numpy as np
 from dcg_torch.names.vocabulary import MIDDLE_LINE, WORKED_OUT
 from dcg_torch.scene.bodies import bulk
 from dcg_torch.scene.groups import ACROSS, ALONG, CLUSTER, ROW, STACK
-from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import HEADINGS, LINE_NUMBERS, LINES, NEAREST, Layout
 from dcg_torch.scene.order import TIE, Alike, counted, signatures
 from dcg_torch.scene.order import before as lower
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 AXES = (
     *("left", "right", "far", "near", "high", "low", "big", "small", "tall", "short"),

@@ -12,13 +12,14 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from dcg_torch.scene.kept_rows import KeptRows
-from dcg_torch.scene.layout import NEAREST, Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import NEAREST, Layout
 from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
 from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
+from dcg_torch.scene.row_cache import KeptRows
 from dcg_torch.scene.views import views
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _Over: TypeAlias = tuple[Bools, Bools] | None
 """See `Bodies.over`; None where of nothing it is known how large it is."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from dcg_torch.scene.layout import Bools, Floats, Ints, Layout
+from dcg_torch.scene.layout import Layout
 from dcg_torch.scene.order import TIE
+from dcg_torch.types.arrays import Bools, Floats, Ints
 
 
 def views(where: Layout, first: Ints, sided: Bools) -> tuple[Floats, Bools]:

@@ -10,9 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from dcg_torch.scene.groups import groups, lines_of_all
-from dcg_torch.scene.neighbours import Floats, nearest_other
+from dcg_torch.scene.neighbours import nearest_other
 from dcg_torch.scene.places import Bounds, places, scene_bounds, side_middles
 from dcg_torch.types import Object, Percept, WorldModel
+from dcg_torch.types.arrays import Floats
 from dcg_torch.types.geometry import positions
 
 _CLOSE = 0.5

@@ -1,4 +1,4 @@
-"""Simulated robots: one in PyBullet (bodies, camera to percepts, turn, drive), and `fake`, one of pure geometry.
+"""Simulated robots: one in PyBullet (bodies, camera to percepts, turn, drive), and `fake_robot`, one of pure geometry.
 
 Only this room imports pybullet, and it does so when a name that needs it is first used: without PyBullet the fake robot
 and the recogniser still work.
@@ -10,7 +10,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 from dcg_torch.simulator.errors import SimulatorError
-from dcg_torch.simulator.fake import FakeRobot
+from dcg_torch.simulator.fake_robot import FakeRobot
 from dcg_torch.simulator.recogniser import Recogniser
 
 if TYPE_CHECKING:

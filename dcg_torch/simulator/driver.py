@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from dcg_torch.simulator import navigation
-from dcg_torch.simulator.base import MAX_SPEED, ROBOT_RADIUS, Base, speed_towards, turn_towards
-from dcg_torch.simulator.navigation import Circle, Points
+from dcg_torch.simulator.navigation import Circle
 from dcg_torch.simulator.track import Track
+from dcg_torch.simulator.wheels import MAX_SPEED, ROBOT_RADIUS, Base, speed_towards, turn_towards
 from dcg_torch.types import DriveResult, Percept
+from dcg_torch.types.arrays import Points
 from dcg_torch.types.geometry import wrap_angle
 
 Planner = Callable[[dict[str, Circle]], Points | None]

@@ -17,12 +17,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.simulator.roadmap import roadmap_path, shortest, tightened
+from dcg_torch.types.arrays import Points
 from dcg_torch.types.geometry import segment_distances, segments_clear
-
-Points = NDArray[np.float64]
 
 _RING = 16  # corners round an obstacle: no turn of more than 22.5 degrees at one of them
 _IN_THE_WAY = 12  # obstacles in one visibility graph, at the most: it grows as their third power

@@ -17,15 +17,12 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 from scipy.spatial import ConvexHull
 
+from dcg_torch.types.arrays import Ints, Points
 from dcg_torch.types.geometry import segments_clear
-
-Points = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _FRAME = 24  # sites on a circle about all others, so that there is a way round the outside
 _ROOM = 2.0  # metres between the outermost obstacle and that circle

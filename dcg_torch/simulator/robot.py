@@ -11,18 +11,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.simulator import navigation
-from dcg_torch.simulator.base import ROBOT_RADIUS, Base
 from dcg_torch.simulator.bodies import add_object, extent, footprint
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.driver import Driver, Planner
 from dcg_torch.simulator.errors import SimulatorError
 from dcg_torch.simulator.limits import ARRIVED, AT_PLACE, LEFT, MAX_DISTANCE, check_spin, find_percept
-from dcg_torch.simulator.navigation import Circle, Points
+from dcg_torch.simulator.navigation import Circle
 from dcg_torch.simulator.recogniser import Recogniser
 from dcg_torch.simulator.view import Pixels
+from dcg_torch.simulator.wheels import ROBOT_RADIUS, Base
 from dcg_torch.simulator.window import OPTIONS, Window
 from dcg_torch.types import DriveResult, Percept, Pose
+from dcg_torch.types.arrays import Points
 from dcg_torch.types.geometry import bearing
 from dcg_torch.world.files import World, WorldObject
 

@@ -7,16 +7,16 @@ from collections.abc import Sequence
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFilter
 
-from dcg_torch.simulator.base import add_robot
 from dcg_torch.simulator.bodies import add_model, add_object, extent, footprint
 from dcg_torch.simulator.client import Client, Closing
 from dcg_torch.simulator.engine import pybullet
 from dcg_torch.simulator.tiles import TILES, paint_floor, tiled
-from dcg_torch.simulator.view import Pixels, Points, View, circle, direction, fitting_view
+from dcg_torch.simulator.view import Pixels, View, circle, direction, fitting_view
+from dcg_torch.simulator.wheels import add_robot
 from dcg_torch.types import Pose
+from dcg_torch.types.arrays import Bools, Ints, Points
 from dcg_torch.world.files import World
 
 ROBOT_RADIUS, ROBOT_HEIGHT = 0.2, 0.4  # metres that a picture should leave it
@@ -66,13 +66,13 @@ class Stage(Closing):
         corners += [_corners((p.x, p.y), ROBOT_RADIUS, ROBOT_HEIGHT) for p in (self.world.start, *places)]
         return fitting_view(np.concatenate(corners), direction(self.world.start.yaw, down), _FIELD_OF_VIEW, size)
 
-    def render(self, view: View) -> tuple[Pixels, NDArray[np.int64]]:
+    def render(self, view: View) -> tuple[Pixels, Ints]:
         """Colours (h, w, 3) with the objects' shadows on the floor, and body ids (h, w)."""
         image, mask = self.unshaded(view)
         spots = [circle(o.position, 0.8 * footprint(o.type) + 0.03) for o in self.world.objects]
         return shaded(image, mask == self.floor, view, spots), mask
 
-    def unshaded(self, view: View) -> tuple[Pixels, NDArray[np.int64]]:
+    def unshaded(self, view: View) -> tuple[Pixels, Ints]:
         """The same without shadows."""
         with self.client.hidden([self.floor]):
             image, mask = view.render(self.client)
@@ -80,7 +80,7 @@ class Stage(Closing):
         return image, mask
 
 
-def shaded(image: Pixels, floor: NDArray[np.bool_], view: View, spots: Sequence[Points]) -> Pixels:
+def shaded(image: Pixels, floor: Bools, view: View, spots: Sequence[Points]) -> Pixels:
     """The picture with soft shadows where things touch the floor, without which they seem to float."""
     shade = Image.new("L", view.size)
     draw = ImageDraw.Draw(shade)

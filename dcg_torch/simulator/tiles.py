@@ -11,11 +11,11 @@ import math
 from typing import Final
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.simulator.bodies import Model, Part
 from dcg_torch.simulator.bodies.meshes import Mesh, merged
 from dcg_torch.simulator.view import Pixels, View
+from dcg_torch.types.arrays import Ints
 
 TILES: Final = ((0.89, 0.89, 0.87), (0.85, 0.85, 0.83))
 """Paint of the tile whose lower left corner is the origin, and of its neighbours."""
@@ -34,7 +34,7 @@ def tiled(reach: int) -> Model:
     return Model((Part(merged(tiles[0])), Part(merged(tiles[1]), TILES[1])))
 
 
-def paint_floor(view: View, image: Pixels, bodies: NDArray[np.int64], body: int, reach: int) -> None:
+def paint_floor(view: View, image: Pixels, bodies: Ints, body: int, reach: int) -> None:
     """Paint `tiled(reach)` where a picture shows nothing, as the renderer would.
 
     Args:

@@ -10,9 +10,9 @@ import itertools
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
-Points = NDArray[np.float64]
+from dcg_torch.types.arrays import Points
+
 _WINDOW = 0.5
 
 

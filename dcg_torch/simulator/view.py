@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from dcg_torch.simulator.client import Client
 from dcg_torch.simulator.engine import pybullet
+from dcg_torch.types.arrays import Ints, Points
 
-Points = NDArray[np.float64]
 Pixels = NDArray[np.uint8]
 Box = tuple[int, int, int, int]  # left, top, right, bottom in pixels, the last two not included
 
@@ -58,7 +58,7 @@ class View:
         """World points (n, 3) as the pixels that a drawing takes."""
         return [(float(x), float(y)) for x, y in self.project(points)]
 
-    def render(self, client: Client, box: Box | None = None) -> tuple[Pixels, NDArray[np.int64]]:
+    def render(self, client: Client, box: Box | None = None) -> tuple[Pixels, Ints]:
         """Colours (h, w, 3) and body ids (h, w), -1 where there is nothing; of the whole picture or a part of it.
 
         Shadows are left out: they triple the time, and the renderer's end in the middle of a large floor.
@@ -82,11 +82,11 @@ class View:
         right, up = self.axes
         return up - 0.6 * right - 0.9 * self.forward
 
-    def mask(self, client: Client) -> NDArray[np.int64]:
+    def mask(self, client: Client) -> Ints:
         """Body ids (h, w), -1 where there is nothing: those of `render`, for less time."""
         return self._shot(client, (0, 0, *self.size), [0.0, 0.0, 1.0])[1]
 
-    def _shot(self, client: Client, box: Box, light: list[float]) -> tuple[Any, NDArray[np.int64]]:
+    def _shot(self, client: Client, box: Box, light: list[float]) -> tuple[Any, Ints]:
         """Colours as PyBullet gives them, and body ids (h, w); `light` is where it comes from."""
         width, height = self.size
         left, top, right, bottom = box

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import NoReturn
 
-from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.untrusted_files import plain
 
 _LONGEST = 400  # characters of a message
 

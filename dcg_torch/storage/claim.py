@@ -9,9 +9,9 @@ import os
 from collections.abc import Collection, Iterator
 from pathlib import Path
 
+from dcg_torch.storage.atomic_files import sweep_parts
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import at_home
-from dcg_torch.storage.whole import sweep_parts
+from dcg_torch.storage.untrusted_files import at_home
 
 LOCK = ".lock"
 

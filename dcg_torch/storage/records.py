@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AllowInfNan, SerializerFunctionWrapHandler, model_serializer
 
-from dcg_torch.storage.foreign import Strict
+from dcg_torch.storage.untrusted_files import Strict
 
 Kind = Literal["known", "unknown", "learned"]
 NO_EFFECT = ("name", "trials", "workers", "backend", "metric", "animate", "figures", "tensorboard", "screenshots")

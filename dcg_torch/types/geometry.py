@@ -11,11 +11,9 @@ from collections.abc import Sequence
 from itertools import chain
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.types import Object, Percept, Pose
-
-Floats = NDArray[np.float64]
+from dcg_torch.types.arrays import Bools, Floats
 
 FIELD_OF_VIEW = math.radians(57.0)
 """Width of the robot's view: the Kinect, which is the paper's camera."""
@@ -86,7 +84,7 @@ def segment_distances(starts: Floats, ends: Floats, points: Floats) -> tuple[Flo
     return distance, foot
 
 
-def segments_clear(starts: Floats, ends: Floats, centres: Floats, radii: Floats) -> NDArray[np.bool_]:
+def segments_clear(starts: Floats, ends: Floats, centres: Floats, radii: Floats) -> Bools:
     """(m,) which segments stay outside every disc; worked through in pieces, so that memory stays small.
 
     Args:

@@ -9,7 +9,7 @@ from typing import Annotated
 from pydantic import Field, ValidationError, model_validator
 
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import Strict, problem_of, read_yaml, shown
+from dcg_torch.storage.untrusted_files import Strict, problem_of, read_yaml, shown
 from dcg_torch.types import Pose
 
 REACH_OF_A_WORLD = 1_000.0

@@ -39,8 +39,8 @@ from dcg_torch.report.show import print_run, print_several
 from dcg_torch.scene.upsilon import world_model
 from dcg_torch.settings import Settings
 from dcg_torch.storage.errors import UserError, explain_os_error
-from dcg_torch.storage.foreign import plain
 from dcg_torch.storage.resources import resource
+from dcg_torch.storage.untrusted_files import plain
 from dcg_torch.types import Percept
 from dcg_torch.world.files import load_world
 

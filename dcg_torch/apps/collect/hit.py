@@ -10,9 +10,9 @@ from urllib.parse import urlsplit
 from dcg_torch.apps.collect.page import page
 from dcg_torch.apps.collect.settings import HitSettings
 from dcg_torch.apps.collect.tasks import PICTURES, CollectError, prepare, task_worlds
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.claim import check_place
-from dcg_torch.storage.foreign import at_home
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import at_home
 
 TASK, CSV = "task.html", "pictures.csv"
 

@@ -16,9 +16,9 @@ from dcg_torch.apps.collect.tasks import WORLDS, CollectError, worlds_folder
 from dcg_torch.apps.collect.texts import copied, empty, normal, tidy
 from dcg_torch.language import default_parser
 from dcg_torch.language.tokens import mend, normal_noun, tokens
+from dcg_torch.storage.atomic_files import write_whole, write_whole_folder
 from dcg_torch.storage.claim import check_place
-from dcg_torch.storage.foreign import at_home, misspelt, plain, shown
-from dcg_torch.storage.whole import write_whole, write_whole_folder
+from dcg_torch.storage.untrusted_files import at_home, misspelt, plain, shown
 from dcg_torch.world.files import World, WrittenCommand, load_worlds
 from dcg_torch.world.writing import yaml_lines
 

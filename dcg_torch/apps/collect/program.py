@@ -17,9 +17,9 @@ from dcg_torch.apps.collect.settings import HitSettings, ImportSettings, ServeSe
 from dcg_torch.apps.collect.tasks import PICTURES, CollectError, prepare, task_worlds
 from dcg_torch.cli.application import one_line_errors
 from dcg_torch.cli.keyvalue import read_settings, settings_text
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.claim import check_place
-from dcg_torch.storage.foreign import at_home
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import at_home
 
 _SALT, _DATABASE = "salt", "answers.sqlite"
 _LOOPBACK = ("127.0.0.1", "::1", "localhost")

@@ -12,7 +12,7 @@ from typing import Any
 
 from dcg_torch.apps.collect.database import read_rows, sqlite_url
 from dcg_torch.apps.collect.tasks import CollectError
-from dcg_torch.storage.foreign import at_home, misspelt, plain, read_json, read_text
+from dcg_torch.storage.untrusted_files import at_home, misspelt, plain, read_json, read_text
 
 TURK = {"person": "WorkerId", "world": "Input.world", "object": "Input.object", "text": "Answer.command"}
 OURS = {"person": "person", "world": "world", "object": "object", "text": "text"}

@@ -14,10 +14,10 @@ from PIL import Image
 
 from dcg_torch.apps.collect.settings import TaskSettings
 from dcg_torch.simulator.screenshot import pair_pictures
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import at_home, shown
 from dcg_torch.storage.resources import resource
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import at_home, shown
 from dcg_torch.world.files import World, load_world, load_worlds
 from dcg_torch.world.generator import generate_world
 from dcg_torch.world.writing import yaml_lines

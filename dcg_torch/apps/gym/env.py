@@ -7,16 +7,16 @@ from typing import Any
 
 import gymnasium
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.apps.gym.scenario import Act, Observation, Reply, experiment_settings, make_spaces
 from dcg_torch.experiment.plan import trial_commands, trial_generators
 from dcg_torch.experiment.robots import new_robot
 from dcg_torch.types import Percept
+from dcg_torch.types.arrays import Ints
 from dcg_torch.world.speaker import Command
 
 
-class GroundEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
+class GroundEnv(gymnasium.Env[Observation, Ints]):
     """A robot that is given commands.
 
     Observation: `command`, the text; `percepts`, what was seen since the command, in the order of first sight, each
@@ -116,7 +116,7 @@ class GroundEnv(gymnasium.Env[Observation, NDArray[np.int64]]):
         self._commands = trial_commands(self._settings, trial)
         self._mistakes = trial_generators(seed, trial)[2]
 
-    def step(self, action: NDArray[np.int64]) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
+    def step(self, action: Ints) -> tuple[Observation, float, bool, bool, dict[str, Any]]:
         """Do one thing; observation, reward, is the episode over, False, info."""
         act, which = Act(int(action[0])), int(action[1])
         self._reply = Reply.NOTHING

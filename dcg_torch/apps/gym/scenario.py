@@ -13,7 +13,7 @@ import numpy as np
 
 from dcg_torch.experiment.plan import trial_worlds
 from dcg_torch.settings import Order, RobotKind, Settings, SettingsError, SimulatorSettings, Speaker, check
-from dcg_torch.storage.foreign import misspelt, shown
+from dcg_torch.storage.untrusted_files import misspelt, shown
 from dcg_torch.world.files import World
 
 Observation = dict[str, Any]

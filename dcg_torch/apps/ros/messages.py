@@ -17,7 +17,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from dcg_torch.learning.lexicon import Entry
 from dcg_torch.names.palette import color_log_likelihood
-from dcg_torch.storage.foreign import plain, shown
+from dcg_torch.storage.untrusted_files import plain, shown
 from dcg_torch.types import Percept, Pose
 from dcg_torch.types.geometry import from_robot_frame
 from dcg_torch.world.files import REACH_OF_A_WORLD

@@ -41,10 +41,10 @@ from dcg_torch.lessons import initial_training
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import load
 from dcg_torch.model.pretrain import pretrained
+from dcg_torch.storage.atomic_files import write_whole
 from dcg_torch.storage.claim import claim
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import plain, shown
-from dcg_torch.storage.whole import write_whole
+from dcg_torch.storage.untrusted_files import plain, shown
 from dcg_torch.types import DriveResult, Percept, Pose
 
 _MOST_BYTES = 2_000_000

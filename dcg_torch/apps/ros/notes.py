@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch.agent.asking import Question, Reply
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.untrusted_files import plain
 
 LONGEST = 2_000
 """Characters of a note, at the most."""

@@ -16,8 +16,8 @@ from typing import Any
 from dcg_torch.learning.lexicon import save_lexicon
 from dcg_torch.model import GroundingModel
 from dcg_torch.model.checkpoint import CheckpointError, load
+from dcg_torch.storage.atomic_files import remove, write_whole, write_whole_folder
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import remove, write_whole, write_whole_folder
 
 MARK = "lexicon.json"
 _HANDLED, _NAME, _KEPT = "handled.json", "snapshot-", 2

@@ -17,8 +17,8 @@ from pathlib import Path
 from dcg_torch.apps.talk.host import Change
 from dcg_torch.dialogue.export import export_episodes, export_gif
 from dcg_torch.dialogue.session import Session
+from dcg_torch.storage.atomic_files import remove
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.whole import remove
 from dcg_torch.world.files import load_world
 
 MOST = 64_000_000

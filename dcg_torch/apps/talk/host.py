@@ -21,7 +21,7 @@ from nicegui import Event
 from PIL import Image
 
 from dcg_torch.apps.talk.lines import Line, line_of_event, line_of_input, names_of
-from dcg_torch.apps.talk.live import Live
+from dcg_torch.apps.talk.live_updates import Live
 from dcg_torch.dialogue import events
 from dcg_torch.dialogue.acts import is_stop
 from dcg_torch.dialogue.file import Input, with_stops

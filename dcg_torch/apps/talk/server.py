@@ -19,7 +19,7 @@ from nicegui import ui
 
 from dcg_torch.apps.talk.gate import LOOPBACK, Gate
 from dcg_torch.apps.talk.host import Host
-from dcg_torch.apps.talk.live import PATH
+from dcg_torch.apps.talk.live_updates import PATH
 from dcg_torch.apps.talk.looks import object_looks, robot_looks
 from dcg_torch.apps.talk.page import CSS, Page
 from dcg_torch.apps.talk.scene import BODIES

@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from typing import Final, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.storage.errors import UserError
-
-Array = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats
 
 _TEMPERATURES: Final = tuple(float(t) for t in np.geomspace(0.01, 100.0, 33))
 _SLIP = 0.02
@@ -50,7 +48,7 @@ class Baseline(Protocol):
         return
 
 
-def choose(episode: Episode, scores: Array, temperature: float, *, several: bool = False) -> Guess:
+def choose(episode: Episode, scores: Floats, temperature: float, *, several: bool = False) -> Guess:
     """The object of the highest score; all that have it where the text asks for several.
 
     Equals are told apart by the episode's id, so that the choice is neither always the first nor another one tomorrow.
@@ -68,14 +66,14 @@ def choose(episode: Episode, scores: Array, temperature: float, *, several: bool
     return Guess((episode.objects[one].id,), float(share[one]))
 
 
-def probabilities(scores: Array, temperature: float) -> Array:
+def probabilities(scores: Floats, temperature: float) -> Floats:
     """Softmax of scores (n,), with a share that is spread evenly."""
     weight = np.exp((scores - scores.max()) / temperature)
-    result: Array = (1.0 - _SLIP) * weight / weight.sum() + _SLIP / len(scores)
+    result: Floats = (1.0 - _SLIP) * weight / weight.sum() + _SLIP / len(scores)
     return result
 
 
-def fit_temperature(scored: Sequence[tuple[Array, Sequence[int]]], default: float) -> float:
+def fit_temperature(scored: Sequence[tuple[Floats, Sequence[int]]], default: float) -> float:
     """The temperature under which what was meant is likeliest.
 
     Args:

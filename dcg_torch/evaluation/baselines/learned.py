@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from dcg_torch.evaluation.baselines.base import (
-    Array,
     Baseline,
     BaselineError,
     Guess,
@@ -20,6 +19,7 @@ from dcg_torch.evaluation.baselines.base import (
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.names import embedding
 from dcg_torch.types import Pose
+from dcg_torch.types.arrays import Floats
 from dcg_torch.types.geometry import to_robot_frame
 
 NounPhrase = Callable[[str], str]
@@ -112,10 +112,10 @@ class MiniLM(Baseline):
         """The object of the highest sum of cosines."""
         return choose(episode, self._scores(episode), self._temperature)
 
-    def _scores(self, episode: Episode) -> Array:
+    def _scores(self, episode: Episode) -> Floats:
         whole = embedding.cosines(episode.text, _placed(episode))
         phrase = self._noun_phrase(episode.text)
-        result: Array = whole + embedding.cosines(phrase, _names(episode)) if phrase else whole
+        result: Floats = whole + embedding.cosines(phrase, _names(episode)) if phrase else whole
         return result
 
 

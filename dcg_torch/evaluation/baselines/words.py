@@ -8,9 +8,10 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from dcg_torch.evaluation.baselines.base import Array, Baseline, Guess, choose, fit_temperature, places_meant
+from dcg_torch.evaluation.baselines.base import Baseline, Guess, choose, fit_temperature, places_meant
 from dcg_torch.evaluation.episodes import Episode
-from dcg_torch.names.normal import normalise
+from dcg_torch.names.normal_form import normalise
+from dcg_torch.types.arrays import Floats
 
 _TOYS = {"ball": "sphere", "block": "cube", "box": "cube", "brick": "cube", "square": "cube"}
 """The few synonyms that whoever works with blocks would think of."""
@@ -27,7 +28,7 @@ def words_of(text: str) -> list[str]:
     return [_TOYS.get(word, word) for word in found]
 
 
-def overlap(episode: Episode) -> Array:
+def overlap(episode: Episode) -> Floats:
     """How much of each object's class and colour the text names: (n,), 0 for nothing.
 
     A class counts by its last word, by the share of its words, and by how early it is named; a colour only where it
@@ -47,7 +48,7 @@ def overlap(episode: Episode) -> Array:
     return scores
 
 
-def nearest(episode: Episode) -> Array:
+def nearest(episode: Episode) -> Floats:
     """`overlap`, and a few points for the nearest to the robot of those that come first; without a pose, none."""
     scores = overlap(episode)
     if episode.pose is not None:
@@ -66,7 +67,7 @@ class Scored(Baseline):
         temperature: what it is before there was any training.
     """
 
-    def __init__(self, scores: Callable[[Episode], Array], temperature: float) -> None:
+    def __init__(self, scores: Callable[[Episode], Floats], temperature: float) -> None:
         self._scores, self._temperature = scores, temperature
 
     def fit(self, train: Sequence[Episode]) -> None:
@@ -111,7 +112,7 @@ class Outcomes(Scored):
                 self._offered[word, kind] += weight
                 self._chosen[word, kind] += weight * chosen
 
-    def _told(self, episode: Episode) -> Array:
+    def _told(self, episode: Episode) -> Floats:
         kinds = [normalise(o.type) for o in episode.objects]
         words = set(words_of(episode.text))
         usual = 1.0 / len(set(kinds))
@@ -126,7 +127,7 @@ class Outcomes(Scored):
         return overlap(episode) + _ASSOCIATED * np.array([told[kind] for kind in kinds])
 
 
-def asks_for_several(episode: Episode, scores: Array) -> bool:
+def asks_for_several(episode: Episode, scores: Floats) -> bool:
     """Does the text count the objects of the highest score, or name their class in the plural?"""
     said = re.findall(r"[a-z]+", episode.text.lower())
     heads = {

@@ -11,7 +11,7 @@ from typing import Any
 
 from dcg_torch.evaluation.episodes import EpisodeError, parse_episode
 from dcg_torch.storage.errors import UserError
-from dcg_torch.storage.foreign import plain, read_json, read_text
+from dcg_torch.storage.untrusted_files import plain, read_json, read_text
 
 
 class ImportFileError(UserError):

@@ -26,7 +26,7 @@ from dcg_torch.evaluation.importers.base import (
     read_json_file,
     reason_of,
 )
-from dcg_torch.storage.foreign import plain
+from dcg_torch.storage.untrusted_files import plain
 
 _NO_TAGS = ("fail", "invalid", "none", "")
 _RELATIONS = {"a on b": ("on", False), "b on a": ("on", True), "a in b": ("in", False), "b in a": ("in", True)}

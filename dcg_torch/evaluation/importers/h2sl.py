@@ -15,7 +15,7 @@ from typing import Any
 from xml.etree.ElementTree import Element
 
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError, LeftOut, each_file, numbers
-from dcg_torch.storage.foreign import read_xml
+from dcg_torch.storage.untrusted_files import read_xml
 
 _NONE = (None, "", "na")
 _ROBOT = "robot"

@@ -18,7 +18,7 @@ from pydantic import ValidationError
 
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError
 from dcg_torch.lessons.files import TrainingFile
-from dcg_torch.storage.foreign import plain, problem_of, read_xml
+from dcg_torch.storage.untrusted_files import plain, problem_of, read_xml
 
 _NO_TYPES = ("na", "robot", "")
 

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from dcg_torch.evaluation.importers.base import Converted, ImportFileError, LeftOut, numbers
-from dcg_torch.storage.foreign import misspelt, plain, read_text, shown
+from dcg_torch.storage.untrusted_files import misspelt, plain, read_text, shown
 
 _NEEDED = ("id", "text", "object", "type", "x", "y")
 _FURTHER = ("z", "color", "target", "size_x", "size_y", "size_z", "robot_x", "robot_y", "robot_yaw", "group")

@@ -15,8 +15,9 @@ from dcg_torch.experiment.recording.wording import label
 from dcg_torch.simulator.bodies import extent, footprint
 from dcg_torch.simulator.camera import Camera
 from dcg_torch.simulator.stage import ROBOT_HEIGHT, ROBOT_RADIUS, Stage
-from dcg_torch.simulator.view import Box, Points, circle, sector
+from dcg_torch.simulator.view import Box, circle, sector
 from dcg_torch.types import Pose
+from dcg_torch.types.arrays import Points
 
 _OVERSAMPLING: Final = 2
 _DOWN: Final = math.radians(50.0)

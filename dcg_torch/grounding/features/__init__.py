@@ -17,7 +17,7 @@ feature instead. Columns are only ever appended, so old indices stay valid.
 """
 
 from dcg_torch.grounding.features.columns import FeatureSet, KindColumns, padded
-from dcg_torch.grounding.features.given import give_odds
+from dcg_torch.grounding.features.name_facts import Said, look_codes
 from dcg_torch.grounding.features.names import (
     GROUNDING_OF,
     PAIRS,
@@ -29,7 +29,7 @@ from dcg_torch.grounding.features.names import (
     picked_from,
     ranking,
 )
-from dcg_torch.grounding.features.said import Said, look_codes
+from dcg_torch.grounding.features.prior_weights import give_odds
 
 __all__ = [
     "GROUNDING_OF",

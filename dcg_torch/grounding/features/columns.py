@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from dcg_torch import scene
 from dcg_torch.fitting.psi import Bag
+from dcg_torch.grounding.features.name_facts import Said, facts
 from dcg_torch.grounding.features.names import (
     PAIRS,
     Feature,
@@ -23,7 +24,6 @@ from dcg_torch.grounding.features.names import (
     scene_features,
     word_features,
 )
-from dcg_torch.grounding.features.said import Said, facts
 from dcg_torch.types import (
     LOOKED_ROUND,
     Child,
@@ -35,6 +35,7 @@ from dcg_torch.types import (
     Symbol,
     WorldModel,
 )
+from dcg_torch.types.arrays import Bools, Ints
 
 KindColumns = dict[Hashable, list[int]]
 """What things are apart from their types -> the grounding columns of that."""
@@ -128,11 +129,11 @@ class FeatureSet:
         return len(self.language), len(self.grounding)
 
     @property
-    def pairs(self) -> NDArray[np.bool_]:
+    def pairs(self) -> Bools:
         """(L, G): which pairs of columns are features."""
         (left, rows), (right, columns) = _families(self.language), _families(self.grounding)
         met = np.array([[f in PAIRS[family] for f in right] for family in left], dtype=np.bool_)
-        found: NDArray[np.bool_] = met.reshape(len(left), len(right)).take(rows, axis=0).take(columns, axis=1)
+        found: Bools = met.reshape(len(left), len(right)).take(rows, axis=0).take(columns, axis=1)
         return found
 
     @cached_property
@@ -179,9 +180,7 @@ class FeatureSet:
         """(len(phrases), k) bag of language columns."""
         return padded([[self.language[name] for name in self.language_names(phrase)] for phrase in phrases])
 
-    def encode_groundings(
-        self, kind: GroundingKind, world: WorldModel, children: Sequence[Sequence[Child]]
-    ) -> NDArray[np.int64]:
+    def encode_groundings(self, kind: GroundingKind, world: WorldModel, children: Sequence[Sequence[Child]]) -> Ints:
         """Grounding columns of every region or action in `world`, under every tuple of child groundings.
 
         Args:
@@ -258,7 +257,7 @@ class FeatureSet:
         """Columns of what the names of things say about a phrase.
 
         Args:
-            looks: of each thing, see `said.look_codes`.
+            looks: of each thing, see `target_descriptions.look_codes`.
             kinds: what was found before under these columns, of things that are called alike; more is added.
         """
         kinds, denies = {} if kinds is None else kinds, said.denies()
@@ -272,7 +271,7 @@ class FeatureSet:
             rows.append(columns)
         return rows
 
-    def encode_ranks(self, where: scene.Layout, ranking: Ranking, members: NDArray[np.bool_] | None) -> Bag:
+    def encode_ranks(self, where: scene.Layout, ranking: Ranking, members: Bools | None) -> Bag:
         """(things, k) bag: the rank of every thing among those that are compared.
 
         Args:
@@ -285,7 +284,7 @@ class FeatureSet:
         number = self.grounding.get
         return sorted({column for name in names if (column := number(name)) is not None})
 
-    def relation_columns(self, found: NDArray[np.int16]) -> NDArray[np.int64]:
+    def relation_columns(self, found: NDArray[np.int16]) -> Ints:
         """(..., k) grounding columns of a modifier's groundings, by relations (..., families) of `scene.relations`."""
         columns = [np.full((*found.shape[:-1], 1), self.placed_column), self.relation_of[found]]
         return np.concatenate(columns, axis=-1)
@@ -296,12 +295,12 @@ class FeatureSet:
         return self.grounding[f"kind: {GroundingKind.PLACED}"]
 
     @cached_property
-    def rank_of(self) -> NDArray[np.int64]:
+    def rank_of(self) -> Ints:
         """Index into `scene.RANKS` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RANKS), -1])
 
     @cached_property
-    def relation_of(self) -> NDArray[np.int64]:
+    def relation_of(self) -> Ints:
         """Index into `scene.RELATION_NAMES` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RELATION_NAMES), -1])
 

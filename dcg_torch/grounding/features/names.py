@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from dcg_torch import scene
-from dcg_torch.grounding.features.said import said_features
-from dcg_torch.names.attributes import OF_KEY
+from dcg_torch.grounding.features.name_facts import said_features
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import GROUP_WORDS, NTH, ORDINALS, TOGETHER, counted
 from dcg_torch.types import (
     LOOKED_ROUND,

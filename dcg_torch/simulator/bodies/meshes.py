@@ -12,9 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from dcg_torch.types.arrays import Floats, Ints
+
 Point2 = tuple[float, float]
 Point3 = tuple[float, float, float]
 
@@ -26,9 +26,9 @@ CREASE = math.radians(40.0)  # sharper bends of an outline stay sharp edges
 class Mesh:
     """`vertices` and `normals` (n, 3), `triangles` (m, 3) of indices into them."""
 
-    vertices: Array
-    normals: Array
-    triangles: NDArray[np.int64]
+    vertices: Floats
+    normals: Floats
+    triangles: Ints
 
     def moved(self, x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Mesh:
         """The same mesh, shifted."""
@@ -56,7 +56,7 @@ class Mesh:
         """The same mesh, turned so that its z points to the front, its x to the left and its y up."""
         return self._turned(np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]))
 
-    def _turned(self, images: Array) -> Mesh:
+    def _turned(self, images: Floats) -> Mesh:
         """`images` (3, 3): in its rows, what x, y and z become."""
         return Mesh(self.vertices @ images, self.normals @ images, self.triangles)
 
@@ -91,7 +91,7 @@ def lathed(profile: Sequence[Point2], segments: int = SEGMENTS) -> Mesh:
     angles = np.linspace(0.0, 2.0 * math.pi, segments, endpoint=False)
     directions = np.stack([np.cos(angles), np.sin(angles)], axis=1)
 
-    def turned(flat: Array) -> Array:
+    def turned(flat: Floats) -> Floats:
         """(k, 2) points or normals of the profile -> (k, segments, 3)."""
         around = flat[:, None, :1] * directions[None]
         up = np.broadcast_to(flat[:, None, 1:], (*around.shape[:2], 1))
@@ -106,7 +106,7 @@ def extruded(outline: Sequence[Point2], height: float) -> Mesh:
     starts, ends, start_normals, end_normals = _edges(ring, closed=True)
     levels = np.array([0.0, height])
 
-    def lifted(flat: Array, heights: Array) -> Array:
+    def lifted(flat: Floats, heights: Floats) -> Floats:
         """(k, 2) -> (k, 2 levels, 3)."""
         plane = np.repeat(flat[:, None, :], 2, axis=1)
         return np.concatenate([plane, np.broadcast_to(heights[None, :, None], (*plane.shape[:2], 1))], axis=2)
@@ -162,7 +162,7 @@ def _on_axis(profile: list[Point2]) -> list[Point2]:
     return [(0.0, profile[0][1]), *profile[1:-1], (0.0, profile[-1][1])]
 
 
-def _edges(points: Array, closed: bool = False) -> tuple[Array, Array, Array, Array]:
+def _edges(points: Floats, closed: bool = False) -> tuple[Floats, Floats, Floats, Floats]:
     """Starts, ends and outward normals at both, of the edges of a polyline that has its outside on the right.
 
     Normals of neighbouring edges are averaged where they meet in less than `CREASE`.
@@ -183,7 +183,7 @@ def _edges(points: Array, closed: bool = False) -> tuple[Array, Array, Array, Ar
     return starts, ends, start_normals, end_normals
 
 
-def _bands(low: Array, high: Array, low_normals: Array, high_normals: Array, *, closed: bool) -> Mesh:
+def _bands(low: Floats, high: Floats, low_normals: Floats, high_normals: Floats, *, closed: bool) -> Mesh:
     """One strip of quads per row between `low` and `high`, both (k, s, 3); `closed` joins the last to the first."""
     rows, columns, _ = low.shape
     vertices = np.stack([low, high], axis=1).reshape(-1, 3)

@@ -14,13 +14,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dcg_torch.types.arrays import Bools, Floats
 from dcg_torch.types.geometry import NEXT_TO, to_robot_frame, wrap_angles
 from dcg_torch.world.files import World
-
-Floats = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 DIRECTIONS = {"behind": 0.0, "in front of": math.pi, "to the left of": math.pi / 2, "to the right of": -math.pi / 2}
 """Preposition -> angle from the robot's line of sight to the landmark."""
@@ -68,7 +65,7 @@ class Surroundings:
         bearing: Floats = np.arctan2(self.position[:, 1], self.position[:, 0])
         return bearing
 
-    def fitting(self, kind: str | None, color: str | None) -> Mask:
+    def fitting(self, kind: str | None, color: str | None) -> Bools:
         """(n,) which objects are of this type and colour; None: any."""
         return np.array(
             [
@@ -90,11 +87,11 @@ class Fit:
     """
 
     value: Floats
-    well: Mask
-    loosely: Mask
+    well: Bools
+    loosely: Bools
     margin: float
 
-    def best(self, among: Mask) -> int | None:
+    def best(self, among: Bools) -> int | None:
         """The object of least value among those that fit well, if all that might fit are worse by the margin."""
         well, loosely = self.well & among, self.loosely & among
         if not well.any():

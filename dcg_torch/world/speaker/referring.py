@@ -14,12 +14,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from dcg_torch.types import ParseTree
+from dcg_torch.types.arrays import Bools
 from dcg_torch.world.speaker.fit import (
     ABOUT_ROBOT,
     DIRECTIONS,
     NEARNESS,
     Fit,
-    Mask,
     Surroundings,
     about_robot,
     behind_on_side,
@@ -44,7 +44,7 @@ class _Head:
 
     kind: str | None
     color: str | None
-    alike: Mask
+    alike: Bools
 
     def phrase(self, words: tuple[str, ...] = (), *modifiers: ParseTree) -> ParseTree:
         return noun_phrase(self.kind, self.color, words, modifiers)
@@ -270,7 +270,7 @@ def _about_robot(around: Surroundings, word: str, place: str) -> _Modifier:
     return _Modifier(prepositional(word, noun), about_robot(around, word, place))
 
 
-def _in_order(around: Surroundings, relation: str, alike: Mask) -> int | None:
+def _in_order(around: Surroundings, relation: str, alike: Bools) -> int | None:
     """Which of those alike comes at a place of an order, a fair way off from its neighbours."""
     members = np.flatnonzero(alike)
     margin, before = 0.4, 0
@@ -300,5 +300,5 @@ def _single(meant: int | None, tree: ParseTree) -> Description | None:
     return None if meant is None else Description(tree, frozenset({meant}))
 
 
-def _numbers(objects: Mask) -> frozenset[int]:
+def _numbers(objects: Bools) -> frozenset[int]:
     return frozenset(map(int, np.flatnonzero(objects)))

@@ -1,0 +1,72 @@
+"""What has nothing beside it: "the cup with nothing around it", "the cups that touch nothing".
+
+That is measured, not learned: of the words for what is near a thing each is denied of all other things.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from dcg_torch.grounding.encoding import WorldEncoder
+from dcg_torch.grounding.measured_relations import ASLANT, NEARNESS, ON_A_SIDE, UNSURE, aslant
+from dcg_torch.grounding.stated_distances import gaps_between
+from dcg_torch.names.relations import listed
+from dcg_torch.names.vocabulary import NO_OTHER, NOTHING
+from dcg_torch.types.arrays import Bools, Floats
+
+_TOUCHING, _NEAR = 0.05, 0.6
+"""Metres of a gap below which things touch, and units up to which one is near another."""
+_VAGUE = 0.15
+"""The share of it by which that is vague."""
+_LEAST = 1e-3
+"""The least probability that nothing is there."""
+_LEVEL = 0.02
+"""Metres by which things may be in one another that are not beside one another."""
+
+
+def of_isolation(words: Sequence[str], encoder: WorldEncoder) -> Floats:
+    """(things,) the log-probability that things have nothing beside them, where the words of a noun phrase say so."""
+    log = np.zeros(len(encoder.all))
+    where = encoder.layout
+    things = np.flatnonzero(where.solid & np.isfinite(where.position).all(axis=1)).tolist()
+    kind = encoder.type_number[things]
+    for word in (word for word in words if word.startswith((NOTHING, NO_OTHER))):
+        name = word.removeprefix(NOTHING).removeprefix(NO_OTHER)
+        if len(things) > 1 and name in _BESIDE | ON_A_SIDE.keys():
+            there = _there(name, things, encoder)[:, things]
+            np.fill_diagonal(there, 0.0)
+            there[(kind[:, None] != kind) & word.startswith(NO_OTHER)] = 0.0
+            log[things] += np.log(np.maximum(_LEAST, 1.0 - there.max(axis=1)))
+    return log
+
+
+_BESIDE = NEARNESS | listed("around") | {"touching"}
+
+
+def _there(name: str, things: list[int], encoder: WorldEncoder) -> Floats:
+    """(landmarks, things) the probability that people say that a thing stands so to a landmark."""
+    unit = encoder.world.unit
+    gap = gaps_between(things, encoder)
+    reach = _TOUCHING / unit if name == "touching" else _NEAR
+    with np.errstate(over="ignore", invalid="ignore"):
+        near = 1.0 / (1.0 + np.exp((gap - reach) / (_VAGUE * reach)))
+        if name in ON_A_SIDE:
+            near *= 1.0 / (1.0 + np.exp((aslant(name, things, encoder) - ASLANT) / UNSURE))
+    return np.where(np.isfinite(near) & _on_its_level(things, encoder), near, 0.0)
+
+
+def _on_its_level(things: list[int], encoder: WorldEncoder) -> Bools:
+    """(landmarks, things) is a thing neither wholly over a landmark nor wholly under it, as what it stands on is?"""
+    bodies, count = encoder.layout.bodies, len(encoder.all)
+    if bodies is None:
+        return np.ones((len(things), count), dtype=np.bool_)
+    low, high = np.full(count, -math.inf), np.full(count, math.inf)
+    n = len(bodies.half)
+    low[:n] = np.where(np.isfinite(bodies.bottom), bodies.bottom, -math.inf)
+    high[:n] = np.where(np.isfinite(bodies.top), bodies.top, math.inf)
+    slack = _LEVEL / encoder.world.unit
+    found: Bools = (low[None] < high[things][:, None] - slack) & (high[None] > low[things][:, None] + slack)
+    return found
