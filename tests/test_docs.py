@@ -24,6 +24,9 @@ COMPOSED = {"": ("config", settings_of), ".evaluate": ("evaluate", evaluate_sett
 """What follows `python -m dcg_torch` -> the configuration that Hydra composes for it, and what checks it."""
 
 
+_PARTIAL = re.compile(r"\[KEY|experiment=search\b")
+
+
 def prose(page: Path) -> str:
     return page.read_text(encoding="utf-8")
 
@@ -31,10 +34,10 @@ def prose(page: Path) -> str:
 def composed_commands(text: str) -> list[tuple[str, tuple[str, ...]]]:
     """The commands of a page whose settings Hydra composes, and these: on lines of their own and within sentences.
 
-    Sweeps and what only shows the form of a command ("[KEY=VALUE ...]") are left out.
+    Left out are sweeps, what only shows the form of a command ("[KEY=VALUE ...]"), and what needs an extra of Hydra's.
     """
     found = re.findall(r"(?:^|`)python -m dcg_torch(|\.evaluate)(?: ([^`#\n]*))?(?=[`#\n])", text, re.MULTILINE)
-    whole = [(program, given) for program, given in found if "[KEY" not in given and not given.startswith("-")]
+    whole = [(program, given) for program, given in found if not given.startswith("-") and not _PARTIAL.search(given)]
     split = [(program, shlex.split(given.replace(",...]", "]"))) for program, given in whole]
     return [(program, tuple(word for word in words if not word.startswith("hydra."))) for program, words in split]
 
