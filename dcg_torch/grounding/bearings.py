@@ -26,8 +26,8 @@ _FROM_YOU = {"ahead of": (1.0, 0.0), "in front of": (1.0, 0.0), "behind": (-1.0,
 """Preposition before who is spoken to -> the direction in which what is so stands."""
 _STRAIGHT, _NOT_AHEAD = math.radians(25.0), -5.0
 """Angle at which a thing is half a nat less straight on, and the most that it loses."""
-_AHEAD = "ahead of"
-"""The preposition of what is straight on, wherever the robot stands."""
+_AHEAD, _BEFORE = "ahead of", "in front of"
+"""The preposition of what is straight on, wherever the robot stands, and of what is on this side of a thing."""
 _SLANT = math.radians(40.0)
 """Angle at which a thing is half a nat less that way than one straight on."""
 _E_FOLD = 2.0
@@ -51,14 +51,14 @@ def by_bearing(
     if (name not in _AT and name not in _FROM_YOU and name != BESIDE_THE_WAY) or encoder.world.robot is None:
         return log_psi
     ways = [(k, way) for k, j in enumerate(landmarks) if (way := _way(name, j, encoder)) is not None]
-    if not ways or not (encoder.among_things or name in (_AHEAD, BESIDE_THE_WAY)):
+    if not ways or not (encoder.among_things or name in (_AHEAD, _BEFORE, BESIDE_THE_WAY)):
         return log_psi
     rows, to = [k for k, _ in ways], np.array([way for _, way in ways])
     offset, found = where.position[:, :2] - where.robot, log_psi.copy()
     if name == BESIDE_THE_WAY:
         found[rows] = [_off_the_way(aside, where.solid) for aside in to @ offset.T]
     elif not encoder.among_things:
-        found[rows] = _straight_on(offset, to)
+        found[rows] = _straight_on(offset, to) if name == _AHEAD else found[rows] + _right_before(offset, where.solid)
     else:
         whole = phrase.plural or name == WITHIN  # "the closest chair on your left" is one of all that are there
         found[rows] = that_way(offset, to, compared, encoder, whole=whole)
@@ -76,6 +76,14 @@ def _straight_on(offset: Floats, ways: Floats) -> Floats:
     slant = np.arctan2(*_off(offset, ways))
     found: Floats = np.maximum(-0.5 * (np.where(np.isfinite(slant), slant, math.pi) / _STRAIGHT) ** 2, _NOT_AHEAD)
     return found
+
+
+def _right_before(offset: Floats, solid: Bools) -> Floats:
+    """(things,) how near each stands: to who stands outside all is in front, and what is near is so above all."""
+    away = np.hypot(*offset.T)
+    known = solid & np.isfinite(away)
+    nearest = max(_LEAST / 2.0, float(away[known].min())) if known.any() else 1.0
+    return np.where(known, -_E_FOLD * np.log(np.maximum(1.0, away / nearest)), 0.0)
 
 
 def _off_the_way(aside: Floats, solid: Bools) -> Floats:
