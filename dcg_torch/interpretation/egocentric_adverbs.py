@@ -28,7 +28,7 @@ def with_egocentric_places(tree: ParseTree, *, among: bool) -> ParseTree:
     """
     children = tuple(_of_place(with_egocentric_places(child, among=among), among) for child in tree.children)
     phrase = tree.phrase
-    if among and _counts_from_you(phrase, children):
+    if _counts_from_you(phrase, children):
         children = (*children, _place("", NEAREST))
     said = [word for word in phrase.words if word in ADVERBS and (among or word not in BEARINGS)]
     if phrase.kind is not PhraseKind.NOUN or not said or phrase.noun is None:
