@@ -23,7 +23,7 @@ from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.evidence import is_generic, may_be_meant_for, unheard_of
+from dcg_torch.names.evidence import evidence, is_generic, may_be_meant_for, unheard_of
 from dcg_torch.names.palette import lab, region
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.names.weights import names_one_of
@@ -48,6 +48,9 @@ _CONTRARY = (5.0, 1.5)
 who has misjudged one thing may have misjudged two."""
 _NEW = 6.3
 """Bound of a noun's gap where the noun is a word that nobody knows: it may be a new name of what is there."""
+_OF_KIND = {"kind: class is kind": 6.6, "kind: class is far kind": 7.1}
+"""Bounds of a noun's gap where the noun names a kind of which the thing is one. People seldom say "the container" of a
+bottle, but who says it may mean the bottle that is there."""
 _LETTER = 7.0
 """The same where the noun is a word, and one letter makes it a name of what is there: "bell" where there is a ball."""
 
@@ -127,10 +130,19 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         return gap
     if unheard_of(phrase.noun) and not english().get(phrase.noun, {}).get("n", 0):  # "weather" is no thing
         gap = np.minimum(gap, _NEW)
+    gap = np.minimum(gap, [_bound_of_kind(phrase.noun, o.type) for o in objects])
     slips = [o.type is not None and may_be_meant_for(phrase.noun, o.type) for o in objects]
     gap = np.where(slips, np.minimum(gap, _LETTER), gap)
     named = np.array([o.type is not None and not o.type.startswith(OPAQUE) for o in objects])
     return np.where(named, gap, 0.0)
+
+
+def _bound_of_kind(noun: str, type_: str | None) -> float:
+    """The most that a noun's gap is for a thing that is of the kind that it names: "the container" of a bottle."""
+    if type_ is None or type_.startswith(OPAQUE):
+        return math.inf
+    facts = evidence(noun, type_)
+    return next((bound for fact, bound in _OF_KIND.items() if fact in facts), math.inf)
 
 
 def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:

@@ -51,6 +51,7 @@ from dcg_torch.names.vocabulary import (
     counted,
     is_superlative,
 )
+from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 
@@ -279,14 +280,16 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     home = phrase.noun in HOME or (phrase.noun in _ROOM and not (phrase.words or landmark.children))
     if home and name in _WITHIN and not any(head.startswith(phrase.noun or "") for head in there):
         return ()
-    if phrase.noun in VIEWERS and phrase.noun not in there:
+    if phrase.noun in VIEWERS and not names_one_of(phrase.noun, there):
         phrase = replace(phrase, noun="you")
     owner = next((word for word, who in OWNED_BY.items() if who == phrase.noun), None)
     if owner is not None and name in BESIDE_WHOM:  # "left of you" is not beside you alone
         name, phrase = "on", replace(phrase, noun=BESIDE_WHOM[name], words=(owner,))
     if name in SIDE_OF and phrase.noun in _ROOM and not (phrase.words or landmark.children or phrase.noun in there):
         name, phrase = "on", replace(phrase, noun=SIDE_OF[name])  # "on the left side of the room"
-    if phrase.noun in WORKSPACE and not any(head.startswith(phrase.noun) for head in there):
+    if phrase.noun in WORKSPACE and not (
+        any(head.startswith(phrase.noun) for head in there) or names_one_of(phrase.noun, there)
+    ):
         anywhere = name in _ANYWHERE and not (name == "on" and phrase.noun in STOOD_ON)
         if anywhere and NOT not in tree.phrase.words and not (landmark.children or phrase.words):
             return ()  # all that is there is in the picture

@@ -71,6 +71,7 @@ def everyday() -> Everyday:
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
+    kinds = {kind: _also_called(members, data["same"]) for kind, members in kinds.items()}
     compounds = data["beside"], data["ages"]
     return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, *compounds)
 
@@ -100,6 +101,12 @@ def _members(kind: str, listed: Mapping[str, Sequence[str]]) -> frozenset[str]:
     members = next((of for line, of in listed.items() if kind in line.split(", ")), ())
     inside = [_members(one, listed) for one in members if one != kind]
     return frozenset([name_parts(one).text for one in members]).union(*inside)
+
+
+def _also_called(members: frozenset[str], same: Sequence[Sequence[str]]) -> frozenset[str]:
+    """The names of things, with the other names of each: a refrigerator is an appliance, and so is a fridge."""
+    names = [[name_parts(str(name)).text for name in line] for line in same]
+    return members.union(*(line for line in names if not members.isdisjoint(line)))
 
 
 @functools.lru_cache(maxsize=8192)
