@@ -63,7 +63,7 @@ def distance(at: Point) -> Measure:
 
 
 def volume(o: EpisodeObject) -> float:
-    """Of the extents; 0.0 where they are unknown."""
+    """How large an object is, from its extents; 0.0 where they are unknown."""
     return 0.0 if o.extents is None else bulk(o.extents)
 
 
