@@ -1,4 +1,4 @@
-"""All that the words of a noun phrase measure among what the rest of it describes."""
+"""Ordinals, extents and ends that a noun phrase names, measured among the things that the rest of it describes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is asked of a parser and of its answer; `language.Parse` is one."""
+"""Protocols of a parser and of its answer, of which `language.Parse` is one."""
 
 from __future__ import annotations
 

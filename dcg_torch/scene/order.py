@@ -1,4 +1,4 @@
-"""Who is compared with whom, and who comes before whom among those."""
+"""Ranks among things that are alike: which are compared with one another, and how many of these come before each."""
 
 from __future__ import annotations
 
