@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 import torch
+from asked import shipped
 from hypothesis import Phase, settings
 
 from dcg_torch.language import Parser, default_parser
@@ -47,6 +48,12 @@ def pupil(trained: GroundingModel) -> Callable[[], GroundingModel]:
 def binary(training: TrainingSet) -> GroundingModel:
     """As `trained`, with the correspondences of eqs. 6, 8 and 9."""
     return GroundingModel.trained(training, Variant(ternary=False))
+
+
+@pytest.fixture(scope="session")
+def model() -> GroundingModel:
+    """The shipped model. Shared by all tests: look, don't teach."""
+    return shipped()
 
 
 @pytest.fixture(scope="session")

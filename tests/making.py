@@ -17,6 +17,8 @@ from oracle import Oracle
 from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet, Group
+from dcg_torch.learning.commit_first import CommitFirst
+from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel
 from dcg_torch.simulator import FakeRobot
 from dcg_torch.types import (
@@ -144,6 +146,18 @@ def chosen(model: GroundingModel, tree: ParseTree, world: WorldModel) -> Object:
     obj = model.ground(tree, world).object
     assert obj is not None
     return obj
+
+
+def memory(model: GroundingModel) -> CommitFirst:
+    """A model's learner, where it is the paper's."""
+    assert isinstance(model.learner, CommitFirst)
+    return model.learner
+
+
+def words_of(model: GroundingModel) -> WordPosterior:
+    """A model's learner, where it holds a posterior over words."""
+    assert isinstance(model.learner, WordPosterior)
+    return model.learner
 
 
 def log_psi(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from asked import shipped
+import asked
 
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
@@ -12,8 +12,7 @@ HERE = Pose(0.0, 0.0)
 
 def meant(text: str, things: list[Percept], robot: Pose | None = HERE) -> list[str]:
     """The ids of what a command means in a scene that is seen as a whole."""
-    world = shipped().world_model(things, robot=robot, looked=True, workspace=Workspace.of(things))
-    return sorted(o.id for o in shipped().ground(text, world).objects)
+    return sorted(asked.meant(text, things, robot, looked=True, workspace=Workspace.of(things)))
 
 
 def thing(

@@ -16,11 +16,6 @@ from dcg_torch.learning.landmarks import Lesson
 from dcg_torch.types import OPAQUE
 
 
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
-
-
 def _things(*said: str) -> list[Percept]:
     """Things as "colour class", the class of one word, side by side."""
     return [

@@ -7,7 +7,7 @@ import math
 import random
 
 import pytest
-from asked import shipped
+from asked import grounded, shipped
 
 from dcg_torch.types import Percept, Pose
 
@@ -42,7 +42,7 @@ def test_sides_of_a_robot_among_the_things(text: str, side: str) -> None:
     right = 0
     for seed in range(10):
         robot, things = _scene(seed)
-        right += [o.id for o in shipped().ground(text, shipped().world_model(things, robot=robot)).objects] == [side]
+        right += [o.id for o in grounded(text, things, robot).objects] == [side]
     assert right >= 8  # by chance 2.5 are
 
 
@@ -67,7 +67,7 @@ def test_the_nearest_on_a_side_is_meant_where_the_robot_stands_among_things(text
         for name, (away, angle) in at.items():
             spot = cmath.rect(away, robot.yaw + math.radians(angle + rng.uniform(-15.0, 15.0)))
             things.append(Percept(name, "barrel", "green", (robot.x + spot.real, robot.y + spot.imag, 0.0)))
-        right += [o.id for o in shipped().ground(text, shipped().world_model(things, robot=robot)).objects] == ["near"]
+        right += [o.id for o in grounded(text, things, robot).objects] == ["near"]
     assert right >= 9  # the one farthest to the left was taken
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded, meant
 from making import percept
 
-import dcg_torch
 from dcg_torch.types import Percept
 
 
@@ -15,11 +15,6 @@ def elephant(name: str, y: float, tall: float | None) -> Percept:
 
 
 HERD = [elephant("a", 3.0, 2.9), elephant("b", 0.0, 1.0), elephant("c", -3.0, 2.7), percept("brown dog", (6.0, -5.0))]
-
-
-def meant(text: str, things: list[Percept]) -> set[str]:
-    model = dcg_torch.pretrained()
-    return {o.id for o in model.ground(text, model.world_model(things, looked=True)).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize(
@@ -33,13 +28,12 @@ def meant(text: str, things: list[Percept]) -> set[str]:
     ],
 )
 def test_the_young_are_small(text: str, expected: str) -> None:
-    assert meant(text, HERD) == set(expected)
+    assert meant(text, HERD, looked=True) == set(expected)
 
 
 def test_without_sizes_it_is_any() -> None:
     same = [elephant(name, y, None) for name, y in (("a", 3.0), ("b", 0.0), ("c", -3.0))]
-    model = dcg_torch.pretrained()
-    found = model.ground("the baby elephant", model.world_model(same, looked=True)).probabilities
+    found = grounded("the baby elephant", same, None, looked=True).probabilities
     assert max(found[name] for name in "abc") < 0.5
 
 
@@ -48,4 +42,4 @@ def test_what_is_called_so_is_no_size() -> None:
         Percept("s1", "stroller", None, (2.0, 1.0, 0.0), (0.3, 0.3, 0.3)),
         Percept("s2", "baby stroller", None, (2.0, -1.0, 0.0), (0.9, 0.9, 0.9)),
     ]
-    assert meant("the baby stroller", things) == {"s2"}
+    assert meant("the baby stroller", things, looked=True) == {"s2"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
 from dcg_torch.evaluation.episodes import EpisodeObject
 from dcg_torch.interpretation.attributes import by_attributes
@@ -131,13 +132,11 @@ def test_truths_of_an_episode_are_attributes() -> None:
 
 def _told_apart(text: str, *things: tuple[str, str | None, set[str]]) -> list[str]:
     """What the shipped model takes a command to mean; things stand from left to right, numbered from 0."""
-    model = pretrained()
     percepts = [
         Percept(f"o{k}", type_, color, (2.0, 1.0 - k, 0.0), attributes=frozenset(own))
         for k, (type_, color, own) in enumerate(things)
     ]
-    found = model.ground(text, model.world_model(percepts, Pose(0.0, 0.0), looked=True))
-    return [o.id for o in found.objects if not o.hypothetical]
+    return [o.id for o in grounded(text, percepts, looked=True).objects if not o.hypothetical]
 
 
 MUG, PLATE, BOTTLE = (
@@ -185,6 +184,5 @@ def test_a_state_before_a_color_is_no_name_of_a_color(text: str, ids: set[str]) 
         Percept("b", "cup", "blue", (1.0, -0.3, 0.0), attributes=frozenset({"state: clean"})),
         Percept("c", "cup", "yellow", (1.2, 0.0, 0.0), attributes=frozenset({"state: dirty"})),
     ]
-    model = pretrained()
-    solution = model.ground(text, model.world_model(cups, Pose(0.0, 0.0), looked=True))
+    solution = grounded(text, cups, looked=True)
     assert {o.id for o in solution.objects} == ids

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 
+import asked
 import numpy as np
 import pytest
 from hypothesis import given
@@ -29,9 +30,7 @@ def meant(text: str, spots: Spots) -> set[str]:
         Percept(name, "block", None, (1.0 + STEP * up, 0.75 - STEP * right, STEP * level), (STEP, STEP, STEP))
         for name, (right, up, level) in spots.items()
     ]
-    model = pretrained()
-    world = model.world_model(things, ROBOT, workspace=Workspace(EDGES, STEP))
-    return {o.id for o in model.ground(text, world).objects}
+    return asked.meant(text, things, ROBOT, workspace=Workspace(EDGES, STEP))
 
 
 def scattered(seed: int) -> Spots:

@@ -133,12 +133,14 @@ def stubborn(one: Episode) -> Collection[str]:
     return ["0"]
 
 
+RED_CUBES = [
+    episode("the red cube", "red cube, blue cube, red ball"),
+    episode("the red cube", "blue cube, red cube", "1"),
+]
+
+
 def test_certify_counts_what_changes_as_it_should() -> None:
-    episodes = [
-        episode("the red cube", "red cube, blue cube, red ball"),
-        episode("the red cube", "blue cube, red cube", "1"),
-    ]
-    counts = certify(obedient, episodes)
+    counts = certify(obedient, RED_CUBES)
     assert counts["color"] == {"applicable": 2, "n": 2, "right": 2}
     assert counts["noun"] == {"applicable": 1, "n": 1, "right": 1}
     assert counts["absent color"] == counts["garbled"] == counts["taken away"] == {"applicable": 2, "n": 2, "right": 2}
@@ -147,10 +149,6 @@ def test_certify_counts_what_changes_as_it_should() -> None:
 
 def test_certify_sees_an_answer_that_stays() -> None:
     """It was right in one of the two, and that one stays."""
-    episodes = [
-        episode("the red cube", "red cube, blue cube, red ball"),
-        episode("the red cube", "blue cube, red cube", "1"),
-    ]
-    counts = certify(stubborn, episodes)
+    counts = certify(stubborn, RED_CUBES)
     assert counts["color"] == {"applicable": 2, "n": 1, "right": 0}
     assert counts["garbled"] == {"applicable": 2, "n": 1, "right": 0}

@@ -15,11 +15,6 @@ from dcg_torch.learning.landmarks import Lesson, fit_landmarks_em, parts_of
 from dcg_torch.types import WorldModel
 
 
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return pretrained()
-
-
 def scene(model: GroundingModel) -> WorldModel:
     seen = [
         Percept("a", "cube", "red", (2.0, 1.0, 0.0)),

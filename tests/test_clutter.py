@@ -8,7 +8,6 @@ import math
 import numpy as np
 import pytest
 
-import dcg_torch
 from dcg_torch.grounding.descriptions import comparison_set, modifier_factor
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.search import Search
@@ -25,12 +24,6 @@ from dcg_torch.scene.workspace import Workspace, with_places
 from dcg_torch.types import Object, ParseTree, Percept, Pose, WorldModel
 
 TABLE = Workspace((0.0, 7.0, -3.5, 3.5))
-
-
-@pytest.fixture(scope="module")
-def shipped() -> GroundingModel:
-    """The model that comes along."""
-    return dcg_torch.pretrained()
 
 
 def noun_of(text: str, parser: Parser) -> ParseTree:
@@ -59,13 +52,13 @@ def test_landmarks_that_are_named_together_each_describe(parser: Parser) -> None
 
 @pytest.mark.parametrize(("number", "landmarks"), [("the", 1), ("the two", 2), ("three", 3), ("the four", 1)])
 def test_of_a_few_counted_landmarks_each_is_another(
-    number: str, landmarks: int, parser: Parser, shipped: GroundingModel
+    number: str, landmarks: int, parser: Parser, model: GroundingModel
 ) -> None:
     noun = noun_of(f"take the red cube behind {number} blue cubes", parser)
     (modifier,) = noun.children
     colors = {f"b{k}": ("blue", 1.0 + 0.7 * k, 0.3 * k) for k in range(5)}
     world = world_of({"r": ("red", 5.0, 0.0), **colors})
-    encoder, tables = WorldEncoder(shipped.features, world), Tables(shipped.features, shipped.factor)
+    encoder, tables = WorldEncoder(model.features, world), Tables(model.features, model.factor)
     beams = [Search(encoder, tables, 12)._beam_of(child, landmark=True) for child in modifier.children]
     factor = modifier_factor(modifier, beams, encoder, tables)
     assert factor.of_each == (landmarks > 1)
@@ -82,24 +75,24 @@ def test_of_a_few_counted_landmarks_each_is_another(
         "take the middle red cube of the group of 5 red cubes on the left",
     ],
 )
-def test_the_middle_of_so_many_is_picked_from_so_many(text: str, parser: Parser, shipped: GroundingModel) -> None:
+def test_the_middle_of_so_many_is_picked_from_so_many(text: str, parser: Parser, model: GroundingModel) -> None:
     noun = noun_of(text, parser)
     assert noun.phrase.words == ("middle", "of 5")
     left = {f"l{k}": ("red", 1.0 + k, 2.0 + 0.2 * (k % 2)) for k in range(5)}
     right = {f"r{k}": ("red", 0.5 + 2.0 * k, -2.5) for k in range(3)}
     world = world_of({**right, **left, "b": ("blue", 3.0, 2.5)})
-    encoder, tables = WorldEncoder(shipped.features, world), Tables(shipped.features, shipped.factor)
+    encoder, tables = WorldEncoder(model.features, world), Tables(model.features, model.factor)
     modifiers = Search(encoder, tables, 12)._all_modifiers(noun)
     found = comparison_set(noun, modifiers, encoder, tables).among
     assert {thing.id for thing, inside in zip(world.things, found, strict=True) if inside} == set(left)
 
 
-def test_the_closest_on_a_side_is_one_of_that_side(parser: Parser, shipped: GroundingModel) -> None:
+def test_the_closest_on_a_side_is_one_of_that_side(parser: Parser, model: GroundingModel) -> None:
     near_right = {"near": ("red", 0.5, -2.5)}
     left = {"close": ("red", 2.5, 2.5), "far": ("red", 6.5, 2.2)}
     tree = parser.parse("take the red cube on the left that is closest to you", KINDS).tree
     assert tree is not None
-    solution = shipped.ground(tree, world_of({**near_right, **left, "b": ("blue", 4.0, 0.0)}))
+    solution = model.ground(tree, world_of({**near_right, **left, "b": ("blue", 4.0, 0.0)}))
     assert solution.object is not None
     assert solution.object.id == "close"
 

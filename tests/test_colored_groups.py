@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 
+import asked
 import numpy as np
 import pytest
 
 from dcg_torch.grounding.hypotheses import Hypothesis
 from dcg_torch.grounding.solution import Solution
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import (
     Child,
@@ -21,7 +21,6 @@ from dcg_torch.types import (
     Percept,
     Phrase,
     PhraseKind,
-    Pose,
     WorldModel,
 )
 
@@ -44,9 +43,7 @@ def on_towers(pairs: list[tuple[str, str]], seed: int) -> list[Percept]:
 
 
 def meant(text: str, things: list[Percept]) -> set[str]:
-    model = pretrained()
-    world = model.world_model(things, Pose(0.0, 0.0), workspace=Workspace((1.0, 2.5, -0.75, 0.75), STEP))
-    return {o.id for o in model.ground(text, world).objects}
+    return asked.meant(text, things, workspace=Workspace((1.0, 2.5, -0.75, 0.75), STEP))
 
 
 @pytest.mark.parametrize("seed", range(4))

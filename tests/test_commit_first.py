@@ -6,13 +6,12 @@ from collections.abc import Callable
 
 import pytest
 import torch
-from making import KNOWN, NOVEL, chosen, command_tree, log_psi, noun_phrase, saw
+from making import KNOWN, NOVEL, chosen, command_tree, log_psi, memory, noun_phrase, saw
 
 from dcg_torch.grounding.features import Group
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import Parser
 from dcg_torch.learning.commit_first import (
-    CommitFirst,
     contrasts,
     new_symbol,
     replace_unknown,
@@ -41,12 +40,6 @@ Pupil = Callable[[], GroundingModel]
 
 def labels_of(example: Example) -> dict[str, Correspondence | None]:
     return dict(zip((o.id for o in example.world.objects), example.correspondences, strict=True))
-
-
-def memory(model: GroundingModel) -> CommitFirst:
-    """The learner, as the paper's."""
-    assert isinstance(model.learner, CommitFirst)
-    return model.learner
 
 
 class TestLine16:

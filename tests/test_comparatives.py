@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import grounded, seen
 
-from dcg_torch.language import default_parser
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 THINGS = (  # id, class, x, y, extents, gray
     ("thin", "crate", 2.0, 1.5, (0.2, 0.2, 1.1), 40),
@@ -22,10 +21,8 @@ def _meant(text: str, *, known: bool = True) -> tuple[set[str], float | None]:
         Percept(id_, kind, None, (x, y, 0.0), size=size if known else None, rgb=(gray,) * 3 if known else None)
         for id_, kind, x, y, size, gray in THINGS
     ]
-    solution = shipped().ground(
-        default_parser().parse(text), shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    )
-    return {o.id for o in solution.objects if not o.hypothetical}, solution.probability
+    solution = grounded(text, percepts, looked=True)
+    return seen(solution), solution.probability
 
 
 @pytest.mark.parametrize(

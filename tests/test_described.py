@@ -1,8 +1,9 @@
 """What is said not to be meant; attributes and sizes say among what a thing ranks; with the shipped model."""
 
 import pytest
+from asked import grounded
 
-from dcg_torch import Percept, Pose, pretrained
+from dcg_torch import Percept
 
 SOLIDS = [
     ("a", "cube", "metal", "red", 1.0, (4.0, 1.0)),
@@ -31,8 +32,7 @@ def test_ranks_are_among_what_the_attributes_describe(text: str, meant: str) -> 
         Percept(id_, type_, color, (*at, 0.0), (size,) * 3, attributes=frozenset({f"material: {material}"}))
         for id_, type_, material, color, size, at in SOLIDS
     ]
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert answer.object is not None
     assert answer.object.id == meant
 
@@ -65,8 +65,7 @@ DISCS = [
     ],
 )
 def test_places_pick_among_things_of_a_size(text: str, meant: str) -> None:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(DISCS, Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, DISCS, looked=True)
     assert answer.object is not None
     assert answer.object.id == meant
 
@@ -75,9 +74,8 @@ def test_of_things_that_are_as_good_as_equal_the_nearest_is_meant() -> None:
     boxes = [
         Percept(f"{k}", "box", None, (x, y, 0.0)) for k, (x, y) in enumerate([(6.0, 1.0), (2.0, -1.0), (4.0, 2.0)])
     ]
-    model = pretrained()
     for things in (boxes, boxes[::-1]):
-        answer = model.ground("pick up a box", model.world_model(things, Pose(0.0, 0.0), looked=True))
+        answer = grounded("pick up a box", things, looked=True)
         assert answer.object is not None
         assert answer.object.id == "1"
         assert answer.probability == pytest.approx(1 / 3, abs=0.02)

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 
 import pytest
-from asked import shipped
+from asked import meant, shipped
 
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.interpretation.dimensions import dimensions, measure
-from dcg_torch.language import default_parser
 from dcg_torch.scene.frames import seen_facing
 from dcg_torch.scene.workspace import Workspace, with_places
-from dcg_torch.types import Object, Percept, Pose, WorldModel
+from dcg_torch.types import Object, Percept, WorldModel
 
 SHELF = (  # id, class, x, y, extents
     ("slab", "crate", 1.5, 1.2, (0.9, 0.9, 0.1)),
@@ -24,8 +23,7 @@ SHELF = (  # id, class, x, y, extents
 
 def _meant(text: str) -> set[str]:
     percepts = [Percept(id_, kind, None, (x, y, size[2] / 2.0), size=size) for id_, kind, x, y, size in SHELF]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    return meant(text, percepts, looked=True)
 
 
 @pytest.mark.parametrize(

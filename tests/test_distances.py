@@ -6,18 +6,13 @@ import math
 
 import numpy as np
 import pytest
+from asked import meant
 
 from dcg_torch.interpretation.distances import said_apart
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Phrase, PhraseKind, Pose
 
 AWAY = (0.5, 1.6, 3.2, 6.0)
 """Metres from the landmark, or the robot, of the things n0, n1, ..."""
-
-
-def meant(text: str, things: list[Percept], robot: Pose) -> list[str]:
-    model = pretrained()
-    return sorted(o.id for o in model.ground(text, model.world_model(things, robot)).objects)
 
 
 def around(x: float, y: float, seed: int) -> list[Percept]:
@@ -52,7 +47,7 @@ def around(x: float, y: float, seed: int) -> list[Percept]:
 )
 def test_a_distance_in_numbers_tells_things_apart(said: str, which: list[str], seed: int) -> None:
     barrel = Percept("barrel", "barrel", None, (4.0, 1.0, 0.0), (0.02,) * 3)
-    assert meant(said, [barrel, *around(4.0, 1.0, seed)], Pose(-1.0, -2.0)) == which
+    assert meant(said, [barrel, *around(4.0, 1.0, seed)], Pose(-1.0, -2.0)) == set(which)
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -67,15 +62,15 @@ def test_a_distance_in_numbers_tells_things_apart(said: str, which: list[str], s
     ],
 )
 def test_so_far_is_from_the_robot_where_no_landmark_is_named(said: str, which: list[str], seed: int) -> None:
-    assert meant(said, around(0.0, 0.0, seed), Pose(0.0, 0.0)) == which
+    assert meant(said, around(0.0, 0.0, seed), Pose(0.0, 0.0)) == set(which)
 
 
 def test_how_far_something_reaches_is_measured_from_its_edge() -> None:
     """A table of four metres has a thing beside its end two metres from its middle."""
     table = Percept("t", "table", None, (3.0, 0.0, 0.0), (1.0, 4.0, 0.7))
     near, far = (Percept(f"c{k}", "crate", None, (3.0, 2.2 + 2.0 * k, 0.0), (0.02,) * 3) for k in range(2))
-    assert meant("the crate within half a meter of the table", [table, near, far], Pose(0.0, 0.0)) == ["c0"]
-    assert meant("the crate two meters from the table", [table, near, far], Pose(0.0, 0.0)) == ["c1"]
+    assert meant("the crate within half a meter of the table", [table, near, far], Pose(0.0, 0.0)) == {"c0"}
+    assert meant("the crate two meters from the table", [table, near, far], Pose(0.0, 0.0)) == {"c1"}
 
 
 @pytest.mark.parametrize("text", ["next to", "near", "two spaces left of", "from", "within", "one of"])
@@ -99,4 +94,4 @@ def test_an_hour_of_the_clock_is_a_direction_from_the_robot(said: str, hour: int
         Percept(f"h{h}", "crate", None, (1.0 + r * math.cos(t), 2.0 + r * math.sin(t), 0.0))
         for h, (t, r) in zip(turned, zip(turned.values(), (2.0, 3.0, 2.5, 3.5, 2.2, 3.1), strict=True), strict=True)
     ]
-    assert meant(f"take the crate {said}", things, Pose(1.0, 2.0, yaw)) == [f"h{hour}"]
+    assert meant(f"take the crate {said}", things, Pose(1.0, 2.0, yaw)) == {f"h{hour}"}

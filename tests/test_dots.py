@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import functools
-
 import numpy as np
 import pytest
+from asked import meant, shipped
 
 from dcg_torch.interpretation.marks import heard
 from dcg_torch.interpretation.plain_words import in_plain_words
 from dcg_torch.language import default_parser, parse_command, target_phrase
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import color_scores
 from dcg_torch.types import Percept, Pose
 
@@ -31,16 +28,6 @@ BLOCKS = (  # x, y, how many
     (1.2, -0.4, 4),
     (1.6, 0.1, 2),
 )
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
-def _meant(text: str, percepts: list[Percept]) -> set[str]:
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(default_parser().parse(text), world).objects if not o.hypothetical}
 
 
 @pytest.mark.parametrize("named", [True, False])
@@ -63,13 +50,13 @@ def test_grays_and_sizes(text: str, numbers: set[str], named: bool) -> None:
         Percept(str(k), "dot", gray if named else None, (x, y, 0.0), size=(size,) * 3, rgb=(GRAYS[gray],) * 3)
         for k, (x, y, size, gray) in enumerate(DOTS)
     ]
-    assert _meant(text, percepts) == numbers
+    assert meant(text, percepts, looked=True) == numbers
 
 
 def test_of_two_none_is_of_medium_size() -> None:
     three = [(0.05, "red"), (0.1, "black"), (0.2, "black")]
     percepts = [Percept(str(k), "dot", c, (1.0, 0.3 * k, 0.0), size=(s,) * 3) for k, (s, c) in enumerate(three)]
-    assert _meant("the medium sized black dot", percepts) == {"1"}
+    assert meant("the medium sized black dot", percepts, looked=True) == {"1"}
 
 
 @pytest.mark.parametrize(
@@ -98,7 +85,7 @@ def test_stacks_have_a_height(text: str, ids: set[str]) -> None:
         for k, (x, y, count) in enumerate(BLOCKS)
         for z in range(count)
     ]
-    assert _meant(text, percepts) == ids
+    assert meant(text, percepts, looked=True) == ids
 
 
 @pytest.mark.parametrize("ground", ["ground", "floor", "table"])
@@ -136,16 +123,16 @@ PAIRS = (  # x, y, colour
 )
 def test_what_stands_close_together(text: str, numbers: set[str]) -> None:
     percepts = [Percept(str(k), "dot", gray, (x, y, 0.0), (0.1,) * 3) for k, (x, y, gray) in enumerate(PAIRS)]
-    assert _meant(text, percepts) == numbers
+    assert meant(text, percepts, looked=True) == numbers
 
 
 @pytest.mark.parametrize("word", ["camera", "viewer"])
 def test_the_camera_is_where_the_scene_is_seen_from(word: str) -> None:
     percepts = [Percept(str(k), "cube", "red", (1.0 + k, 0.3 * k, 0.05)) for k in range(3)]
-    assert _meant(f"the cube farthest from the {word}", percepts) == {"2"}
-    assert _meant(f"the cube closest to the {word}", percepts) == {"0"}
+    assert meant(f"the cube farthest from the {word}", percepts, looked=True) == {"2"}
+    assert meant(f"the cube closest to the {word}", percepts, looked=True) == {"0"}
     percepts.append(Percept("c", word, None, (4.0, 1.0, 0.0)))
-    assert _meant(f"the cube closest to the {word}", percepts) == {"2"}
+    assert meant(f"the cube closest to the {word}", percepts, looked=True) == {"2"}
 
 
 @pytest.mark.parametrize(
@@ -157,8 +144,8 @@ def test_what_should_go_somewhere_is_meant(text: str) -> None:
         for k, n in enumerate(("3", "7", "9", "12"))
     ]
     command = heard(default_parser().parse, text, (), percepts)
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    assert [o.id for o in _model().ground(command, world).objects] == ["7"]
+    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in shipped().ground(command, world).objects] == ["7"]
 
 
 def test_of_several_of_one_color_all_are_denied() -> None:
@@ -179,4 +166,4 @@ def test_sizes_that_are_denied(text: str, number: str) -> None:
     percepts = [
         Percept(str(k), "dot", gray, (x, y, 0.0), size=(size,) * 3) for k, (x, y, size, gray) in enumerate(DOTS)
     ]
-    assert _meant(text, percepts) == {number}
+    assert meant(text, percepts, looked=True) == {number}

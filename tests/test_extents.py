@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from asked import grounded
 
 from dcg_torch.lessons.furniture import furnished_scene
 from dcg_torch.lessons.sized_things import THING
 from dcg_torch.lessons.table_tops import table_top_scene
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.frames import seen_facing
 from dcg_torch.scene.layout_making import layout
 from dcg_torch.scene.relation_names import RELATION_NAMES
@@ -88,12 +88,11 @@ def test_lessons_mean_what_is_there(maker: object) -> None:
 
 @pytest.mark.parametrize("text", ["the nightstand with the lamp on it", "the nightstand with a lamp on top of it"])
 def test_what_has_a_thing_on_it_is_under_it(text: str) -> None:
-    model = pretrained()
     stands = [Percept(f"n{k}", "nightstand", None, (3.0, 1.5 - 3.0 * k, 0.3), (0.4, 0.4, 0.6)) for k in range(2)]
     lamps = [
         Percept("l0", "lamp", None, (3.0, -1.5, 0.8), (0.2, 0.2, 0.4)),
         Percept("l1", "lamp", None, (2.4, 1.5, 0.2), (0.2, 0.2, 0.4)),
     ]
-    answer = model.ground(text, model.world_model([*stands, *lamps], Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, [*stands, *lamps], looked=True)
     assert answer.object is not None
     assert answer.object.id == "n1"

@@ -23,11 +23,6 @@ ROBOT, ACROSS = Pose(0.0, 0.0), Pose(6.0, 0.0)
 THINGS = [Percept(f"{k}", "cube", "red", (3.0, 1.0 - k, 0.0)) for k in range(3)]  # 0 is at the robot's left
 
 
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
-
-
 def _world(model: GroundingModel, speaker: Pose | None = ACROSS, things: Sequence[Percept] = THINGS) -> WorldModel:
     return model.world_model(things, robot=ROBOT, speaker=speaker, looked=True, workspace=Workspace())
 

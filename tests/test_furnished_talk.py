@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import asked
 import pytest
-from asked import shipped
 
 from dcg_torch.language import default_parser
 from dcg_torch.names.weights import log_odds
@@ -14,8 +14,7 @@ from dcg_torch.types import Object, Percept, Pose, WorldModel
 
 def meant(text: str, percepts: tuple[Percept, ...], at: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> set[str]:
     """The ids of what a text means among things of a room."""
-    world = shipped().world_model(percepts, Pose(*at), looked=True, workspace=Workspace(None, 0.5))
-    return {o.id for o in shipped().ground(text, world).objects if not o.hypothetical}
+    return asked.meant(text, percepts, Pose(*at), looked=True, workspace=Workspace(None, 0.5))
 
 
 def thing(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from dcg_torch import GroundingModel, pretrained
+from dcg_torch import GroundingModel
 from dcg_torch.evaluation.episodes import Episode
 from dcg_torch.evaluation.protocol import answers
 from dcg_torch.interpretation.grids import by_cells
@@ -26,11 +26,6 @@ def _rack(text: str, *, empty: tuple[str, ...] = ()) -> Episode:
     objects = [thing for thing in objects if thing["id"] not in empty]
     robot = {"x": 0.0, "y": 0.0, "yaw": 0.0}
     return Episode.model_validate({"id": "a", "text": text, "objects": objects, "target": [], "robot": robot})
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return pretrained()
 
 
 def _meant(model: GroundingModel, episode: Episode) -> set[str]:

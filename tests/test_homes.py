@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from dcg_torch import GroundingModel, Percept, Pose, pretrained
+from dcg_torch import GroundingModel, Percept, Pose
 from dcg_torch.scene.rooms import in_room
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Object
@@ -47,11 +47,6 @@ ROOM = [
     ("other mirror", "mirror", (6.0, 1.5, 1.5), (0.1, 0.5, 0.9)),
     ("door", "door", (3.0, 6.1, 1.0), (0.9, 0.1, 2.0)),
 ]
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return pretrained()
 
 
 def meant(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import asked
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from making import percept
 
-import dcg_torch
 from dcg_torch.types import Percept, Pose
 
 ORDINALS = ("first", "second", "third", "fourth", "fifth", "sixth", "seventh")
@@ -15,9 +15,8 @@ NUMBERS = ("one", "two", "three", "four", "five", "six", "seven")
 
 
 def meant(text: str, things: list[Percept], robot: Pose | None) -> list[str]:
-    model = dcg_torch.pretrained()
-    solution = model.ground(text, model.world_model(things, robot, looked=True))
-    return sorted(o.id for o in solution.objects if not o.hypothetical)
+    """The ids of what a command means, for who has looked all round."""
+    return sorted(asked.meant(text, things, robot, looked=True))
 
 
 def side_by_side(number: int, gap: float = 0.7, kind: str = "grey bucket") -> list[Percept]:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import grounded, seen
 
 from dcg_torch.interpretation.factor_tree import coordinated
-from dcg_torch.language import default_parser, parse_command, target_phrase
-from dcg_torch.types import Percept, Pose
+from dcg_torch.language import parse_command, target_phrase
+from dcg_torch.types import Percept
 
 KITCHEN = (  # id, class, x, y
     ("by the pan", "jug", 2.0, 1.6),
@@ -20,11 +20,8 @@ LINE = tuple((str(k), "cone", 3.0, 2.0 - k) for k in range(5))
 
 
 def _meant(text: str, things: tuple[tuple[str, str, float, float], ...]) -> tuple[set[str], float | None]:
-    percepts = [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things]
-    solution = shipped().ground(
-        default_parser().parse(text), shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    )
-    return {o.id for o in solution.objects if not o.hypothetical}, solution.probability
+    solution = grounded(text, [Percept(id_, kind, None, (x, y, 0.0)) for id_, kind, x, y in things], looked=True)
+    return seen(solution), solution.probability
 
 
 @pytest.mark.parametrize(

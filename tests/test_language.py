@@ -10,15 +10,10 @@ from hypothesis import strategies as st
 from language_sentences import DEVELOPMENT, HELD_OUT, Sentence
 
 from dcg_torch.experiment.reading import bearing
-from dcg_torch.language import Parse, Parser, default_parser, target_phrase
+from dcg_torch.language import Parse, Parser, target_phrase
 from dcg_torch.types import ParseTree, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder", "fire hydrant", "pyramid")
-
-
-@pytest.fixture(scope="module")
-def parser() -> Parser:
-    return default_parser()
 
 
 def tree_of(parse: Parse) -> ParseTree:

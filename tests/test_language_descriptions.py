@@ -9,16 +9,11 @@ import pytest
 from language_descriptions import DEVELOPMENT, FRESH, HELD_OUT, Description
 
 from dcg_torch.bench.__main__ import hostile
-from dcg_torch.language import Parser, default_parser, target_phrase
+from dcg_torch.language import Parser, target_phrase
 from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 KNOWN = ("cube", "sphere", "cylinder")
 FIELDS = ("noun", "color", "relations", "words", "count", "plural", "also")
-
-
-@pytest.fixture(scope="module")
-def parser() -> Parser:
-    return default_parser()
 
 
 def tree_of(parser: Parser, text: str) -> ParseTree:

@@ -15,7 +15,7 @@ from language_descriptions import DEVELOPMENT as DESCRIPTIONS
 from language_sentences import DEVELOPMENT as SENTENCES
 
 from dcg_torch.english.dictionary import read
-from dcg_torch.language import Parse, Parser, Reading, default_parser, target_phrase
+from dcg_torch.language import Parse, Parser, Reading, target_phrase
 from dcg_torch.language.decisions import Decisions, best_first
 from dcg_torch.language.tagging import paths
 from dcg_torch.types import ParseTree, Phrase
@@ -24,11 +24,6 @@ SHARED = Path(__file__).parents[2] / "shared"
 CASES = SHARED / "cases"
 TEXTS = [sentence.text for sentence in SENTENCES] + [said.text for said in DESCRIPTIONS]
 ADVERSARIAL = ("pickup", "left", "can", "stand", "second", "orange", "close", "light", "place", "back", "up", "one")
-
-
-@pytest.fixture(scope="module")
-def parser() -> Parser:
-    return default_parser()
 
 
 def meant(reading: Reading) -> Phrase:

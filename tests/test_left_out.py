@@ -6,10 +6,9 @@ Scenes and commands are ours.
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import meant, standing
 
 from dcg_torch.language import default_parser, target_phrase
-from dcg_torch.types import Percept, Pose
 
 BENCH = (  # id, class, colour, x, y
     ("red tin", "tin", "red", 1.0, 0.6),
@@ -21,9 +20,7 @@ BENCH = (  # id, class, colour, x, y
 
 
 def _meant(text: str, things: tuple[tuple[str, str, str, float, float], ...] = BENCH) -> set[str]:
-    percepts = [Percept(id_, kind, color, (x, y, 0.0)) for id_, kind, color, x, y in things]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    return meant(text, standing(*things), looked=True)
 
 
 @pytest.mark.parametrize(

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 COUNTERS = {
     **{"Q": (1.8, 0.5), "W": (1.75, 0.0), "V": (1.7, -0.6), "X": (1.3, 0.45), "Z": (1.2, -0.1)},
@@ -27,6 +27,5 @@ def test_what_is_above_is_beyond(text: str, letter: str) -> None:
         Percept(name, "counter", None, (x, y, 0.0), (0.2, 0.2, 0.2), attributes=frozenset({f"letter: {name}"}))
         for name, (x, y) in COUNTERS.items()
     ]
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert [thing.id for thing in answer.objects] == [letter]

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import meant
 
-from dcg_torch.language import default_parser
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 STACKS = {"a": (1.8, 0.8, 2), "b": (2.6, -0.4, 4), "c": (1.4, -1.0, 3)}  # x, y, how many
 SINGLE = (("d", 2.4, 0.5), ("e", 1.2, 0.1))
@@ -20,8 +19,7 @@ def _meant(text: str) -> set[str]:
         for z in range(count)
     ]
     percepts += [Percept(name, "block", "red", (x, y, 0.04), (0.08,) * 3) for name, x, y in SINGLE]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    return meant(text, percepts, looked=True)
 
 
 @pytest.mark.parametrize(

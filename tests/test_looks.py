@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from asked import grounded
 from hypothesis import given
 from hypothesis import strategies as st
 
 from dcg_torch.language import parse_command, target_phrase
 from dcg_torch.lessons.looks import height_scene, lonely_scene, shelf_scene
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.scene.neighbours import nearest_other
 from dcg_torch.scene.upright_pictures import laid_flat
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(2, 400))
@@ -103,8 +103,7 @@ DOTS = _things(
     ],
 )
 def test_the_shipped_model_compares_looks(text: str, things: list[Percept], meant: str) -> None:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert answer.object is not None
     assert answer.object.id == meant
 

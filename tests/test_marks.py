@@ -8,6 +8,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from asked import grounded
 
 from dcg_torch import GroundingModel, pretrained
 from dcg_torch.evaluation.episodes import Episode
@@ -50,11 +51,6 @@ def _board(marks: list[str], style: str, text: str) -> Episode:
         objects.append(thing)
     robot = {"x": 0.0, "y": 0.0, "yaw": 0.0}
     return Episode.model_validate({"id": "a", "text": text, "objects": objects, "target": [], "robot": robot})
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return pretrained()
 
 
 def _meant(model: GroundingModel, episode: Episode) -> tuple[set[str], float]:
@@ -221,8 +217,7 @@ def test_marks_that_are_denied(text: str, meant: set[str]) -> None:
         Percept(f"o{k}", "block", None, (2.0, float(k), 0.0), (0.2,) * 3, attributes=frozenset({f"brand: {brand}"}))
         for k, brand in enumerate(BRANDS)
     ]
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert {o.id for o in answer.objects} == meant
 
 
@@ -245,8 +240,7 @@ def test_numbers_that_are_marks_and_numbers_that_count(text: str, meant: set[str
         )
         for k in range(12)
     ]
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert {o.id for o in answer.objects} == meant
 
 

@@ -9,12 +9,22 @@ import pytest
 import torch
 from hypothesis import given
 from hypothesis import strategies as st
-from making import COLORS, KNOWN, VARIANTS, command_tree, noun_phrase, percept, preposition_phrase, saw, verb_phrase
+from making import (
+    COLORS,
+    KNOWN,
+    VARIANTS,
+    command_tree,
+    memory,
+    noun_phrase,
+    percept,
+    preposition_phrase,
+    saw,
+    verb_phrase,
+)
 
 from dcg_torch.fitting.fit import fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.encoding import encode
-from dcg_torch.learning.commit_first import CommitFirst
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
 from dcg_torch.scene.upsilon import HYPOTHETICAL_UNKNOWN
 from dcg_torch.types import Correspondence, ParseTree, PhraseKind, Pose
@@ -31,12 +41,6 @@ SEEN = ("blue drill", "red cube", "blue cube")
 @pytest.fixture(scope="module")
 def variants(training: TrainingSet) -> dict[str, GroundingModel]:
     return {name: GroundingModel.trained(training, variant) for name, variant in SETTINGS.items()}
-
-
-def memory(model: GroundingModel) -> CommitFirst:
-    """The learner, as the paper's."""
-    assert isinstance(model.learner, CommitFirst)
-    return model.learner
 
 
 def grounded(model: GroundingModel, noun: str | None, color: str | None, *seen: str) -> str | None:

@@ -7,7 +7,7 @@ import random
 from collections.abc import Callable, Sequence
 
 import pytest
-from asked import shipped
+from asked import grounded
 
 from dcg_torch.types import Percept, Pose
 
@@ -73,7 +73,7 @@ def test_of_several_landmarks_the_nearest_and_places_without_a_workspace(
     right = 0
     for seed in range(8):
         meant, things = _scene(seed, measure, margin)
-        answer = shipped().ground(text, shipped().world_model(things, robot=Pose(-1.5, 0.0, 0.0)))
+        answer = grounded(text, things, Pose(-1.5, 0.0, 0.0))
         right += [o.id for o in answer.objects] == [meant]
     assert right >= 7
 
@@ -86,6 +86,6 @@ def test_the_nearer_of_the_two_is_the_likelier_however_small_the_difference() ->
             Percept("left", "lamp", "white", (3.0, 2.0, 0.0)),
             Percept("right", "lamp", "white", (3.0, -2.0, 0.0)),
         ]
-        answer = shipped().ground("take the mug closest to a lamp", shipped().world_model(things, robot=Pose(0.0, 0.0)))
+        answer = grounded("take the mug closest to a lamp", things)
         assert [o.id for o in answer.objects] == ["near"], gap
         assert answer.probabilities["near"] > answer.probabilities["far"]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 THINGS = [
@@ -17,8 +17,7 @@ THINGS = [
 
 
 def likeliest(text: str, robot: Pose | None) -> str:
-    model = pretrained()
-    probabilities = model.ground(text, model.world_model(THINGS, robot=robot, looked=True)).probabilities
+    probabilities = grounded(text, THINGS, robot, looked=True).probabilities
     return max(probabilities, key=lambda id_: probabilities[id_])
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from making import Read, command_tree
+from making import Read, command_tree, words_of
 
 from dcg_torch.agent.asking import AskingPolicy
 from dcg_torch.agent.explore import LookBefore, Worth
@@ -36,12 +36,6 @@ def open_world() -> GroundingModel:
     """The learner with a posterior, without relations, to which names of classes say nothing."""
     variant = Variant(groups=PAPER | {Group.OPEN}, beam=12)
     return train_open_world(initial_training(), variant, lessons=0, assumed=Assumptions())
-
-
-def words_of(model: GroundingModel) -> WordPosterior:
-    """The learner."""
-    assert isinstance(model.learner, WordPosterior)
-    return model.learner
 
 
 def read(text: str, vocabulary: Collection[str] = ()) -> Read:

@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 COMMANDS = (
@@ -21,11 +19,6 @@ COMMANDS = (
     "the top of the pile",
     "take a jar",
 )
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return pretrained()
 
 
 @settings(max_examples=25, deadline=None)

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
+from asked import grounded
 
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
@@ -32,8 +33,7 @@ BENCH_ROOM = [  # a workbench along y, stools around it, a sink beyond one long 
 
 
 def meant(text: str, things: list[Percept]) -> dict[str, float]:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=None, looked=True))
+    answer = grounded(text, things, None, looked=True)
     return {id_: p for id_, p in answer.probabilities.items() if not id_.startswith("hypothetical")}
 
 
@@ -63,8 +63,7 @@ def test_ends_and_sides_of_a_long_thing(text: str, ids: set[str]) -> None:
 
 
 def test_all_on_a_side_are_meant() -> None:
-    model = pretrained()
-    answer = model.ground("the stools on the sink side of the workbench", model.world_model(BENCH_ROOM, looked=True))
+    answer = grounded("the stools on the sink side of the workbench", BENCH_ROOM, None, looked=True)
     assert {thing.id for thing in answer.objects} == {"east0", "east1", "east2"}
 
 
@@ -226,11 +225,10 @@ def test_a_pair_of_what_is_named_in_the_plural_is_one_thing() -> None:
         percept("stove", "stove", 3.2, 2.4, (0.6, 0.6, 0.9)),
         percept("coat", "coat", 0.2, 2.2, (0.3, 0.3, 1.0)),
     ]
-    model = pretrained()
-    answer = model.ground("the pair of boots next to the stove", model.world_model(hall, looked=True))
+    answer = grounded("the pair of boots next to the stove", hall, None, looked=True)
     assert [thing.id for thing in answer.objects] == ["boots1"]
     cushions = [percept(f"cushion{k}", "cushion", 1.0 + 0.4 * k, 1.0, (0.3, 0.3, 0.1)) for k in range(2)]
-    answer = model.ground("the pair of cushions", model.world_model([*hall, *cushions], looked=True))
+    answer = grounded("the pair of cushions", [*hall, *cushions], None, looked=True)
     assert {thing.id for thing in answer.objects} == {"cushion0", "cushion1"}
 
 

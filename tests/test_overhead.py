@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.weights import log_odds
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 Three = tuple[float, float, float]
 
@@ -65,8 +65,7 @@ JUGS = [put(f"jug{k}", "jug", (2.0, 1.2 - 0.6 * k, 0.1), (0.1, 0.1, 0.2)) for k 
 
 
 def meant(text: str, things: list[Percept]) -> tuple[list[str], float | None]:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     return [o.id for o in answer.objects], answer.probability
 
 
@@ -102,8 +101,7 @@ def test_so_many_in_the_back_are_those_farthest_back(words: str) -> None:
 
 
 def test_what_is_on_one_board_is_not_on_the_next() -> None:
-    model = pretrained()
-    answer = model.ground("the tin on the top shelf", model.world_model(RACK, robot=Pose(0.0, 0.0), looked=True))
+    answer = grounded("the tin on the top shelf", RACK, looked=True)
     others = max(p for id_, p in answer.probabilities.items() if id_.startswith(("low", "mid")))
     assert min(answer.probabilities[f"high{k}"] for k in range(4)) > 10.0 * others
 

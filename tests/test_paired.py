@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 Three = tuple[float, float, float]
@@ -32,8 +32,7 @@ ROOM = [  # a workbench before the robot, pots on it, stools around it
 
 
 def meant(text: str, things: list[Percept], robot: Pose | None) -> tuple[list[str], float]:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=robot, looked=True))
+    answer = grounded(text, things, robot, looked=True)
     return sorted(o.id for o in answer.objects), answer.probability or 0.0
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.types import Percept, Pose
 
 STALLS = [
@@ -18,9 +18,7 @@ ROW = [Percept(f"urn{k}", "urn", None, (3.0, 2.0 - 1.5 * k, 0.5)) for k in range
 
 
 def meant(text: str, things: list[Percept], robot: Pose) -> list[str]:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=robot, looked=True))
-    return [o.id for o in answer.objects]
+    return [o.id for o in grounded(text, things, robot, looked=True).objects]
 
 
 @pytest.mark.parametrize(

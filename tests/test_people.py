@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Final
 
 import pytest
+from asked import grounded, shipped
 
 import dcg_torch
 from dcg_torch.evaluation.episodes import EpisodeObject
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.language import default_parser
-from dcg_torch.model import GroundingModel
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.keys import attribute_key, counts
 from dcg_torch.names.weights import log_odds
@@ -69,11 +67,6 @@ MEN = (
 )
 
 
-@functools.cache
-def _model() -> GroundingModel:
-    return pretrained()
-
-
 def _ground(text: str, things: tuple[dict[str, object], ...], type_: str) -> Solution:
     """Among things that hang side by side; the first is the leftmost. Their ids are their numbers."""
     places = [{"id": str(k), "type": type_, "position": [2.0, 1.0 - 0.5 * k, 1.2]} for k in range(len(things))]
@@ -82,8 +75,7 @@ def _ground(text: str, things: tuple[dict[str, object], ...], type_: str) -> Sol
         Percept(o.id, o.type, o.color, (2.0, 1.0 - 0.5 * k, 1.2), attributes=o.attributes)
         for k, o in enumerate(objects)
     ]
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return _model().ground(default_parser().parse(text), world)
+    return grounded(text, percepts, looked=True)
 
 
 def _meant(text: str, things: tuple[dict[str, object], ...], type_: str) -> list[str]:
@@ -135,13 +127,13 @@ def test_whom_nobody_is_like_is_not_there(text: str) -> None:
 
 def test_who_contradicts_two_words_is_less_sure_not_to_be_there_than_one_contradiction_twice() -> None:
     """A second contradiction tells less than the first: who misjudges one thing may misjudge two."""
-    world = _model().world_model(
+    world = shipped().world_model(
         [Percept("a", "face", None, (2.0, 0.0, 1.0), attributes=frozenset({"beard: no", "hat: no", "hair: dark"}))],
         Pose(0.0, 0.0),
         looked=True,
     )
     ask = (default_parser().parse(text) for text in ("the one with a beard", "the one with a beard and a hat"))
-    one, two = (sum(p for i, p in _model().ground(c, world).probabilities.items() if i != "a") for c in ask)
+    one, two = (sum(p for i, p in shipped().ground(c, world).probabilities.items() if i != "a") for c in ask)
     assert 0.4 < one < two < 0.9
 
 
@@ -212,12 +204,11 @@ HALF_HAVE: Final = {
     ],
 )
 def test_no_denies_what_it_stands_before_alone(text: str, expected: str) -> None:
-    model = dcg_torch.pretrained()
     there = [
         Percept(name, "child", None, (3.0, 1.5 - k, 0.0), attributes=frozenset(has))
         for k, (name, has) in enumerate(HALF_HAVE.items())
     ]
-    found = model.ground(text, model.world_model(there, looked=True))
+    found = grounded(text, there, None, looked=True)
     assert [o.id for o in found.objects] == [expected]
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.names.weights import log_odds
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 
 def box(id_: str, type_: str, left: float, low: float, wide: float, high: float) -> Percept:
@@ -49,8 +49,7 @@ SINK = [
     ],
 )
 def test_what_is_meant(text: str, things: list[Percept], id_: str) -> None:
-    model = pretrained()
-    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0), looked=True))
+    answer = grounded(text, things, looked=True)
     assert [o.id for o in answer.objects] == [id_]
 
 

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-import functools
 from typing import Final
 
 import pytest
+from asked import meant
 
-import dcg_torch
 from dcg_torch.evaluation.episodes import EpisodeObject
 from dcg_torch.interpretation.telegrams import as_one_phrase
 from dcg_torch.language import default_parser
 from dcg_torch.language.parser import target_phrase
-from dcg_torch.model import GroundingModel
 from dcg_torch.names.attributes import attribute_evidence
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 MEN: Final[tuple[tuple[str, bool, bool, bool, str, str], ...]] = (  # name, glasses, beard, hat, hair
     ("ada", False, False, True, "brown", "female"),
@@ -33,16 +31,6 @@ SPOTS: Final = (  # number, from the left, from the top, radius, gray
     ("4", 0.85, 0.60, 0.12, 120),
     ("5", 0.4, 0.90, 0.13, 190),
 )
-
-
-@functools.cache
-def _model() -> GroundingModel:
-    return dcg_torch.pretrained()
-
-
-def _meant(text: str, percepts: list[Percept]) -> set[str]:
-    world = _model().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in _model().ground(text, world).objects if not o.hypothetical}
 
 
 def _men() -> list[Percept]:
@@ -77,7 +65,7 @@ def _spots() -> list[Percept]:
     ],
 )
 def test_who_is_told_of_in_pieces(text: str, who: set[str]) -> None:
-    assert _meant(text, _men()) == who
+    assert meant(text, _men(), looked=True) == who
 
 
 @pytest.mark.parametrize(
@@ -111,12 +99,12 @@ def test_a_value_of_several_words_says_each() -> None:
 )
 def test_what_is_called_by_names_alone_is_a_block(text: str, which: set[str]) -> None:
     shops = [Percept(n, n, None, (1.0 + x, y, 0.05), (0.15,) * 3) for n, x, y in SHOPS]
-    assert _meant(text, shops) == which
+    assert meant(text, shops, looked=True) == which
 
 
 def test_a_block_is_missing_among_kinds_of_things() -> None:
     things = [Percept(n, n, None, (1.0, 0.4 * k, 0.0)) for k, n in enumerate(("cup", "spoon", "lamp", "book"))]
-    assert _meant("the block left of the cup", things) == set()
+    assert meant("the block left of the cup", things, looked=True) == set()
 
 
 @pytest.mark.parametrize(("text", "letter"), [("the red a", "1"), ("the a to the right of the o", "3")])
@@ -126,7 +114,7 @@ def test_a_is_a_letter_where_letters_are(text: str, letter: str) -> None:
     percepts = [
         Percept(n, "tile", c, (*at[n], 0.0), (0.1,) * 3, frozenset({f"letter: {ch.upper()}"})) for n, ch, c in tiles
     ]
-    assert _meant(text, percepts) == {letter}
+    assert meant(text, percepts, looked=True) == {letter}
 
 
 @pytest.mark.parametrize(
@@ -146,7 +134,7 @@ def test_a_is_a_letter_where_letters_are(text: str, letter: str) -> None:
     ],
 )
 def test_of_several_one_is_picked(text: str, which: set[str]) -> None:
-    assert _meant(text, _spots()) == which
+    assert meant(text, _spots(), looked=True) == which
 
 
 @pytest.mark.parametrize(

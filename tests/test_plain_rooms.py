@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from asked import grounded
 
-from dcg_torch.model.pretrain import pretrained
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 STOOLS = [  # stools in a row across a room, and its far wall
     Percept("wall", "wall", None, (7.0, 0.0, 0.0), (0.1, 8.0, 2.5)),
@@ -24,8 +24,7 @@ FLOATING = [  # of one height each, at three levels
 
 
 def _meant(text: str, things: list[Percept]) -> list[str]:
-    model = pretrained()
-    return [o.id for o in model.ground(text, model.world_model(things, Pose(0.0, 0.0))).objects]
+    return [o.id for o in grounded(text, things).objects]
 
 
 @pytest.mark.parametrize(

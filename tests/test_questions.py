@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from asked import grounded
 
-import dcg_torch
-from dcg_torch import Percept, Pose
+from dcg_torch import Percept
 from dcg_torch.dialogue.session import Session
 from dcg_torch.dialogue.text import spoken
 from dcg_torch.storage.resources import resource
@@ -70,6 +70,5 @@ TIDY = [  # where things are, and where they ought to be
     ],
 )
 def test_rooms_have_numbers_and_are_where_things_are(text: str, things: list[Percept], id_: str) -> None:
-    model = dcg_torch.pretrained()
-    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0)))
+    answer = grounded(text, things)
     assert [o.id for o in answer.objects] == [id_]

@@ -27,11 +27,6 @@ SENTENCE = "go to the kitchen and take the cup"
 
 
 @pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
-
-
-@pytest.fixture(scope="module")
 def world(model: GroundingModel) -> WorldModel:
     return model.world_model(KITCHEN, robot=None, looked=True)
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from asked import shipped
 
-from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.groups import groups
 from dcg_torch.types import Object, Percept, Pose, WorldModel
 
@@ -19,11 +19,11 @@ def two_rows(left: int, right: int) -> WorldModel:
     spots += [(f"b{k}", "tire", 4.0, -1.2 - 0.8 * k) for k in range(right)]
     spots += [(f"o{k}", "cone", 7.0 + 0.8 * k, 0.5) for k in range(3)] + [("z", "crate", 6.5, 4.0)]
     things = [Percept(name, kind, None, (x, y, 0.0), (0.4, 0.4, 0.4)) for name, kind, x, y in spots]
-    return pretrained().world_model(things, HERE)
+    return shipped().world_model(things, HERE)
 
 
 def meant(text: str, world: WorldModel) -> list[str]:
-    return sorted(o.id for o in pretrained().ground(text, world).objects)
+    return sorted(o.id for o in shipped().ground(text, world).objects)
 
 
 @pytest.mark.parametrize(("left", "right"), SIZES)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import pytest
+from asked import grounded
 
-from dcg_torch import Percept, Pose, pretrained
+from dcg_torch import Percept, Pose
 
 Three = tuple[float, float, float]
 
@@ -16,8 +17,7 @@ def put(id_: str, type_: str, at: Three, size: Three | None = None, color: str |
 
 
 def meant(text: str, things: Sequence[Percept], robot: Pose | None = None) -> list[str]:
-    model = pretrained()
-    return [o.id for o in model.ground(text, model.world_model(things, robot=robot)).objects]
+    return [o.id for o in grounded(text, things, robot).objects]
 
 
 def stools(name: str, *at: tuple[float, float]) -> list[Percept]:

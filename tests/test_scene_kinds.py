@@ -4,9 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import pytest
-
-import dcg_torch
 from dcg_torch import Percept, Pose
 from dcg_torch.interpretation.factor_tree import to_factor_tree
 from dcg_torch.interpretation.scene_kinds import scene_kind
@@ -16,11 +13,6 @@ from dcg_torch.learning.learner import Taught
 from dcg_torch.model import GroundingModel
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import WorldModel
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
 
 
 def row(model: GroundingModel, unit: float, color: str | None) -> WorldModel:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose
 from dcg_torch.grounding.solution import Solution
 
@@ -32,11 +31,6 @@ STACK = [
     ),
     Percept("apart", "block", "purple", (2.0, 1.5, 0.05), (0.1, 0.1, 0.1)),
 ]
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
 
 
 def grounded(model: GroundingModel, text: str, things: list[Percept]) -> Solution:

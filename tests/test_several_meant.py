@@ -6,10 +6,9 @@ Scenes and commands are ours.
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import meant, standing
 
 from dcg_torch.language import default_parser
-from dcg_torch.types import Percept, Pose
 
 YARD = (  # id, class, colour, x, y
     ("u0", "urn", "red", 2.0, 2.9),
@@ -22,9 +21,7 @@ YARD = (  # id, class, colour, x, y
 
 
 def _meant(text: str) -> set[str]:
-    percepts = [Percept(id_, kind, color, (x, y, 0.0)) for id_, kind, color, x, y in YARD]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    return meant(text, standing(*YARD), looked=True)
 
 
 @pytest.mark.parametrize(

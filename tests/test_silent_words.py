@@ -7,19 +7,17 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from asked import shipped
+from asked import grounded
 
-from dcg_torch.language import default_parser
 from dcg_torch.names.colors import color_features
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 GREEN, RED, BROWN, PURPLE = (20, 110, 40), (190, 30, 30), (120, 70, 30), (110, 40, 150)
 
 
 def _meant(text: str, things: tuple[tuple[str, str, float, float, tuple[int, int, int]], ...]) -> tuple[str, ...]:
     percepts = [Percept(id_, kind, None, (x, y, 0.0), rgb=rgb) for id_, kind, x, y, rgb in things]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return tuple(o.id for o in shipped().ground(default_parser().parse(text), world).objects)
+    return tuple(o.id for o in grounded(text, percepts, looked=True).objects)
 
 
 @pytest.mark.parametrize("kind", ["bottle", "tree", "egg", "wine bottle"])

@@ -179,9 +179,19 @@ def test_it_does_not_set_out_for_what_is_too_far(shared: SimulatedRobot, x: floa
     assert shared.drive_to("a", [far, *everything(there)]) is DriveResult.ARRIVED
 
 
-def test_an_object_too_far_away_is_refused(shared: SimulatedRobot) -> None:
-    with pytest.raises(SimulatorError, match=r"a stands 500 m from the robot; move it within 100 m"):
-        shared.load(world(("a", "cube", 500.0, 0.0)))
+@pytest.mark.parametrize(
+    ("type_", "ahead", "why"),
+    [
+        ("cube", 500.0, "a stands 500 m from the robot; move it within 100 m"),
+        ("cube", 0.2, "a stands where the robot starts"),
+        ("unicorn", 2.0, "world test: a: no body for object type"),
+    ],
+)
+def test_an_object_that_cannot_stand_there_is_refused(
+    shared: SimulatedRobot, type_: str, ahead: float, why: str
+) -> None:
+    with pytest.raises(SimulatorError, match=why):
+        shared.load(world(("a", type_, ahead, 0.0)))
 
 
 def test_a_robot_that_is_held_does_not_get_there(shared: SimulatedRobot, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -257,19 +267,9 @@ def test_loading_sets_the_counters_to_zero(shared: SimulatedRobot) -> None:
     assert (pose.x, pose.y, pose.yaw) == pytest.approx((0.25, -0.5, 1.0), abs=1e-9)
 
 
-def test_an_object_on_the_robot_is_refused(shared: SimulatedRobot) -> None:
-    with pytest.raises(SimulatorError, match="a stands where the robot starts"):
-        shared.load(world(("a", "cube", 0.2, 0.0)))
-
-
 def test_nothing_works_before_a_world_is_loaded() -> None:
     with SimulatedRobot() as robot, pytest.raises(SimulatorError, match="load one first"):
         robot.spin(1.0)
-
-
-def test_an_unknown_type_is_refused_by_name(shared: SimulatedRobot) -> None:
-    with pytest.raises(SimulatorError, match="world test: a: no body for object type"):
-        shared.load(world(("a", "unicorn", 2.0, 0.0)))
 
 
 def test_a_window_without_a_screen_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:

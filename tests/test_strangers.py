@@ -10,21 +10,19 @@ import random
 from collections.abc import Sequence
 
 import pytest
-from asked import shipped
+from asked import grounded
 
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.scene.workspace import Workspace
-from dcg_torch.types import Percept, Pose
+from dcg_torch.types import Percept
 
 
 def _ground(text: str, things: Sequence[Percept]) -> Solution:
-    world = shipped().world_model(things, robot=Pose(0.0, 0.0), looked=True, workspace=Workspace.of(things))
-    return shipped().ground(text, world)
+    return grounded(text, things, looked=True, workspace=Workspace.of(things))
 
 
 def _told(text: str, things: list[Percept]) -> list[str]:
-    world = shipped().world_model(things, robot=Pose(0.0, 0.0))
-    return [o.id for o in shipped().ground(text, world).objects]
+    return [o.id for o in grounded(text, things).objects]
 
 
 def _percept(id_: str, type_: str, color: str | None, x: float, y: float, *attributes: str, z: float = 0.0) -> Percept:
@@ -38,7 +36,7 @@ def test_a_word_of_a_class_name_is_no_strange_mark(text: str) -> None:
         _percept("s2", "zimlo crate", None, 1.0, 0.0, "state: opened"),
         _percept("j1", "jar", None, 1.2, -0.3, "filling: lentils"),
     ]
-    found = shipped().ground(text, shipped().world_model(things, robot=Pose(0.0, 0.0))).tree
+    found = grounded(text, things).tree
     assert found is not None
     assert not any("zimlo" in word for node in found.walk() for word in node.phrase.words)
 

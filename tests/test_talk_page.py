@@ -70,7 +70,9 @@ def visit(host: Host, talk: Talk) -> None:
                 failed.append(error)
             await host.end()
 
+    ours = {name: module for name, module in sys.modules.items() if name.partition(".")[0] == "dcg_torch"}
     asyncio.run(run())
+    sys.modules.update(ours)  # NiceGUI takes the modules of its pages out at the end, with all above them
     if failed:
         raise failed[0]
 

@@ -6,7 +6,7 @@ Scenes and commands are ours.
 from __future__ import annotations
 
 import pytest
-from asked import shipped
+from asked import meant, shipped, standing
 
 from dcg_torch.language import default_parser, target_phrase
 from dcg_torch.types import Percept, Pose
@@ -28,9 +28,7 @@ BOARD = tuple(
 
 
 def _meant(text: str, things: tuple[tuple[str, str, str | None, float, float], ...]) -> set[str]:
-    percepts = [Percept(id_, kind, color, (x, y, 0.0)) for id_, kind, color, x, y in things]
-    world = shipped().world_model(percepts, Pose(0.0, 0.0), looked=True)
-    return {o.id for o in shipped().ground(default_parser().parse(text), world).objects if not o.hypothetical}
+    return meant(text, standing(*things), looked=True)
 
 
 @pytest.mark.parametrize(

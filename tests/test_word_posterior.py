@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from making import words_of
 
 from dcg_torch.grounding.explanation import rivalry
 from dcg_torch.grounding.features import PAPER, Group
@@ -58,11 +59,6 @@ def schooled(training: TrainingSet) -> GroundingModel:
 @pytest.fixture
 def pupil_of(schooled: GroundingModel) -> Pupil:
     return lambda: copy.deepcopy(schooled)
-
-
-def words_of(model: GroundingModel) -> WordPosterior:
-    assert isinstance(model.learner, WordPosterior)
-    return model.learner
 
 
 def color_of(model: GroundingModel, word: str) -> str:

@@ -11,16 +11,10 @@ from typing import Any
 
 import pytest
 
-import dcg_torch
 from dcg_torch.evaluation.episodes import read_episodes
 from dcg_torch.evaluation.protocol import answers
 from dcg_torch.language import parse_command, target_phrase
 from dcg_torch.model.core import GroundingModel
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
 
 
 def _thing(id_: str, kind: str, x: float, y: float, color: str | None = None, **more: Any) -> dict[str, Any]:

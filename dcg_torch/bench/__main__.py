@@ -177,7 +177,7 @@ def bench_workers(counts: Sequence[int] = (1, 2), trials: int = 200) -> Iterator
 
 
 def peak_memory() -> Iterator[Result]:
-    """Of this process, so far."""
+    """The most memory that this process has taken so far."""
     from resource import RUSAGE_SELF, getrusage  # not on Windows
 
     peak = getrusage(RUSAGE_SELF).ru_maxrss

@@ -33,7 +33,7 @@ class Rows:
     correspondences: tuple[Correspondence, ...]
 
     def factor(self) -> LogLinearFactor:
-        """One of zero weights."""
+        """A factor of zero weights for these rows."""
         return LogLinearFactor(self.pairs, self.correspondences)
 
 
@@ -50,7 +50,7 @@ def dense_rows(count: int, rng: np.random.Generator) -> Rows:
 
 
 def sparse_rows(count: int, rng: np.random.Generator) -> Rows:
-    """As a corpus gives them: each phrase among the twenty things of its own scene; a few words are frequent.
+    """Rows as a corpus gives them: each phrase among the twenty things of its own scene; a few words are frequent.
 
     A phrase fires 5 of 150 language columns and a thing 8 of 120 grounding columns, by Zipf's law; a third of the
     pairs are features.

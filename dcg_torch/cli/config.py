@@ -77,12 +77,12 @@ def settings_of(config: DictConfig) -> Settings:
 
 
 def evaluate_settings_of(config: DictConfig) -> EvaluateSettings:
-    """The same for `evaluate`; what depends on the episodes is checked with them."""
+    """The checked settings of `evaluate`; what depends on the episodes is checked with them."""
     return _checked(config, EvaluateSettings, check_bounds)
 
 
 def talk_settings_of(config: DictConfig) -> TalkSettings:
-    """The same for `talk`."""
+    """The checked settings of `talk`."""
     return _checked(config, TalkSettings, check_values)
 
 

@@ -61,7 +61,7 @@ Act = Stop | Answer | Lesson | Forget | Question | Motion | Parse | Refused
 
 @functools.cache
 def replies() -> Mapping[str, Any]:
-    """`data/replies.yaml`."""
+    """The words for yes, no and other answers, of `data/replies.yaml`."""
     found: dict[str, Any] = yaml.safe_load(files(__package__).joinpath("data", "replies.yaml").read_text("utf-8"))
     return found
 

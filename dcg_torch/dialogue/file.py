@@ -68,7 +68,7 @@ class Input(Strict):
 
 
 def model_hash(folder: Path | None) -> str:
-    """Of the files of a saved model.
+    """A SHA-256 of the files of a saved model.
 
     Raises:
         SessionError: they cannot be read.
@@ -83,7 +83,11 @@ def model_hash(folder: Path | None) -> str:
 
 
 def checked_model(header: Header, file: Path) -> Header:
-    """See that the model is the one that the session began with."""
+    """See that the model is the one that the session began with.
+
+    Raises:
+        SessionError: it is another one, or is not there.
+    """
     if model_hash(None if header.model is None else Path(header.model)) != header.sha256:
         where = header.model or "the shipped model"
         raise SessionError(f"{file}: {where} is not what it was when this session began; put the old one back")

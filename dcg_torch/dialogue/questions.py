@@ -168,7 +168,7 @@ def _identify(s: Situation, about: str, pointing_at: str | None) -> Done:
 
 
 def name_of(s: Situation, thing: Percept) -> str:
-    """As in "a red cube"; with what the robot would call it by its best guess, where it is not sure."""
+    """A thing's name, as in "a red cube"; by the robot's best guess, where it is not sure."""
     return sentences.a(thing, s.names())
 
 

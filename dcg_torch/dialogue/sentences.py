@@ -37,7 +37,7 @@ _ROUND = (
 
 
 def where(thing: Percept, pose: Pose) -> str:
-    """As in "1.9 m away, on my left"."""
+    """Where a thing is for the robot, as in "1.9 m away, on my left"."""
     angle = math.degrees(bearing(pose, *thing.position[:2]))
     side, _ = min(_ROUND, key=lambda item: abs(math.remainder(angle - item[1], 360.0)))
     return f"{math.dist(thing.position[:2], (pose.x, pose.y)):.1f} m away, {side}"
@@ -49,7 +49,7 @@ def the(thing: Percept, percepts: Sequence[Percept], pose: Pose, names: Names) -
 
 
 def a(thing: Percept, names: Names) -> str:
-    """As in "a red cube"; of a thing without a word, what the recogniser calls it."""
+    """A thing's name with its article, as in "a red cube"; without a word for it, what the recogniser calls it."""
     color = f"{thing.color} " if thing.color else ""
     if thing.type in names:
         return with_article(f"{color}{names[thing.type]}")
@@ -87,13 +87,13 @@ def said_of(solution: Solution) -> str:
 
 
 def kind_of(solution: Solution) -> str:
-    """The same with "a", or bare in the plural, for what may not be there: "red cube"."""
+    """The noun phrase of a command without an article, for what may not be there: "red cube"."""
     said = said_of(solution)
     return "such thing" if said == "that" else said.removeprefix("the ")
 
 
 def candidate(thing: Object, probability: float, names: Names) -> Candidate:
-    """A row of the chart."""
+    """A thing that may be meant, as a row of the chart."""
     if thing.hypothetical:
         name = f"unseen {names.get(thing.type or '', thing.type)}" if thing.known else "unseen unknown thing"
     else:

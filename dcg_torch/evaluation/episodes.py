@@ -86,12 +86,12 @@ class Episode(_Record):
 
     @property
     def pose(self) -> Pose | None:
-        """Of the robot."""
+        """Where the robot stands, if the episode says so."""
         return None if self.robot is None else Pose(self.robot.x, self.robot.y, self.robot.yaw)
 
     @property
     def speaker_pose(self) -> Pose | None:
-        """Of the speaker, if it is not where the robot is."""
+        """Where the speaker stands, if not with the robot."""
         return None if self.speaker is None else Pose(self.speaker.x, self.speaker.y, self.speaker.yaw)
 
     def percepts(self) -> list[Percept]:

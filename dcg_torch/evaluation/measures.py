@@ -1,4 +1,4 @@
-"""What is greatest for the thing that lies furthest to a side, by the coordinates of an episode alone.
+"""Measures of sides, sizes and distances of things, from the coordinates of an episode alone.
 
 A side word may be meant in several frames: the robot's, or that of a speaker who faces it; "the front" may be what is
 near or what is ahead. So there are several measures for a word; where a target is known, it says which can be meant.
@@ -63,7 +63,7 @@ def distance(at: Point) -> Measure:
 
 
 def volume(o: EpisodeObject) -> float:
-    """Of the extents; 0.0 where they are unknown."""
+    """How large an object is, from its extents; 0.0 where they are unknown."""
     return 0.0 if o.extents is None else bulk(o.extents)
 
 

@@ -57,7 +57,7 @@ class Answer:
 
     @property
     def probability(self) -> float | None:
-        """Of the object grounded to, the likeliest if there are several."""
+        """The probability of the object grounded to, of the likeliest if there are several."""
         return None if self.solution is None else self.solution.probability
 
     @property
@@ -84,7 +84,7 @@ class Answer:
         return CAUSES[2] if {o.color for o in got} != {o.color for o in meant} else CAUSES[3]
 
     def record(self) -> dict[str, Any]:
-        """Its line of `predictions.jsonl`."""
+        """The answer's line of `predictions.jsonl`."""
         return {
             "id": self.episode.id,
             "file": self.file,

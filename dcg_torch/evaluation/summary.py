@@ -22,7 +22,7 @@ class Counted(Protocol):
 
     @property
     def probability(self) -> float | None:
-        """Of the answer."""
+        """The probability that the answer was given."""
 
     @property
     def correct(self) -> bool:

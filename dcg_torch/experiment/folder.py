@@ -207,7 +207,11 @@ def _is_model_of(directory: Path, trial: int) -> bool:
 
 
 def remove_parts(directory: Path, trials: Sequence[int]) -> None:
-    """Take away the lines of trials that are to be run again."""
+    """Take away the lines of trials that are to be run again.
+
+    Raises:
+        RunFolderError: one of them is a folder.
+    """
     for trial in trials:
         part = part_of(directory, trial)
         if part.is_dir():

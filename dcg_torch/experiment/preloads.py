@@ -1,4 +1,4 @@
-"""Imported by the process that runs trials or forks those that do: all that a trial needs, and the parser's words."""
+"""All imports that a trial needs, and the parser's words: for the process that runs trials or forks those."""
 
 from __future__ import annotations
 

@@ -48,7 +48,7 @@ class DeviceObjective:
         return cls(*(torch.tensor(array, device=device) for array in arrays))
 
     def scores(self, d: torch.Tensor) -> torch.Tensor:
-        """(Q, N) from (Q, K)."""
+        """(Q, N) the scores of all rows, from the variables (Q, K)."""
         return torch.zeros_like(self.offset).index_add_(1, self.row, d.index_select(1, self.column))
 
     def transposed(self, residual: torch.Tensor) -> torch.Tensor:
@@ -73,7 +73,7 @@ class DeviceObjective:
         return self.transposed(bent) + self.strength * (d - d.sum(dim=0) / len(self.count))
 
     def diagonal(self, chances: torch.Tensor) -> torch.Tensor:
-        """(Q, K) of the Hessian."""
+        """(Q, K) the diagonal of the Hessian."""
         curvature = chances * (1.0 - chances) * self.count.sum(dim=0)
         return self.transposed(curvature) + self.strength * (1.0 - 1.0 / len(self.count))
 

@@ -89,7 +89,7 @@ class Objective:
         return likelihood(u, self.count[:, rows], self._total(rows))
 
     def as_counted(self, flat: Floats) -> Floats | None:
-        """With the rows' own variables such that labels are as probable as counted; for rows of the arrowhead.
+        """Variables under which labels are as probable as counted, by the rows' own; for rows of the arrowhead.
 
         That is nearly the optimum where the penalty is small beside what was counted. Labels that were never counted
         keep their scores. None where each row was counted with one label alone, which says nothing.
@@ -201,7 +201,7 @@ class Objective:
         return times
 
     def curvature(self, point: Point) -> Floats:
-        """(Q, Q, N) of each row by its score differences."""
+        """(Q, Q, N) the curvature of each row by its score differences."""
         q = len(point.chances)
         found, one = np.empty((q, q, self.count.shape[1])), np.eye(q)[:, :, None]
         parts: Iterable[tuple[slice, Floats]] = [(_ALL, point.chances)]
@@ -254,7 +254,7 @@ class Objective:
         return lambda gradient: inverse * gradient
 
     def diagonal(self, curvature: Floats) -> Floats:
-        """(Q, K) of the Hessian, from the curvature (Q, Q, N) of each row."""
+        """(Q, K) the diagonal of the Hessian, from the curvature (Q, Q, N) of each row."""
         of_rows = curvature[0] if len(curvature) == 1 else np.einsum("aan->an", curvature)
         own: Floats = self.rows.gradient(of_rows) + self.strength * (1.0 - 1.0 / len(self.count))
         return own
@@ -302,7 +302,7 @@ def _inverse(matrices: Floats) -> Floats:
 
 
 def max_norm(gradient: Floats) -> float:
-    """Of the gradient with respect to all P weights, which sum to zero, from that of the last Q."""
+    """The max-norm of the gradient by all P weights, which sum to zero, from the gradient by the last Q."""
     if not gradient.size:
         return 0.0
     last = float(np.abs(gradient).max())

@@ -58,7 +58,7 @@ class PhraseRows:
         return cls(design.language, design.grounding, ends, active, shape)
 
     def scores(self, d: Floats) -> Floats:
-        """(Q, N) from (Q, K)."""
+        """(Q, N) the scores of all rows, from the variables (Q, K)."""
         return np.concatenate([scores for _, scores in self.in_parts(d)], axis=1)
 
     def gradient(self, residual: Floats) -> Floats:

@@ -128,7 +128,7 @@ class LogLinearFactor(nn.Module):
         return torch.log_softmax(torch.einsum("npg,ng->np", of_phrase[where], right), dim=1)
 
     def forward(self, *arguments: Any) -> torch.Tensor:
-        """As `log_psi`."""
+        """log Psi of n factors, as `log_psi`."""
         return self.log_psi(*arguments)
 
 
@@ -166,7 +166,7 @@ def scores(weight: Floats, language: Bag, grounding: Bag, phrase: Ints) -> Float
 
 
 def wrapped(bag: Bag, size: int) -> Ints:
-    """The columns of a bag, and size - 1 where it is padded."""
+    """The bag (n, k) with its padding, -1, as the last column, size - 1."""
     found: Ints = bag.astype(np.int64, copy=False) % size  # short integers may not hold the size
     return found
 

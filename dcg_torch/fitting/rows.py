@@ -28,10 +28,10 @@ Bend = Callable[[slice, Floats], Floats]
 
 
 class Rows(Protocol):
-    """What fires in N rows."""
+    """What fires in each of N rows, as a linear map from K variables to scores, and its transpose."""
 
     def scores(self, d: Floats) -> Floats:
-        """(Q, N) from (Q, K)."""
+        """(Q, N) the scores of all rows, from the variables (Q, K)."""
         ...
 
     def gradient(self, residual: Floats) -> Floats:
@@ -69,14 +69,14 @@ class ArrowheadRows(_AllAtOnce):
     entry: Floats
 
     def scores(self, d: Floats) -> Floats:
-        """(Q, N)."""
+        """(Q, N) the scores of all rows, from the variables (Q, K)."""
         shared = self.patterns.shape[1]
         total = self.by_row(d[:, :shared] @ self.patterns.T)
         total[:, : len(self.entry)] += self.entry * d[:, shared:]
         return total
 
     def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
+        """(Q, K) the transpose of `scores`, of residuals (Q, N)."""
         shared = self.by_pattern(residual) @ self.patterns
         return np.concatenate([shared, self.entry * residual[:, : len(self.entry)]], axis=1)
 
@@ -125,12 +125,12 @@ class GridRows(_AllAtOnce):
     active: Ints | None
 
     def scores(self, d: Floats) -> Floats:
-        """(Q, A * M)."""
+        """(Q, A * M) the scores of all cells, from the variables (Q, K)."""
         left = self.language @ spread(d, self.active, (self.language.shape[1], self.grounding.shape[1]))
         return (left @ self.grounding.T).reshape(len(d), -1)
 
     def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
+        """(Q, K) the transpose of `scores`, of residuals (Q, A * M)."""
         cells = residual.reshape(len(residual), len(self.language), len(self.grounding))
         return gathered(self.language.T @ (cells @ self.grounding), self.active)
 
@@ -209,11 +209,11 @@ class SparseRows(_AllAtOnce):
         return list(map(_product, self.factors[::-1])), list(map(_product, self._back))
 
     def scores(self, d: Floats) -> Floats:
-        """(Q, N)."""
+        """(Q, N) the scores of all rows, from the variables (Q, K)."""
         return _applied(self.factors[::-1], d) if len(d) > 1 else _in_turn(self._products[0], d)
 
     def gradient(self, residual: Floats) -> Floats:
-        """(Q, K)."""
+        """(Q, K) the transpose of `scores`, of residuals (Q, N)."""
         return _applied(self._back, residual) if len(residual) > 1 else _in_turn(self._products[1], residual)
 
 
@@ -283,7 +283,7 @@ def smallest_index(size: int) -> type[np.int32 | np.int64]:
 
 
 def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
-    """(Q, L, G) of variables (Q, K): zero where none is."""
+    """(Q, L, G) variables (Q, K) in their cells; zero where there is none."""
     if active is None:
         return d.reshape(len(d), *shape)
     whole = np.zeros((len(d), shape[0] * shape[1]))
@@ -292,6 +292,6 @@ def spread(d: Floats, active: Ints | None, shape: tuple[int, int]) -> Floats:
 
 
 def gathered(whole: Floats, active: Ints | None) -> Floats:
-    """(Q, K) of (Q, L, G): the transpose of `spread`."""
+    """(Q, K) the cells of (Q, L, G) that are variables: the transpose of `spread`."""
     flat = whole.reshape(len(whole), -1)
     return flat if active is None else flat[:, active]

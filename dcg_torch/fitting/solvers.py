@@ -229,7 +229,7 @@ def _low_enough(start: Point, other: Point, length: float, slope: float, own: fl
 
 
 def lbfgs_of_torch(function: Function, start: Floats, *, tolerance: float, max_steps: int) -> Minimum:
-    """The same by `torch.optim.LBFGS`; it stops by the gradient of the variables themselves."""
+    """A minimum by `torch.optim.LBFGS`; it stops by the gradient of the variables themselves."""
     moving = torch.from_numpy(start.copy()).requires_grad_()
     optimizer = torch.optim.LBFGS(
         [moving],

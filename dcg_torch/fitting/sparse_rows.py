@@ -71,7 +71,7 @@ def count_firing(designs: Sequence[DesignMatrix], active: Bools) -> int:
 
 
 def at_cells(strength: Floats, cells: Ints, times: Floats | None = None) -> Floats:
-    """(K,) of l2 (L, G) at some cells, each as often as its language column counts."""
+    """(K,) the penalty l2 (L, G) at some cells, each as often as its language column counts."""
     alike = not any(strength.strides)  # one number for all
     own = np.full(len(cells), strength.flat[0]) if alike else strength.reshape(-1)[cells]
     return own if times is None else own * times[cells // strength.shape[1]]

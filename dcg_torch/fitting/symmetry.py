@@ -38,7 +38,7 @@ class Incidence:
         return run_starts(self.row)
 
     def keep(self, rows: Ints) -> Incidence:
-        """Of these rows alone, in ascending order; columns keep their numbers."""
+        """The incidence of these rows alone, in ascending order; columns keep their numbers."""
         number = np.full(self.rows, -1, dtype=np.int64)
         number[rows] = np.arange(len(rows))
         own = number[self.row]

@@ -46,11 +46,11 @@ class Coded:
 
     @property
     def rows(self) -> Bag:
-        """(n, k) written out."""
+        """(n, k) the bag with a row for each factor."""
         return self.bag if self.code is None else self.bag[self.code]
 
     def beside(self, other: Coded) -> Coded:
-        """The columns of both."""
+        """The bag in which each factor has the columns of both."""
         if self.code is None or other.code is None or len(self.code) <= _FEW:
             return Coded(np.hstack([self.rows, other.rows]), None)
         _, first, code = np.unique(self.code * len(other.bag) + other.code, return_index=True, return_inverse=True)
@@ -78,7 +78,7 @@ class WorldEncoder:
         self._ranked: dict[tuple[int | None, int | None, bytes | None], Coded] = {}
 
     def of(self, world: WorldModel) -> WorldEncoder:
-        """That of another world under these features."""
+        """The encoder of another world under the same features."""
         return WorldEncoder(self.features, world, self._kinds)
 
     @cached_property
@@ -156,7 +156,7 @@ class WorldEncoder:
         return self.unranked(phrase).rows
 
     def unranked(self, phrase: Phrase) -> Coded:
-        """The same, things that are alike once."""
+        """The bag of a noun phrase's factors without ranks, things that are alike once."""
         objects, first = self._objects
         if Group.NAMES not in self.features.groups:
             return objects
@@ -184,7 +184,7 @@ class WorldEncoder:
         return self.noun(phrase, members).rows
 
     def noun(self, phrase: Phrase, members: Bools | None = None) -> Coded:
-        """The same, things that are alike once."""
+        """The bag of a noun phrase's factors with the ranks that it speaks of, things that are alike once."""
         counted = ranking(phrase)
         if counted is None or not self.related:
             return self.unranked(phrase)

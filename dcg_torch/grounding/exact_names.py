@@ -1,4 +1,4 @@
-"""Who is compared by name: where a thing is called just what is said, those that go by another name are others.
+"""Things of exactly the name that is said: where there are such, a phrase that ranks leaves other names out.
 
 "The leftmost box" is one of the boxes where there are some, though a crate may be called a box where there is none.
 """

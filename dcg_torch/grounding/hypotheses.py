@@ -64,17 +64,17 @@ class Combos:
 
     @cached_property
     def picks(self) -> Sequence[tuple[int, ...]]:
-        """Of each choice the place in each beam."""
+        """The place in each beam that a choice takes, for every choice."""
         return self._of_each([range(len(beam)) for beam in self.beams])
 
     @cached_property
     def things(self) -> Sequence[tuple[int, ...]]:
-        """Of each choice the number of the thing that each hypothesis is about."""
+        """The numbers of the things that a choice's hypotheses are about, for every choice."""
         return self._of_each([beam.things for beam in self.beams])
 
     @cached_property
     def log_scores(self) -> Floats:
-        """(choices,) of each its hypotheses' log-scores, added up."""
+        """(choices,) the sum of the log-scores of each choice's hypotheses."""
         columns = [beam.log_scores for beam in self.beams]
         if len(columns) == 1 and self._given is None:
             return np.array(columns[0], dtype=np.float64)
@@ -225,7 +225,7 @@ class ModifierFactor:
         return np.exp(self.mixture - self._log_sum)
 
     def hypothesis(self, j: int, thing: Object, combo: int | None = None) -> Hypothesis:
-        """That the thing j stands so, to its best landmarks or to those of a given combo."""
+        """The hypothesis that the thing j stands so, to its best landmarks or to those of a given combo."""
         best = int(self._likeliest[j]) if combo is None else combo
         child = Child(Grounding(GroundingKind.PLACED, thing))
         return Hypothesis(self.tree, child, self.combos[best], float(self.log_psi[j]))

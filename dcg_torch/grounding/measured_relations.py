@@ -51,7 +51,7 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
 
 
 def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos, things) of a modifier that `means_all`; the rest as it was."""
+    """(combos, things) log Psi of a modifier that `means_all` with what is measured; of others as it was."""
     name = phrase.words[0]
     if not means_all(phrase):
         return log_psi
@@ -139,7 +139,7 @@ def within_reach(landmarks: Sequence[int], encoder: WorldEncoder, up_to: float |
 def of_denied(
     name: str, log_psi: Floats, landmarks: Sequence[int], scores: Floats, encoder: WorldEncoder, *, denied: bool
 ) -> Floats | None:
-    """(combos, things) of a modifier that is denied, or that denies nearness by itself ("far from"); None of others."""
+    """(combos, things) log Psi of a modifier that is denied or denies nearness itself ("far from"); None of others."""
     if not denied and name not in _FAR_OFF:
         return None
     far = _beyond_reach(name, landmarks, scores, encoder)

@@ -1,4 +1,4 @@
-"""All that the words of a noun phrase measure among what the rest of it describes."""
+"""Ordinals, extents and ends that a noun phrase names, measured among the things that the rest of it describes."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def by_measurement(
     described: tuple[Bools, Floats],
     encoder: WorldEncoder,
 ) -> tuple[Phrase, Floats]:
-    """What the words say of each thing.
+    """What the words of a noun phrase measure of each thing.
 
     Args:
         told: words that attributes answer.
@@ -46,7 +46,7 @@ def by_measurement(
 def by_measurement_of_few(
     phrase: Phrase, told: Collection[str], described: tuple[Bools, Floats], encoder: WorldEncoder
 ) -> tuple[Phrase, Floats]:
-    """The same of a phrase that says how many it picks from: "the left one of the two on the wall"."""
+    """What is measured for a phrase that says how many it picks from: "the left one of the two on the wall"."""
     phrase, row = of_receding_row(phrase, described, encoder)
     phrase, extent = of_extents(phrase, told, described[0], encoder)
     return phrase, row + extent

@@ -21,7 +21,7 @@ def ranks_from(tree: ParseTree) -> bool:
 
 
 def tells_which_few(noun: ParseTree) -> list[ParseTree]:
-    """Those that say which few a noun phrase picks from: "in the corner" of "two dots in the corner, the higher one".
+    """Modifiers that say which few a phrase picks from: "in the corner" of "two dots in the corner, the higher one".
 
     Where nothing else picks, they do: "of the two dots the one on the left".
     """

@@ -35,7 +35,7 @@ def by_nearness(
     compared: Bools | None,
     encoder: WorldEncoder,
 ) -> Floats:
-    """(combos, things) of a modifier to one landmark, with what is measured of distances.
+    """(combos, things) log Psi of a modifier to one landmark, with what is measured of distances.
 
     Args:
         name: of the relation.
@@ -167,7 +167,7 @@ def nearer_between(
     compared: Bools | None,
     encoder: WorldEncoder,
 ) -> Floats:
-    """(combos, things) of what stands between two: "between the bed and the desk", of two beds, is in the narrower gap.
+    """(combos, things) what stands between two: "between the bed and the desk", of two beds, is in the narrower gap.
 
     Args:
         landmarks, scores: (combos,) numbers of each, and its score; of those described alike what is between one pair

@@ -47,7 +47,7 @@ class Scored(NamedTuple):
     compared: Bools | None = None
 
     def totals(self) -> Floats:
-        """(groundings,) of every configuration about each."""
+        """(groundings,) the log-sum over all configurations about each grounding."""
         if self.code is None or len(self.code) <= FEW:
             found: Floats = np.logaddexp.reduce(self.scores, axis=(0, 2))
             return found

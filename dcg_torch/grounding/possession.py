@@ -28,7 +28,7 @@ _NOT_ITS = -8.0
 def of_possession(
     tree: ParseTree, log_psi: Floats, landmarks: Sequence[int], scores: Floats, several: int, encoder: WorldEncoder
 ) -> Floats | None:
-    """(landmarks, things) of "with" and "without" among things that have extents.
+    """(landmarks, things) log-factor of "with" and "without" among things that have extents.
 
     Args:
         tree: of the modifier, with one landmark.

@@ -124,7 +124,7 @@ def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:
-    """Of a reading, with what was learned of the choices that led to it; see `worth_grounding`."""
+    """The log-weight of a reading, with what was learned of the choices that led to it; see `worth_grounding`."""
     return reading.log_weight + sum(learned.get(rule, 0.0) for rule in reading.rules)
 
 
@@ -159,7 +159,7 @@ class SharedSearch:
         return setting_of(self.world)
 
     def ground(self, tree: ParseTree, *, brief: bool = False) -> Solution:
-        """Of one reading.
+        """What one reading is grounded to.
 
         Args:
             brief: leave out the runner-up of what it is about, see `with_runner_up`.
@@ -183,7 +183,7 @@ class SharedSearch:
     def solve(
         self, tree: ParseTree, *, beside: Beside = _NOTHING, brief: bool = False, left_out: frozenset[str] = frozenset()
     ) -> Solution:
-        """Of a tree of factors.
+        """The solution of a tree of factors.
 
         Args:
             beside: what is spoken of there beside things and the usual places.

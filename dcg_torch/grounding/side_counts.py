@@ -52,7 +52,7 @@ def counted_on_side(
 
 
 def deepest_few(tree: ParseTree, log_psi: Floats, encoder: WorldEncoder) -> Floats:
-    """(combos, things) of a modifier: "the three cubes in the back" are the three of their kind that are farthest back.
+    """(combos, things) log Psi of a modifier: "the three cubes in the back" are the three that are farthest back.
 
     Args:
         tree: of the modifier; its phrase has the count of what it is said of.

@@ -147,7 +147,7 @@ class Solution:
 
     @property
     def probability(self) -> float | None:
-        """Of the grounding, None where there is none; of several objects, that they and no others are meant."""
+        """The grounding's probability, None if there is none; of several objects, that they and no others are meant."""
         if self.object is None:
             return None
         meant, noun = self._meant(), self.noun

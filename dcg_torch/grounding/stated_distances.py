@@ -32,7 +32,11 @@ MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN})
 def log_distance(
     phrase: Phrase, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool
 ) -> Floats:
-    """(combos, things) the log-probability that a modifier by one of `MEASURED` is said of a thing; as the next two."""
+    """(combos, things) the log-probability that a modifier by one of `MEASURED` is said of a thing.
+
+    Raises:
+        ValueError: the phrase says no distance.
+    """
     if phrase.words[0] != SO_FAR:
         return log_nearer(phrase.words[0], landmarks, encoder, denied=denied)
     said, turn = said_apart(phrase), said_turn(phrase)

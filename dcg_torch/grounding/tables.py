@@ -54,13 +54,13 @@ class Tables:
         self._spread: dict[tuple[Phrase, int], dict[object, Floats]] = {}
 
     def hold(self, features: FeatureSet, factor: LogLinearFactor) -> bool:
-        """Are they still those of these columns and weights?"""
+        """Are these still the tables of such columns and weights?"""
         weight = factor.weight
         same = self.features is features and self.factor is factor and self._of is weight
         return same and self._version == _version(weight) and len(self._sides) < _PHRASES > len(self._spread)
 
     def noun(self, encoder: WorldEncoder, phrase: Phrase, members: np.ndarray | None = None) -> Floats:
-        """(P, things) of a noun phrase.
+        """(P, things) log Psi of a noun phrase.
 
         Args:
             members: (things,) those among which it ranks; None: all.
@@ -76,17 +76,17 @@ class Tables:
         return self._weight is None or bool(self._side(phrase)[:, ranks[ranks >= 0]].any())
 
     def unranked(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
-        """(P, things) of a noun phrase as if it ranked nothing."""
+        """(P, things) log Psi of a noun phrase as if it ranked nothing."""
         coded = encoder.unranked(phrase)
         table = self._log_psi(phrase, coded.bag)
         return table if coded.code is None else table[:, coded.code]
 
     def log_odds(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
-        """(objects,) of a noun phrase as if it ranked nothing: ACTIVE against INACTIVE."""
+        """(objects,) log-odds of ACTIVE against INACTIVE of a noun phrase as if it ranked nothing."""
         return self._against_inactive(self.unranked(encoder, phrase)[:, : len(encoder.world.objects)])
 
     def log_odds_of(self, phrase: Phrase, things: Sequence[Object]) -> Floats:
-        """(things,) the same, of things that need not be in the world."""
+        """(things,) such log-odds of things that need not be in the world."""
         named = self.features.said_columns(Said.of(phrase), things, [-1] * len(things))
         bag = padded([self.features.thing_columns(o) + said for o, said in zip(things, named, strict=True)])
         return self._against_inactive(self._log_psi(phrase, bag))
@@ -103,7 +103,7 @@ class Tables:
         landmarks: Sequence[tuple[int, ...]],
         members: np.ndarray | None = None,
     ) -> Floats:
-        """(P, landmarks, things) of a modifier, to each tuple of numbers of landmarks; all are as long.
+        """(P, landmarks, things) log Psi of a modifier, to each tuple of numbers of landmarks; all are as long.
 
         Args:
             members: (things,) those among which it ranks; None: all of a kind.
@@ -133,7 +133,7 @@ class Tables:
         return _normal(out)
 
     def patterns(self, phrase: Phrase, kind: GroundingKind, patterns: Mapping[Pattern, Sequence[Child]]) -> Floats:
-        """(P, patterns) of regions or actions.
+        """(P, patterns) log Psi of regions or actions.
 
         Args:
             patterns: of each, some child groundings that are such.

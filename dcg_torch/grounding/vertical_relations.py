@@ -44,7 +44,7 @@ _AMONG, _ELSEWHERE = -0.1, -5.0
 def by_height(
     name: str, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, whole: bool = False
 ) -> Floats:
-    """(combos, things) of a modifier, with what heights and extents say of it.
+    """(combos, things) log Psi of a modifier, with what heights and extents say of it.
 
     Args:
         name: of the relation.

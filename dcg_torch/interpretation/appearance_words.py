@@ -31,7 +31,7 @@ class Looks:
 
     @classmethod
     def of(cls, world: WorldModel) -> Looks:
-        """Of a world."""
+        """What may be told by looking in this world."""
         shown = any(o.rgb is not None for o in world.objects)
         named = not shown and any(o.color is not None for o in world.objects)
         valued = any(":" in a for of in {o.attributes for o in world.objects} for a in of)

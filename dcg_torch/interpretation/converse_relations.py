@@ -1,4 +1,4 @@
-"""What stands somewhere to the thing that has it: "the mug with a lamp behind it", "the desk with no chair at it"."""
+"""Converse relations: "the mug with a lamp behind it" is in front of a lamp; "the desk with no chair at it"."""
 
 from __future__ import annotations
 

@@ -143,7 +143,7 @@ _NOWHERE = Setting(frozenset(), (False, False), "")
 
 
 def setting_of(world: WorldModel) -> Setting:
-    """Of a world."""
+    """The setting that a world is: what of it changes how a tree is read."""
     at = positions([o for o in world.objects if o.position is not None])
     heights = at[:, 2].tolist()
     flat = len(at) > 0 and max(heights) - min(heights) < _LEVEL
@@ -162,7 +162,7 @@ def _low(heights: Sequence[float]) -> float:
 
 @functools.lru_cache(maxsize=1024)
 def in_setting(tree: ParseTree, setting: Setting) -> ParseTree:
-    """As `to_factor_tree`: one command is grounded in many worlds of a kind."""
+    """The factor tree in a setting: one command is grounded in many worlds of a kind. See `to_factor_tree`."""
     there, (flat, upright), scene, among = setting
     said = with_egocentric_places(in_whole_line(tree), among=among)
     plain = in_plain_words(said, there, flat=flat or upright, upright=upright)

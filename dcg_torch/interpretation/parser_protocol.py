@@ -1,4 +1,4 @@
-"""What is asked of a parser and of its answer; `language.Parse` is one."""
+"""Protocols of a parser and of its answer, of which `language.Parse` is one."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ class Words(NamedTuple):
     @staticmethod
     @functools.lru_cache(maxsize=1024)
     def of(tree: ParseTree) -> Words:
-        """Of a tree."""
+        """The nouns and words of a tree."""
         phrases = [node.phrase for node in tree.walk()]
         nouns = frozenset([phrase.noun for phrase in phrases if phrase.noun is not None])
         return Words(nouns, frozenset([word for phrase in phrases for word in phrase.words]))

@@ -30,7 +30,7 @@ _NOT_AT = dict.fromkeys(("not in", "not at", "not on"), "not near")
 
 
 def is_of_all(place: ParseTree) -> bool:
-    """Is it of the ground, or of what everything stands on?"""
+    """Is a place that of the ground, or of what everything stands on?"""
     noun = place.children[0].phrase.noun if len(place.children) == 1 else None
     return PLACE_WORDS.get(noun or "", ("", None))[0] == "ground"
 

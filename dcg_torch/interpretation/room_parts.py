@@ -46,7 +46,7 @@ _LEVEL, _TALLER = 0.02, 1.15
 
 
 def by_heights(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """Of things at quite other heights, in a room or on a rack, "the lower shelf" is the lowest.
+    """A tree in which "the lower shelf", of things at quite other heights in a room or on a rack, is the lowest.
 
     Args:
         said: the words of the tree.

@@ -164,16 +164,16 @@ class Beliefs:
 
     @classmethod
     def start(cls, settled: Mapping[str, str], prior: Prior | None = None) -> Beliefs:
-        """With some words known, and no evidence yet."""
+        """Beliefs with some words known, and no evidence yet."""
         return cls(prior or Prior(), dict(settled), {}, tuple(dict.fromkeys(settled.values())))
 
     def meet(self, types: Iterable[str]) -> Beliefs:
-        """With these types among those met."""
+        """The beliefs with these types among those met."""
         new = [t for t in dict.fromkeys(types) if t not in self.types]
         return replace(self, types=(*self.types, *new)) if new else self
 
     def weigh(self, evidence: Evidence) -> Beliefs:
-        """With one more piece of evidence. That about a settled word changes nothing."""
+        """The beliefs with one more piece of evidence. That about a settled word changes nothing."""
         beliefs = self.meet(t for t, n in evidence.fitting.items() if n > 0)
         if evidence.word in self.settled:
             return beliefs
@@ -192,7 +192,7 @@ class Beliefs:
         return replace(beliefs, heard={**beliefs.heard, evidence.word: new})
 
     def forget(self, word: str) -> Beliefs:
-        """Without all that was heard of a word, be it settled or not."""
+        """The beliefs without all that was heard of a word, be it settled or not."""
         return replace(
             self,
             settled={w: t for w, t in self.settled.items() if w != word},
@@ -200,7 +200,7 @@ class Beliefs:
         )
 
     def correct(self, word: str, type_: str) -> Beliefs:
-        """With the word settled on a type, by someone who knows."""
+        """The beliefs with the word settled on a type, by someone who knows."""
         beliefs = self.forget(word).meet([type_])
         return replace(beliefs, settled={**beliefs.settled, word: type_})
 

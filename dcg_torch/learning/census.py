@@ -40,7 +40,7 @@ class Census:
         return self.again / self.found
 
     def count(self, seen: Collection[Object], cells: int) -> Census:
-        """With one more world."""
+        """The census with one more world."""
         n, repeated = len(seen), len(seen) - len({(o.type, o.color) for o in seen})
         return Census(self.objects + n, self.cells + cells, self.again + repeated, self.found + n)
 
@@ -61,7 +61,7 @@ class FrameCounts:
         return self.speaker / (self.robot + self.speaker)
 
     def count(self, speakers: float | None) -> FrameCounts:
-        """With one more command, in the speaker's frame with that probability; None: both are one."""
+        """The counts with one more command, in the speaker's frame with that probability; None: both are one."""
         if speakers is None:
             return self
         return replace(self, robot=self.robot + 1.0 - speakers, speaker=self.speaker + speakers)

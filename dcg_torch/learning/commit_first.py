@@ -36,7 +36,7 @@ class CommitFirst:
 
     @classmethod
     def start(cls, training: TrainingSet, *, learns_symbols: bool = True) -> CommitFirst:
-        """With what the training set teaches (lines 1 to 5)."""
+        """A learner that knows what the training set teaches (lines 1 to 5)."""
         return cls({s.word: s for s in training.symbols}, training.examples, learns_symbols)
 
     @property
@@ -75,11 +75,11 @@ class CommitFirst:
         return more._with(symbol), Learned(symbol)
 
     def told(self, word: str, type_: str) -> CommitFirst:
-        """With a symbol that a person gave."""
+        """The learner with a symbol that a person gave."""
         return self._with(Symbol(word, type_))
 
     def forget(self, word: str) -> CommitFirst:
-        """Without a symbol, and without the examples of its word."""
+        """The learner without a symbol, and without the examples of its word."""
         symbols = {w: s for w, s in self.symbols.items() if w != word}
         kept = [e for e in self.examples if e.phrase.noun != word]
         forgotten = replace(self, symbols=symbols)
@@ -94,7 +94,7 @@ class CommitFirst:
         return self
 
     def taught(self, taught: Taught) -> CommitFirst:
-        """With a symbol for every noun of the lessons: for the type that it was said of most."""
+        """The learner with a symbol for every noun of the lessons: for the type that it was said of most."""
         named = {word: Symbol(word, max(types, key=lambda t: types[t])) for word, types in taught.nouns.items()}
         return replace(self, symbols=named | dict(self.symbols))
 
@@ -116,7 +116,7 @@ class CommitFirst:
         return features
 
     def trainable(self, features: FeatureSet) -> Bools | None:
-        """All weights."""
+        """None: all weights follow from the training examples."""
         return None
 
     def names(self) -> dict[str, str]:
@@ -128,7 +128,7 @@ class CommitFirst:
         return {self.symbols[word].type: 1.0} if word in self.symbols else {}
 
     def beliefs(self, but: Collection[str]) -> None:
-        """It has no degrees of belief."""
+        """None: this learner has no degrees of belief."""
         return
 
     def lexicon(self) -> list[Entry]:

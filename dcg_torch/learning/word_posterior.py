@@ -63,7 +63,7 @@ class Assumptions:
             raise ValueError("hidden must not be negative, strength must be positive, and both finite")
 
     def with_names(self, *, evident: bool) -> Assumptions:
-        """With the names of types and colours as evidence for words, or without."""
+        """The assumptions with the names of types and colours as evidence for words, or without."""
         return replace(self, nouns=replace(self.nouns, names=evident), colors=replace(self.colors, names=evident))
 
 
@@ -191,29 +191,29 @@ class WordPosterior:
         return max(1, len(self.colors.types))
 
     def told(self, word: str, type_: str) -> WordPosterior:
-        """With a noun settled on a type."""
+        """The learner with a noun settled on a type."""
         return replace(self, nouns=self.nouns.correct(word, type_))
 
     def with_names(self, *, evident: bool) -> WordPosterior:
-        """With the names of types and colours as evidence for words, or without."""
+        """The learner with the names of types and colours as evidence for words, or without."""
         assumed = self.assumed.with_names(evident=evident)
         nouns, colors = replace(self.nouns, prior=assumed.nouns), replace(self.colors, prior=assumed.colors)
         return replace(self, nouns=nouns, colors=colors, assumed=assumed)
 
     def forget(self, word: str) -> WordPosterior:
-        """As if a noun had never been heard."""
+        """The learner as if a noun had never been heard."""
         return replace(self, nouns=self.nouns.forget(word))
 
     def with_frames(self, frames: FrameCounts | None) -> WordPosterior:
-        """With other counts of frames of reference."""
+        """The learner with other counts of frames of reference."""
         return self if frames is None else replace(self, frames=frames)
 
     def with_readings(self, readings: Mapping[str, float]) -> WordPosterior:
-        """With other weights of readings."""
+        """The learner with other weights of readings."""
         return replace(self, readings=readings)
 
     def taught(self, taught: Taught) -> WordPosterior:
-        """With the words of lessons. One that few lessons had is not settled: it is heard, as in a command."""
+        """The learner with the words of lessons. What few lessons had is not settled: it is heard, as in a command."""
         nouns, colors = self.nouns.meet(taught.types), self.colors.meet(taught.colors)
         nouns, colors = _settled(nouns, taught.nouns), _settled(colors, taught.color_words)
         return replace(self, nouns=nouns, colors=colors, fixed=frozenset((*nouns.settled, *colors.settled)))
@@ -223,7 +223,7 @@ class WordPosterior:
         return self.examples
 
     def soft_labels(self, features: FeatureSet) -> Sequence[SoftLabels]:
-        """The posterior."""
+        """The posterior as soft labels of phrases and objects."""
         return soft_labels(
             self.nouns,
             self.colors,
@@ -253,7 +253,7 @@ class WordPosterior:
         )
 
     def trainable(self, features: FeatureSet) -> Bools | None:
-        """The weights of nouns, colours, verbs and prepositions."""
+        """(L, G) the weights of nouns, colours, verbs and prepositions."""
         return believed_mask(features)
 
     def names(self) -> dict[str, str]:

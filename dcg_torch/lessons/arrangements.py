@@ -60,6 +60,9 @@ def arranged_lessons(
     Args:
         parse: reads commands.
         makers: of scenes, taken in turn; by default rows, tables and clusters.
+
+    Raises:
+        ValueError: a lesson is not read as a command.
     """
     rng = np.random.default_rng(seed)
     makers = makers or (row_scene, table_scene, table_scene, cluster_scene)

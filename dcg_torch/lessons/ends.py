@@ -103,7 +103,7 @@ _CLEAR_TURN = 0.05  # radians by which two directions must be told apart
 
 
 def scattered(rng: np.random.Generator, number: int) -> list[tuple[float, float]]:
-    """So many places in front of the robot, by chance and apart."""
+    """So many places in front of the robot, drawn by chance, apart from one another."""
     found: list[tuple[float, float]] = []
     while len(found) < number:
         point = float(rng.uniform(0.8, 6.5)), float(rng.uniform(-4.5, 4.5))

@@ -39,7 +39,7 @@ class LastWorld:
 
 @dataclass
 class Kept:
-    """Of one model; a copy of it starts with the statistics alone.
+    """What one model keeps between calls; a copy of it starts with the statistics alone.
 
     Attributes:
         statistics: what features see of examples.

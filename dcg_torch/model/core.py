@@ -157,6 +157,9 @@ class GroundingModel:
         Args:
             command: what was said, its parse tree, or what a parser made of it: of several readings the world decides.
             world: of `world_model`.
+
+        Raises:
+            TypeError: the command is none of these.
         """
         world = with_known(world, self.known_types)
         if isinstance(command, ParseTree):
@@ -177,7 +180,7 @@ class GroundingModel:
         return SharedSearch(encoder, self._kept.phrases(self.features, self.factor), self.variant.beam)
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
-        """Of a tree of factors."""
+        """The solution of a tree of factors."""
         encoder = encoder or self._kept.last.encoder(self.features, world)
         tables = self._kept.phrases(self.features, self.factor)
         return FactorGraph(tree, world, encoder).solve(

@@ -1,4 +1,4 @@
-"""What a model gets with new columns: zeros, and weights from which a fit arrives in fewer steps.
+"""Weights of new columns: zeros, and those from which a fit arrives in fewer steps.
 
 The optimum does not depend on where a fit starts.
 """

@@ -102,7 +102,7 @@ def write(stored: Stored, directory: Path | str) -> None:
 
 
 def read(directory: Path | str) -> Stored:
-    """What `write` wrote.
+    """The model that `write` wrote.
 
     Raises:
         CheckpointError: a file is missing, broken, or does not fit the other.

@@ -73,7 +73,7 @@ class Teachable(Protocol):
         ...
 
     def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
-        """Of a tree of factors."""
+        """The solution of a tree of factors."""
         ...
 
     def fit_weights(self, designs: Sequence[DesignMatrix], *, free: Bools | None, l2: float) -> FitResult:

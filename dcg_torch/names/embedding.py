@@ -68,7 +68,7 @@ def remember(texts: Sequence[str]) -> None:
 
 
 def cosines(text: str, others: Sequence[str]) -> NDArray[np.float64]:
-    """Of a text with each of several others, -1 to 1: (n,).
+    """(n,) the cosines of a text with each of several others, from -1 to 1.
 
     Raises:
         EmbeddingMissing: the extra is not installed.

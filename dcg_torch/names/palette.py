@@ -56,7 +56,7 @@ class Region:
     spread: tuple[float, float, float] = _SPREAD
 
     def log_density(self, colors: Array) -> Array:
-        """Of colours (n, 3) in CIELAB, up to a constant: (n,)."""
+        """(n,) the log-density of colours (n, 3) in CIELAB, up to a constant."""
         apart = (colors - np.array(self.mean)) / np.array(self.spread)
         density: Array = -0.5 * (_FREEDOM + 3.0) * np.log1p((apart**2).sum(axis=1) / _FREEDOM)
         return density

@@ -38,7 +38,7 @@ def seconds(value: float | None) -> str:
 
 
 def counted(count: int, noun: str) -> str:
-    """As in "1 trial" and "1,200 trials"."""
+    """A number with its noun, as in "1 trial" and "1,200 trials"."""
     return f"{count:,} {noun}" if count == 1 else f"{count:,} {noun}s"
 
 

@@ -28,7 +28,7 @@ _COVERED = 0.2
 
 @dataclass(frozen=True)
 class Bodies:
-    """Of n things, lengths in units of the world; NaN where nobody says how large one is.
+    """The extents of n things, lengths in units of the world; NaN where nobody says how large one is.
 
     Attributes:
         half: (n, 2) half extents in x and y.

@@ -118,7 +118,7 @@ class Layout:
 
     @functools.cached_property
     def near(self) -> Neighbours:
-        """Of the objects, which come first: who is near whom."""
+        """Who is near whom, among the objects, which come first."""
         n = int(self.solid.sum())
         if self.bodies is None:
             return neighbours(self.position[:n], self.color[:n])

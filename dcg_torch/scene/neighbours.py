@@ -32,7 +32,7 @@ _SLACK = 1e-9
 
 @dataclass(frozen=True)
 class Neighbours:
-    """Of n objects that stand somewhere.
+    """Which of n objects that stand somewhere lie on, under and beside others.
 
     Attributes:
         covered: (n,) does something rest on it?
@@ -52,7 +52,7 @@ class Neighbours:
 def neighbours(
     position: Floats, color: Ints, half: Floats | None = None, heights: tuple[Floats, Floats] | None = None
 ) -> Neighbours:
-    """Who is near whom.
+    """Who lies on, under and beside whom.
 
     Args:
         position: (n, 3) in units of the world; NaN where a thing stands nowhere.

@@ -1,4 +1,4 @@
-"""Who is compared with whom, and who comes before whom among those."""
+"""Ranks among things that are alike: which are compared with one another, and how many of these come before each."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Alike:
 
     @cached_property
     def members(self) -> Sequence[Ints]:
-        """Of each class."""
+        """The numbers of the members of each class."""
         if self.given is not None:
             return self.given
         return [(self.code == k).nonzero()[0] for k in range(int(self.code.max(initial=-1)) + 1)]
@@ -80,7 +80,7 @@ class Alike:
 
 
 def numbered(values: Iterable[Hashable]) -> Ints:
-    """Equal values get equal numbers, from 0, in the order in which they come first."""
+    """(n,) numbers from 0 in the order in which values come first: equal ones for equal values."""
     number: defaultdict[Hashable, int] = defaultdict(itertools.count().__next__)
     return np.fromiter(map(number.__getitem__, values), dtype=np.int64)
 
@@ -131,7 +131,7 @@ def _counted_to(lowest: Sequence[Floats], bound: Floats, code: Ints) -> Ints:
 
 
 def counted(before: Ints, count: int | None) -> Ints:
-    """Places where the first so many are meant together: each of "the two on the left" is as good as the first."""
+    """Places where the first so many are meant together: both of "the two on the left" get the first place."""
     return before if count is None or count < 2 else np.maximum(before - (count - 1), 0)
 
 

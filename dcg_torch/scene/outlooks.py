@@ -1,4 +1,4 @@
-"""From where things are looked at, where sides are told of them.
+"""Where somebody stands who tells sides of things: "left of the bed", in a room of which nobody knows the speaker.
 
 Nobody says where who speaks stands in a room that was scanned. People then mean a thing's sides as who stands before it
 sees them: its back is to the wall that it stands at. What lies on a table is looked at from the nearest edge of that;

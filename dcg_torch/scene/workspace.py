@@ -21,7 +21,7 @@ _CLOSE = 0.5
 
 
 def spacings(things: Sequence[Object] | Sequence[Percept]) -> Floats:
-    """How far in metres the nearest other is from each that stands somewhere; what shares a point is left out."""
+    """(k,) metres from each thing that stands somewhere to the nearest other; what shares a point is left out."""
     near = nearest_other(positions(things))
     return near[near > 0.0]
 

@@ -47,7 +47,11 @@ class FakeRobot:
         self.on_tick: Callable[[Pose], None] | None = None
 
     def load(self, world: World, *, rng: np.random.Generator | None = None) -> None:
-        """Stand at the start pose of `world`."""
+        """Stand at the start pose of `world`.
+
+        Raises:
+            ValueError: its recogniser makes mistakes, and there is no `rng` to draw them from.
+        """
         self._now = _State(world, world.start)
         self._stopped.clear()
         types = [o.type for o in world.objects]
@@ -66,22 +70,22 @@ class FakeRobot:
 
     @property
     def pose(self) -> Pose:
-        """Where it is."""
+        """Where the robot is."""
         return self._state.pose
 
     @property
     def path_length(self) -> float:
-        """Metres since `load`."""
+        """Metres driven since `load`."""
         return self._state.path_length
 
     @property
     def turned(self) -> float:
-        """Radians since `load`."""
+        """Radians turned since `load`."""
         return self._state.turned
 
     @property
     def seconds(self) -> float:
-        """As if it drove 0.65 metres and turned 2 radians a second."""
+        """Seconds that all driving and turning would have taken, at 0.65 metres and 2 radians a second."""
         return self.path_length / _SPEED + self.turned / _TURN
 
     def perceive(self) -> list[Percept]:
@@ -95,7 +99,7 @@ class FakeRobot:
         return [percept for _, _, percept in sorted(seen, key=lambda item: item[:2])]
 
     def spin(self, angle: float) -> None:
-        """Turn.
+        """Turn by an angle in radians.
 
         Raises:
             ValueError: more than `limits.MAX_SPIN`.

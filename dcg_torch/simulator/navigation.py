@@ -55,7 +55,7 @@ def is_clear(path: Points, circles: Sequence[Circle]) -> bool:
 
 
 def length(path: Points) -> float:
-    """Of the whole path, in metres."""
+    """The length of a whole path, in metres."""
     return float(np.linalg.norm(np.diff(path, axis=0), axis=1).sum())
 
 
@@ -77,6 +77,9 @@ def shortest_path(start: tuple[float, float], goals: Points, obstacles: Sequence
     An obstacle that contains `start` shrinks until it doesn't. Obstacles enter the visibility graph only once they
     are in the way, so that a far object costs nothing; all are checked. Where more than `_IN_THE_WAY` are, a way
     through the power diagram is tightened instead, so that time and memory stay n log n in the obstacles.
+
+    Returns:
+        (points, 2) from `start` to a goal; None where there is no way.
     """
     obstacles = shrink_to_reach(obstacles, start)
     goals = goals[(clearance(goals, goals, obstacles) >= -_SLACK).all(axis=1)]
@@ -132,6 +135,9 @@ def approach(start: tuple[float, float], target: Circle, obstacles: Sequence[Cir
     """A path to `_REACH` metres from the middle of `target`, outside it and all other obstacles.
 
     `target.radius` counts as at most that. A start that is near enough already gives a path of no length.
+
+    Returns:
+        (points, 2), as `shortest_path`.
     """
     if target.distance(*start) <= _REACH:
         return np.array([start, start], dtype=np.float64)
@@ -144,6 +150,9 @@ def retreat(start: tuple[float, float], target: Circle, obstacles: Sequence[Circ
     """A path that ends at least `_LEFT` metres from the middle of `target`, and `_GAIN` farther than it began.
 
     Where the nearest such ring is full of obstacles, wider ones are tried, up to three metres more.
+
+    Returns:
+        (points, 2), as `shortest_path`.
     """
     least = max(_LEFT, target.distance(*start) + _GAIN)
     for extra in itertools.chain([0.0], np.arange(0.5, 3.1, 0.5)):

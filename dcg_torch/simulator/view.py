@@ -134,7 +134,7 @@ def fitting_view(points: Points, forward: Points, fov: float, size: tuple[int, i
 
 
 def direction(yaw: float, down: float) -> Points:
-    """The unit vector of a camera that looks along `yaw` and `down` radians below the horizon."""
+    """(3,) the unit vector of a camera that looks along `yaw` and `down` radians below the horizon."""
     return np.array([math.cos(down) * math.cos(yaw), math.cos(down) * math.sin(yaw), -math.sin(down)])
 
 

@@ -151,7 +151,7 @@ def _to_disk(path: Path) -> None:
 
 
 def write_whole_folder(path: Path, content: Callable[[Path], object]) -> Path:
-    """The same for a folder of files: `content` fills an empty one, which then takes the place of `path`.
+    """Write a folder of files, whole or not at all: `content` fills an empty one, which takes the place of `path`.
 
     Raises:
         OSError: it cannot be written; the old folder stays, if there was one.

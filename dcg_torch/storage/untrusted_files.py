@@ -58,6 +58,9 @@ def read_text(path: Path, what: str, error: type[Exception], encoding: str = "ut
     Args:
         what: it is to be, as in "world file".
         error: what to raise, with a message of one line.
+
+    Raises:
+        error: the file is not there, is no file, or cannot be read.
     """
     try:
         if path.is_dir() or path.is_char_device() or path.is_block_device() or path.is_socket():
@@ -124,7 +127,7 @@ _UNREADABLE = (ValueError, ArithmeticError, LookupError, TypeError, AttributeErr
 
 
 def read_yaml(path: Path, what: str, error: type[Exception]) -> Any:
-    """The content of a YAML file, as plain Python values; arguments as in `read_text`."""
+    """The content of a YAML file, as plain Python values; arguments and what is raised as in `read_text`."""
     text = read_text(path, what, error)
     with contextlib.suppress(yaml.YAMLError, RecursionError, *_UNREADABLE):
         return yaml.load(text, _QuickLoader)
@@ -169,7 +172,7 @@ def read_json(text: str) -> Any:
 
 
 def read_xml(path: Path, what: str, error: type[Exception]) -> Element:
-    """The root of an XML file without a document type, so without entities; arguments as in `read_text`."""
+    """The root of an XML file without a document type, so without entities; see `read_text`."""
     try:
         from defusedxml import ElementTree, common  # here: of an extra, and few files are XML
     except ModuleNotFoundError:

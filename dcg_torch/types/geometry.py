@@ -31,12 +31,12 @@ _NOWHERE = (math.nan,) * 3
 
 
 def wrap_angle(angle: float) -> float:
-    """The same direction as an angle in [-pi, pi]."""
+    """The same direction as an angle in [-pi, pi] radians."""
     return math.remainder(angle, math.tau)
 
 
 def wrap_angles(angles: Floats) -> Floats:
-    """The same directions as angles in [-pi, pi), elementwise."""
+    """The same directions, of any shape, as angles in [-pi, pi) radians."""
     wrapped: Floats = (angles + math.pi) % math.tau - math.pi
     return wrapped
 

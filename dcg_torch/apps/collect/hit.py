@@ -1,4 +1,4 @@
-"""The same task for Mechanical Turk: a page in the layout of its Crowd forms, and a CSV of pictures."""
+"""Writing commands as a task of Mechanical Turk: a page in the layout of its Crowd forms, and a CSV of pictures."""
 
 from __future__ import annotations
 

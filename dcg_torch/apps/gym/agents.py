@@ -62,7 +62,7 @@ class EnvRobot:
 
     @property
     def pose(self) -> Pose:
-        """Where it is."""
+        """Where the robot is."""
         return Pose(*self._seen["robot"].tolist())
 
     def perceive(self) -> list[Percept]:

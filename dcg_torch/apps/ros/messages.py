@@ -29,12 +29,12 @@ _SECOND = 1_000_000_000
 
 
 def to_stamp(time: Time) -> int:
-    """Nanoseconds."""
+    """A message's time as nanoseconds."""
     return int(time.sec) * _SECOND + int(time.nanosec)
 
 
 def to_time(stamp: int) -> Time:
-    """The other way round."""
+    """A stamp in nanoseconds as a message's time."""
     return Time(sec=stamp // _SECOND, nanosec=stamp % _SECOND)
 
 

@@ -92,5 +92,5 @@ def understood(note: Note, solution: Solution, most: int = 20) -> dict[str, Any]
 
 
 def to_text(content: dict[str, Any]) -> str:
-    """As JSON in one line."""
+    """A reply as JSON in one line."""
     return json.dumps(content, ensure_ascii=False, allow_nan=False)

@@ -107,7 +107,11 @@ class Senses:
         return found[0]
 
     def look(self, seconds: float) -> tuple[Percept, ...]:
-        """What is in view from where the robot stands: a look taken since it last moved. See `pose`."""
+        """What is in view from where the robot stands: a look taken since it last moved. See `pose`.
+
+        Raises:
+            RobotSilentError: no such look came in so many seconds.
+        """
 
         def recent() -> tuple[tuple[Percept, ...], _Seen] | None:
             look, moved = self._look, self._moved

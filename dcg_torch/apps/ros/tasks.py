@@ -88,13 +88,13 @@ class Tasks:
         return {"state": "done", "said": f"{told.word} names a {told.type}", "learned": {told.word: told.type}}
 
     def correct(self, note: Note) -> Said:
-        """WORD = TYPE."""
+        """Learn what a word means, from a note "WORD = TYPE"."""
         word, type_ = read_correction(note.text)
         self._change(lambda: self.model.correct(word, type_))
         return {"state": "done", "said": f"{word} names a {type_}", "learned": {word: type_}}
 
     def forget(self, note: Note) -> Said:
-        """A word."""
+        """Forget the word of a note."""
         word = " ".join(note.text.lower().split())
         self._change(lambda: self.model.forget(word))
         return {"state": "done", "said": f"{word} is forgotten"}

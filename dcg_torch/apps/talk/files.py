@@ -42,7 +42,7 @@ SAVED: dict[str, tuple[str, Callable[[Session, Path, Path], object]]] = {
 
 
 def saved(what: str, session: Session, file: Path) -> bytes:
-    """One of `SAVED`."""
+    """The content of one of the files that `SAVED` lists, for a visitor to take home."""
     name, write = SAVED[what]
     with tempfile.TemporaryDirectory() as folder:
         write(session, file, Path(folder) / name)

@@ -49,7 +49,7 @@ def overlap(episode: Episode) -> Floats:
 
 
 def nearest(episode: Episode) -> Floats:
-    """`overlap`, and a few points for the nearest to the robot of those that come first; without a pose, none."""
+    """(objects,) `overlap`, and a few points for the nearest of those that come first; without a pose, none."""
     scores = overlap(episode)
     if episode.pose is not None:
         best = np.flatnonzero(scores > scores.max() - 1e-9)

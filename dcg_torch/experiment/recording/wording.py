@@ -24,7 +24,7 @@ class Bar:
 
 
 def name_of(thing: Object) -> str:
-    """As in "blue cube", "orange traffic cone (unknown)", "unseen cube", "unseen unknown thing"."""
+    """An object's name: "blue cube", "orange traffic cone (unknown)", "unseen cube", "unseen unknown thing"."""
     if thing.hypothetical:
         return f"unseen {thing.type if thing.known else 'unknown thing'}"
     name = " ".join(part for part in (thing.color, thing.type) if part)
@@ -83,7 +83,7 @@ def doing(recorded: RecordedCommand, moment: int, before: Mapping[str, str]) -> 
 
 
 def ending(recorded: RecordedCommand) -> str:
-    """How it came out."""
+    """How a command came out, in a sentence."""
     row = recorded.row
     if not recorded.looks:
         return "It can't make sense of the command."
@@ -98,7 +98,7 @@ def ending(recorded: RecordedCommand) -> str:
 
 
 def lesson(recorded: RecordedCommand, before: Mapping[str, str]) -> str:
-    """What it learned from this command, or nothing."""
+    """What the robot learned from a command, or nothing."""
     new = [(word, type_) for word, type_ in recorded.row.symbols.items() if before.get(word) != type_]
     return "  ".join(
         f"It now knows the word “{word}”." if word == type_ else f"It now knows that “{word}” means {type_}."

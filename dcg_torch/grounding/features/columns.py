@@ -125,7 +125,7 @@ class FeatureSet:
 
     @property
     def shape(self) -> tuple[int, int]:
-        """(L, G)."""
+        """(L, G) how many language and grounding columns there are."""
         return len(self.language), len(self.grounding)
 
     @property
@@ -221,7 +221,7 @@ class FeatureSet:
     def object_columns(
         self, things: Sequence[Object], states: Sequence[tuple[str, ...]], kinds: KindColumns
     ) -> list[list[int]]:
-        """The same of several objects: what has nothing to do with their types is looked up once for those alike.
+        """The columns of several objects: what has nothing to do with their types is looked up once for those alike.
 
         Args:
             states: of each, names of what else is true of it.
@@ -291,17 +291,17 @@ class FeatureSet:
 
     @property
     def placed_column(self) -> int:
-        """Of every grounding of a modifier."""
+        """The column that fires for every grounding of a modifier."""
         return self.grounding[f"kind: {GroundingKind.PLACED}"]
 
     @cached_property
     def rank_of(self) -> Ints:
-        """Index into `scene.RANKS` -> column; a last entry for -1."""
+        """(ranks + 1,) index into `scene.RANKS` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RANKS), -1])
 
     @cached_property
     def relation_of(self) -> Ints:
-        """Index into `scene.RELATION_NAMES` -> column; a last entry for -1."""
+        """(relations + 1,) index into `scene.RELATION_NAMES` -> column; a last entry for -1."""
         return np.array([*(self.grounding.get(name, -1) for name in scene.RELATION_NAMES), -1])
 
 

@@ -54,7 +54,7 @@ class Said:
 
     @classmethod
     def of(cls, phrase: Phrase) -> Said:
-        """By a phrase."""
+        """What a phrase says."""
         return cls(phrase.noun, phrase.color, phrase.words, phrase.look)
 
     def denies(self) -> bool:

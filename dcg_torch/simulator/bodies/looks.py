@@ -48,7 +48,7 @@ class Model:
     @property
     @functools.cache  # noqa: B019
     def radius(self) -> float:
-        """Of the smallest upright cylinder about the foot that holds every part, in metres."""
+        """The radius in metres of the smallest upright cylinder about the foot that holds every part."""
         return float(max(np.hypot(*part.mesh.vertices[:, :2].T).max() for part in self.parts))
 
     def by_paint(self) -> list[Part]:

@@ -55,7 +55,7 @@ class Surroundings:
 
     @functools.cached_property
     def distance(self) -> Floats:
-        """(n,) from the robot."""
+        """(n,) metres from the robot."""
         distance: Floats = np.hypot(*self.position.T)
         return distance
 

@@ -19,7 +19,7 @@ def wording(tree: ParseTree) -> str:
 
 
 def command(noun: ParseTree, verb: str = "go", preposition: str = "to") -> ParseTree:
-    """ "Go to" what a noun phrase means."""
+    """An order to go, or do another deed, to what a noun phrase means: "go to the red cube"."""
     to = ParseTree(Phrase(PhraseKind.PREPOSITION, preposition, (preposition,)), (noun,))
     return ParseTree(Phrase(PhraseKind.VERB, verb, (verb,)), (to,))
 
@@ -27,7 +27,7 @@ def command(noun: ParseTree, verb: str = "go", preposition: str = "to") -> Parse
 def noun_phrase(
     kind: str | None, color: str | None, words: Sequence[str] = (), modifiers: tuple[ParseTree, ...] = ()
 ) -> ParseTree:
-    """ "The second red cube from the left"; without a type it is a thing."""
+    """A noun phrase in the singular: "the second red cube from the left"; without a type it is a thing."""
     noun = kind or "thing"
     front = [word for word in words if not word.startswith("from ")]
     behind = [word for word in words if word.startswith("from ")]
@@ -43,7 +43,7 @@ def plural(
     count: int | None = None,
     modifiers: tuple[ParseTree, ...] = (),
 ) -> ParseTree:
-    """ "The two red cubes"."""
+    """A noun phrase in the plural: "the two red cubes"."""
     noun = kind or "thing"
     number = {None: "", 2: "two", 3: "three"}[count]
     text = " ".join(filter(None, (*(words or ("the",)), number, color, PLURALS[noun])))
@@ -51,16 +51,16 @@ def plural(
 
 
 def prepositional(word: str, *nouns: ParseTree) -> ParseTree:
-    """ "Next to" one noun phrase, or "between" two."""
+    """A preposition with its noun phrases: "next to" one, or "between" two."""
     return ParseTree(Phrase(PhraseKind.PREPOSITION, word, (_NAMES.get(word, word),)), nouns)
 
 
 def person(who: str) -> ParseTree:
-    """ "You" or "me"."""
+    """How a speaker names himself or the robot: "me" or "you"."""
     return ParseTree(Phrase(PhraseKind.NOUN, who, noun=who))
 
 
 def a_side(place: str) -> ParseTree:
-    """ "Your left", "the right"."""
+    """A side as a noun phrase: "your left", "the right"."""
     whose, _, side = place.partition(" ")
     return ParseTree(Phrase(PhraseKind.NOUN, place, ("your",) if whose == "your" else (), side))
