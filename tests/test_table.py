@@ -72,3 +72,17 @@ def test_what_is_surrounded_has_them_on_every_side(model: GroundingModel, seats:
         f"the table surrounded by {seats} chairs", model.world_model(things, robot=Pose(0.0, 0.0, 0.0))
     )
     assert [thing.id for thing in answer.objects] == ["round"]
+
+
+@pytest.mark.parametrize(
+    "text", ["the cup next to the plate", "take the cup beside the plate", "the cup near the plate"]
+)
+def test_what_is_next_to_a_thing_is_not_the_farther_one(model: GroundingModel, text: str) -> None:
+    """Behind the plate one stands close by, to its left another twice as far off."""
+    places = {"plate": (0.6, 0.0), "close by": (0.75, 0.0), "farther": (0.6, 0.32), "apart": (1.0, -0.4)}
+    things = [
+        Percept(name, "plate" if name == "plate" else "cup", None, (x, y, 0.75), (0.1, 0.1, 0.1))
+        for name, (x, y) in places.items()
+    ]
+    world = model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True, workspace=Workspace.of(things))
+    assert [thing.id for thing in model.ground(text, world).objects] == ["close by"]

@@ -72,12 +72,14 @@ def _nearly_as_near(
     np.maximum.at(best, of_each[first], log_psi[first])
     with np.errstate(invalid="ignore"):
         behind = np.where(np.isfinite(gap), _NEARLY * np.log(gap / nearest[of_each]), np.inf)
-    found: Floats = np.maximum(log_psi, best[of_each] - behind)
+        aside = np.where(np.isfinite(gap), _ASIDE * np.log(gap / nearest[of_each]), 0.0)
+    found: Floats = np.maximum(log_psi - aside, best[of_each] - behind)
     return found
 
 
-_NEARLY = 9.0
-"""Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind."""
+_NEARLY, _ASIDE = 9.0, 6.0
+"""Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind, and at least:
+"next to" is on the left or the right rather than behind, but not far off."""
 
 
 def nearest_of_a_kind(gap: Floats, compared: Bools | None, encoder: WorldEncoder) -> tuple[Ints, Floats]:
