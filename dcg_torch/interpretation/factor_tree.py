@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -262,13 +262,18 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     "The nearest cube on the left" is the nearest of those, not the leftmost; all of "the cubes on the left" are there.
     """
     whole = phrase.plural and phrase.count is None
-    ranked = any(map(is_superlative, phrase.words)) or any(map(_ranks_from_somebody, described))
+    from_somebody = any(map(_ranks_from_somebody, described))
+    ranked = any(map(is_superlative, phrase.words)) or from_somebody
     # "Of the two cubes on the right the lower one" is the lower one of the two that are on the right.
     ranked |= counted(phrase.words) is not None and any(not c.phrase.text and _side_of(c) in SIDED for c in described)
     # "The left cube at the front", "the cube on your right in the back": the left one of those at the front.
     lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
+
     return [
-        _within(c) if _is_a_side(c) and (whole or ranked or (lateral and _side_of(c) in VERTICAL)) else c
+        _within(c)
+        if (from_somebody and _is_a_side(c, RANKING))  # "on your far left" ranks unless something else does
+        or (_is_a_side(c, _AT) and (whole or ranked or (lateral and _side_of(c) in VERTICAL)))
+        else c
         for c in described
     ]
 
@@ -285,10 +290,9 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
     return (name in RANKING or name.partition(" ")[2] in RANKING) and kind in (None, "robot", "speaker")
 
 
-def _is_a_side(place: ParseTree) -> bool:
-    landmark, name = place.children[0], place.phrase.words[0]
-    far = name in RANKING and place.phrase.text.split(" ")[0] in _AT  # "on your far left"
-    return (name in _AT or far) and landmark.phrase.noun in SIDED and not landmark.children
+def _is_a_side(place: ParseTree, names: Collection[str]) -> bool:
+    landmark, said = place.children[0], place.phrase.text.split(" ")[0] in _AT or names is _AT
+    return place.phrase.words[0] in names and said and landmark.phrase.noun in SIDED and not landmark.children
 
 
 def _within(place: ParseTree) -> ParseTree:

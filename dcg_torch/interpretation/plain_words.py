@@ -51,7 +51,7 @@ from dcg_torch.names.vocabulary import (
     counted,
     is_superlative,
 )
-from dcg_torch.names.weights import names_one_of
+from dcg_torch.names.weights import log_odds
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
 
 
@@ -240,6 +240,11 @@ _AT_SIDE = (*_WITHIN, *SAME_RELATION, NEAREST, "near")
 OWNED_BY = {"your": "you", "my": "me"}
 
 
+def _names_one(noun: str, there: frozenset[str]) -> bool:
+    """Is it a name of something that is there? "Picture" may be said of anything, and is then no name of it."""
+    return any(log_odds(noun, head) > 0.0 for head in there)
+
+
 def _picks(tree: ParseTree) -> str | None:
     """The rank that a place in a group is: "on the right side of the row" is the rightmost in it."""
     if len(tree.children) != 1 or not in_group(tree.children[0].phrase):
@@ -280,7 +285,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     home = phrase.noun in HOME or (phrase.noun in _ROOM and not (phrase.words or landmark.children))
     if home and name in _WITHIN and not any(head.startswith(phrase.noun or "") for head in there):
         return ()
-    if phrase.noun in VIEWERS and not names_one_of(phrase.noun, there):
+    if phrase.noun in VIEWERS and not _names_one(phrase.noun, there):
         phrase = replace(phrase, noun="you")
     owner = next((word for word, who in OWNED_BY.items() if who == phrase.noun), None)
     if owner is not None and name in BESIDE_WHOM:  # "left of you" is not beside you alone
@@ -288,7 +293,7 @@ def _placed(tree: ParseTree, there: frozenset[str]) -> tuple[ParseTree, ...]:
     if name in SIDE_OF and phrase.noun in _ROOM and not (phrase.words or landmark.children or phrase.noun in there):
         name, phrase = "on", replace(phrase, noun=SIDE_OF[name])  # "on the left side of the room"
     if phrase.noun in WORKSPACE and not (
-        any(head.startswith(phrase.noun) for head in there) or names_one_of(phrase.noun, there)
+        any(head.startswith(phrase.noun) for head in there) or _names_one(phrase.noun, there)
     ):
         anywhere = name in _ANYWHERE and not (name == "on" and phrase.noun in STOOD_ON)
         if anywhere and NOT not in tree.phrase.words and not (landmark.children or phrase.words):
