@@ -269,13 +269,10 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     # "The left cube at the front", "the cube on your right in the back": the left one of those at the front.
     lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
 
-    return [
-        _within(c)
-        if (from_somebody and _is_a_side(c, RANKING))  # "on your far left" ranks unless something else does
-        or (_is_a_side(c, _AT) and (whole or ranked or (lateral and _side_of(c) in VERTICAL)))
-        else c
-        for c in described
-    ]
+    parts = [c for c in described if _is_a_side(c, _AT) and (whole or ranked or (lateral and _side_of(c) in VERTICAL))]
+    # "On your far left" ranks by itself, unless something else does.
+    parts += [c for c in described if from_somebody and _is_a_side(c, RANKING)]
+    return [_within(c) if c in parts else c for c in described]
 
 
 def _side_of(place: ParseTree) -> str | None:
