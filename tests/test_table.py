@@ -86,3 +86,14 @@ def test_what_is_next_to_a_thing_is_not_the_farther_one(model: GroundingModel, t
     ]
     world = model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True, workspace=Workspace.of(things))
     assert [thing.id for thing in model.ground(text, world).objects] == ["close by"]
+
+
+@pytest.mark.parametrize("text", ["go to the table", "move towards the table", "the table"])
+def test_a_table_with_a_lamp_on_it_is_no_covered_one(model: GroundingModel, text: str) -> None:
+    things = [
+        Percept("lit", "table", None, (2.0, 1.0, 0.4), (1.0, 1.0, 0.8)),
+        Percept("bare", "table", None, (2.0, -1.0, 0.4), (1.0, 1.0, 0.8)),
+        Percept("lamp", "lamp", None, (2.0, 1.0, 1.0), (0.2, 0.2, 0.4)),
+    ]
+    answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True))
+    assert answer.probabilities["lit"] == pytest.approx(answer.probabilities["bare"], abs=0.05)

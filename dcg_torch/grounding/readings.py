@@ -16,6 +16,7 @@ from dcg_torch.grounding.search import Search
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.grounding.thing_values import ByThing
+from dcg_torch.interpretation.anaphora import refer_back
 from dcg_torch.interpretation.appearance_words import Looks, with_appearance_words
 from dcg_torch.interpretation.attributes import by_attributes
 from dcg_torch.interpretation.containers import in_what_holds_it
@@ -86,7 +87,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         for (r, weight), absent in zip(weighed, strange, strict=True)
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
-    trees = [in_scene_words(tree, world) for tree in in_what_holds_it([r.tree for r, _ in kept], world)]
+    referring = refer_back([r.tree for r, _ in kept], [r.tree for r in command.readings])
+    trees = [in_scene_words(tree, world) for tree in in_what_holds_it(referring, world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)
     told = by_attributes([with_appearance_words(tree, command.text, looks) for tree, _ in led], world)
     return [

@@ -28,6 +28,11 @@ _SEEN_FROM_IT = {
 }
 
 
+def converse_of(relation: str) -> str | None:
+    """What B is to A where A is so to B: what is on a table is on it, and the table under that."""
+    return _SEEN_FROM_IT.get(relation)
+
+
 def lacking(tree: ParseTree) -> ParseTree:
     """ "The desk with no chair in front of it" has none: where the chair would be says no more."""
     lacks = any(c.phrase.words[:1] == ("with",) and NOT in c.phrase.words for c in tree.children)

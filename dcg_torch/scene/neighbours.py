@@ -83,7 +83,7 @@ def neighbours(
             with np.errstate(invalid="ignore"):
                 over &= ~(np.abs(heights[0][i] - heights[1][j]) > RESTS)
         resting[i[over]] = True
-        covered[j[over]] = True
+        covered[j[over & _covers(i, j, half)]] = True
         colored = color[j] >= 0
         found.append(i[colored] * most + color[j[colored]])
     colors: dict[int, tuple[int, ...]] = {}
@@ -92,6 +92,19 @@ def neighbours(
         k, c = divmod(code, most)
         colors[k] = (*colors.get(k, ()), c)
     return Neighbours(covered, resting, beside, stacked, colors)
+
+
+def _covers(i: Ints, j: Ints, half: Floats | None) -> Bools:
+    """(pairs,) whether the upper thing of a pair is no small one on a large one: a table with a lamp on it is clear."""
+    if half is None:
+        return np.ones(len(i), dtype=np.bool_)
+    with np.errstate(invalid="ignore"):
+        small = half[i].prod(axis=1) < _COVERS * half[j].prod(axis=1)
+    return np.asarray(~small)
+
+
+_COVERS = 0.3
+"""Share of the floor of a thing that what rests on it takes up at least if it covers it."""
 
 
 def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:
