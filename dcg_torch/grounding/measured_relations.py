@@ -79,7 +79,9 @@ def of_several(
         return np.asarray(each.mean(axis=1))  # said once, it counts once
     off = aslant(phrase.words[0], landmarks, encoder)
     line = np.where(np.isfinite(off), -np.square(np.nan_to_num(off) / STRAIGHT), log_psi)[np.array(chosen)]
-    best: Floats = (line.sum(axis=1, keepdims=True) - line + each).max(axis=1)
+    places = range(each.shape[1])
+    found = [each[:, k] + line[:, [j for j in places if j != k]].sum(axis=1) for k in places]
+    best: Floats = np.max(found, axis=0)
     return best
 
 
