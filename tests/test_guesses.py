@@ -36,9 +36,33 @@ def test_answers_tell_what_it_is(text: str, ids: set[str]) -> None:
     assert meant(text, PARK, looked=True) == ids
 
 
+FOUR = [
+    Percept("reds", "person", "red", (2.2, 3.3, 0.0)),
+    Percept("greens", "person", "green", (5.1, 1.5, 0.0)),
+    Percept("blues", "person", "blue", (3.7, -2.2, 0.0)),
+    Percept("car", "car", "red", (6.0, -2.7, 0.0)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("is it a person? yes. is he wearing red? no. on the left? yes", "greens"),
+        ("Is it a person? Yes. Is she in blue? No. Is she in red? No.", "greens"),
+        ("the leftmost person that is not red", "greens"),
+        ("the person that is neither red nor green", "blues"),
+        ("the person who is wearing red", "reds"),
+    ],
+)
+def test_a_denied_colour_rules_out_what_has_it_and_nobody_else(text: str, id_: str) -> None:
+    """In a dictionary a red is a person; no colour is one where things have colours."""
+    assert meant(text, FOUR, looked=True) == {id_}
+
+
 @pytest.mark.parametrize(
     ("text", "told"),
     [
+        ("is he wearing red? no. is she dressed in blue? yes", "It is not red. It is blue."),
         ("Is he wearing a hat? No. Is it big? n/a", "It has no hat."),
         ("does it have wheels? yes, it does. car?\nno", "It has wheels. It is not a car."),
         ("Is it on the left half? I don't know. Is it bigger than the dog? y", "It is bigger than the dog."),

@@ -105,6 +105,7 @@ def test_logos(model: GroundingModel, style: str, text: str, meant: str) -> None
         ("Move blocks 3 and 11 to the left", "3 11"),
         ("block 25 goes up", ""),
         ("no. 7 left of no. 8", "7"),
+        ("pick up the three", "3"),
         ("two should be between three and four", "2"),
         ("block 1 north east of block 9 with a little gap", "1"),
     ],
@@ -153,6 +154,8 @@ def test_counts_and_measures_are_no_names() -> None:
     assert stated("move the two blocks on the left") == set()
     assert stated("slide the leftmost block 3 spaces to the right") == set()
     assert stated("take the red one") == set()
+    assert stated("take the three in the back") == set()
+    assert stated("There are two blocks on the left. Take the two") == set()
     assert stated("move it two block lengths above seven") == {"digit: 7"}
 
 

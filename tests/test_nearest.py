@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import pytest
 from asked import grounded
 
+from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
 
 Point = tuple[float, float]
@@ -89,3 +90,43 @@ def test_the_nearer_of_the_two_is_the_likelier_however_small_the_difference() ->
         answer = grounded("take the mug closest to a lamp", things)
         assert [o.id for o in answer.objects] == ["near"], gap
         assert answer.probabilities["near"] > answer.probabilities["far"]
+
+
+LAMPS = [
+    Percept("cabinet", "cabinet", None, (0.8, 2.9, 0.4)),
+    Percept("table lamp", "table lamp", None, (1.3, 2.7, 1.0)),
+    Percept("floor lamp", "floor lamp", None, (8.7, -3.9, 0.8)),
+    Percept("sofa", "sofa", None, (6.7, -3.9, 0.4)),
+    Percept("pillow", "pillow", None, (6.6, -3.8, 0.6)),
+    Percept("television", "television", None, (7.0, -0.9, 0.7)),
+    Percept("near umbrella", "umbrella", "red", (1.9, 1.4, 0.0)),
+    Percept("far umbrella", "umbrella", "yellow", (5.8, 3.8, 0.0)),
+]
+
+
+@pytest.mark.parametrize("unit", [0.5, 0.7, 1.0])
+def test_the_only_near_one_is_beside_it_at_another_height(unit: float) -> None:
+    """The floor lamp is 2 m from the sofa, the other 8.5 m; both stand higher than it."""
+    model = shipped()
+    workspace = Workspace(None, unit)
+    world = model.world_model(LAMPS, robot=Pose(0.0, 0.0), looked=True, workspace=workspace)
+    for text in ("the lamp beside the sofa", "switch on the lamp next to the sofa"):
+        assert [o.id for o in model.ground(text, world).objects] == ["floor lamp"], text
+
+
+@pytest.mark.parametrize(
+    ("text", "meant"),
+    [
+        ("the far umbrella", "far umbrella"),
+        ("the distant umbrella", "far umbrella"),
+        ("take the umbrella that is far away", "far umbrella"),
+        ("the umbrella, the far one", "far umbrella"),
+        ("the near umbrella", "near umbrella"),
+        ("the nearby umbrella", "near umbrella"),
+    ],
+)
+def test_far_and_near_by_themselves_rank(text: str, meant: str) -> None:
+    """They stand 2.4 m and 6.9 m from the robot."""
+    model = shipped()
+    world = model.world_model(LAMPS, robot=Pose(0.0, 0.0), looked=True)
+    assert [o.id for o in model.ground(text, world).objects] == [meant]

@@ -277,6 +277,19 @@ def of_kind(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools:
     return _described(fit, fit - table[number(Correspondence.INACTIVE)])
 
 
+def of_some_named(phrase: Phrase, encoder: WorldEncoder, tables: Tables) -> Bools | None:
+    """(things,) those that a noun names, where they are of several classes ("the vehicle closest to the gate"), or
+    without those that other words deny ("the cup on the left that is not red"); else None."""
+    if phrase.noun is None:
+        return None
+    named = of_kind(phrase, encoder, tables)
+    left: Bools = named & (_ruled_out(phrase, encoder) == 0.0)
+    if left.any() and (left != named).any():
+        return left
+    types = encoder.type_number[named]
+    return named if (types != types[:1]).any() else None
+
+
 def is_narrowed(phrase: Phrase, encoder: WorldEncoder) -> bool:
     """Does a noun phrase say more than a name of what is ranked from a landmark: "the red one closest to the door"?"""
     looks = phrase.color is not None or bool(phrase.look)

@@ -23,6 +23,7 @@ from dcg_torch.grounding.measured_relations import (
     means_all,
 )
 from dcg_torch.names.vocabulary import OF_TWO
+from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types import NOT, Phrase
 from dcg_torch.types.arrays import Bools, Floats, Ints
 
@@ -44,6 +45,7 @@ def by_nearness(
         compared: (things,) those that are compared; None: those of one type.
     """
     log_psi = _nearly_as_near(name, log_psi, landmarks, compared, encoder)
+    log_psi = _no_less_near(name, log_psi, landmarks, compared, encoder)
     log_psi = log_psi + by_distance(name, landmarks, scores, compared, encoder)
     nearer = nearer_on_a_side(name, landmarks, compared, encoder)
     return log_psi if nearer is None else log_psi + nearer
@@ -80,6 +82,64 @@ def _nearly_as_near(
 _NEARLY, _ASIDE = 9.0, 6.0
 """Nats that a thing loses at most for each e-fold by which it is farther than the nearest of its kind, and at least:
 "next to" is on the left or the right rather than behind, but not far off."""
+
+
+def _no_less_near(
+    name: str, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) what stands clearly nearer than others of its kind is no less beside a thing for its height.
+
+    That is for what stands higher or lower than the landmark, and not straight over or under it.
+    """
+    if name not in NEARNESS:
+        return log_psi
+    where, mark = encoder.layout, list(landmarks)
+    gap = encoder.distances(mark) + TOUCHING
+    offset = where.position[None] - where.position[mark][:, None]
+    on_spot = np.hypot(offset[..., 0], offset[..., 1]) < SAME_SPOT
+    raised = np.abs(offset[..., 2]) > _LEVEL
+    beside = np.isfinite(gap) & ~on_spot & where.solid[None] & where.solid[mark][:, None]
+    away = _NEARER * np.log(np.where(beside, gap, 1.0))
+    value = np.where(beside, log_psi + away, -np.inf)
+    found = log_psi.copy()
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    for number in np.unique(kind[where.solid]).tolist():
+        alike = np.flatnonzero(kind == number)
+        order = np.argsort(np.where(beside, -away, np.inf)[:, alike], axis=1, kind="stable")
+        farther = np.take_along_axis(value[:, alike], order, axis=1)
+        best = np.empty_like(farther)
+        np.put_along_axis(best, order, np.maximum.accumulate(farther, axis=1), axis=1)
+        least = np.where((beside & raised)[:, alike], best - away[:, alike] - _CLEARLY, -np.inf)
+        found[:, alike] = np.maximum(found[:, alike], least)
+    return found if compared is None else _nearest_by_far(found, np.where(beside & compared, gap, np.inf), raised)
+
+
+def _nearest_by_far(log_psi: Floats, gap: Floats, raised: Bools) -> Floats:
+    """(combos, things) what is far nearer than all others that are compared is beside a landmark: which else is meant?
+
+    Args:
+        gap: (combos, things), inf for what is not compared.
+        raised: (combos, things) those of which this is told.
+    """
+    if gap.shape[1] < 2:
+        return log_psi
+    first, second = np.partition(gap, 1, axis=1)[:, :2].T
+    row = np.flatnonzero(np.isfinite(second) & (second >= _TWICE * first))
+    nearest = gap[row].argmin(axis=1)
+    found = log_psi.copy()
+    row, nearest = row[raised[row, nearest]], nearest[raised[row, nearest]]
+    found[row, nearest] = np.maximum(found[row, nearest], _NEAREST)
+    return found
+
+
+_TWICE, _NEAREST = 2.0, -2.0
+"""How many times farther the second nearest is, where the nearest is meant however far off it is, and its log Psi at
+least."""
+_LEVEL = 0.01
+"""Units up to which things stand at one height."""
+_NEARER, _CLEARLY = 1.5, 1.0
+"""Nats that a thing is more beside a landmark than another for each e-fold by which it is nearer, and how many of them
+what else is known of both may be worth."""
 
 
 def nearest_of_a_kind(gap: Floats, compared: Bools | None, encoder: WorldEncoder) -> tuple[Ints, Floats]:

@@ -10,7 +10,14 @@ import numpy as np
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.contradictions import of_missing_marks
 from dcg_torch.grounding.decision import instead_of
-from dcg_torch.grounding.descriptions import comparison_set, is_narrowed, modifier_factor, of_attributes, of_kind, ranks
+from dcg_torch.grounding.descriptions import (
+    comparison_set,
+    is_narrowed,
+    modifier_factor,
+    of_attributes,
+    of_some_named,
+    ranks,
+)
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
@@ -164,7 +171,7 @@ class Search:
         ]
         if not own:
             return []
-        faced, named = self._beside_what_is_faced(tree), self._of_several_classes(tree.phrase)
+        faced, named = self._beside_what_is_faced(tree), of_some_named(tree.phrase, self.encoder, self._tables)
         kind = named if faced is None else faced
         picks = [c for c in own if c not in told and (ranks_from(c) or (several and picks_a_side(c)))]
         others = {id(c): self._modifier(c, kind) for c in own if c not in picks}
@@ -174,14 +181,6 @@ class Search:
         some = len(others) < len(own) and (several or bool(parts) or narrowed)
         compared = comparison_set(tree, parts, self.encoder, self._tables).among if some else None
         return [others[id(c)] if id(c) in others else self._modifier(c, compared) for c in own]
-
-    def _of_several_classes(self, phrase: Phrase) -> Bools | None:
-        """(things,) those that a noun names, where they are of several classes: "the vehicle closest to the gate"."""
-        if phrase.noun is None:
-            return None
-        named = of_kind(phrase, self.encoder, self._tables)
-        types = self.encoder.type_number[named]
-        return named if (types != types[:1]).any() else None
 
     def _beside_what_is_faced(self, tree: ParseTree) -> Bools | None:
         """(things,) those of a noun phrase's kind that may be meant by who faces what they are beside; else None."""

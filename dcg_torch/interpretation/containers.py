@@ -18,6 +18,7 @@ from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _INSIDE = listed("inside")
+_BEARS = listed("has as a verb") - {"be"}
 _NOTHING_IN, _EMPTY = "nothing in", "empty"
 _WORKED_WITH, _WORKS = listed("worked with"), listed("works")
 """Prepositions before a tool, and what is done with one."""
@@ -114,10 +115,11 @@ def _filled(tree: ParseTree, types: Collection[str], colors: Collection[str]) ->
         return ParseTree(phrase, children)
     if _NOTHING_IN in phrase.words:
         phrase = replace(phrase, words=tuple(_EMPTY if word == _NOTHING_IN else word for word in phrase.words))
-    with_color = [c for c in children if c.phrase.words[:1] == ("with",) and len(c.children) == 1]
+    with_color = [c for c in children if {*c.phrase.words[:1]} & _BEARS and len(c.children) == 1]
     fill = with_color[0].children[0].phrase if len(with_color) == 1 else phrase
-    if phrase.color or not (fill.color in colors and fill.noun) or fill is phrase:
+    worn = fill.noun is None and fill.text == fill.color  # "wearing red"
+    if phrase.color or not (fill.color in colors and (fill.noun or worn)) or fill is phrase:
         return ParseTree(phrase, children)
-    if names_one_of(fill.noun, types) and fill.noun not in everyday().fillings:
+    if fill.noun and names_one_of(fill.noun, types) and fill.noun not in everyday().fillings:
         return ParseTree(phrase, children)
     return ParseTree(replace(phrase, color=fill.color), tuple(c for c in children if c is not with_color[0]))

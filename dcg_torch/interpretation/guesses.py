@@ -10,6 +10,8 @@ import re
 
 from dcg_torch.english.forms import parts
 from dcg_torch.interpretation.turn_words import pattern
+from dcg_torch.names.normal_form import normalise
+from dcg_torch.names.palette import color_words
 
 _ONE = re.compile(r"\bone\b")
 
@@ -58,14 +60,22 @@ def _is_so(what: str, answer: bool) -> str:
     what = f"{what[0].lower()}{what[1:]}"
     side = pattern("guess_side").fullmatch(what)
     what = f"on the {side['side']}" if side is not None else what
+    worn = pattern("guess_worn").fullmatch(what)
+    what = worn["what"] if worn is not None and _is_color(worn["what"]) else what
     used = parts(what.lower()) if what.isalpha() else {}
     what = f"a {what}" if used.get("n", 0.0) > used.get("a", 0.0) and not what.endswith("s") else what
     return f"It is {'' if answer else 'not '}{what}."
 
 
 def _has(found: re.Match[str], answer: bool) -> str:
+    if _is_color(found["what"]):  # who wears red is the red one
+        return _is_so(found["what"], answer)
     what = found["what"] if answer else re.sub(r"^(?:an?|any|the|some) ", "", found["what"], flags=re.IGNORECASE)
     return f"It has {'' if answer else 'no '}{what}."
+
+
+def _is_color(word: str) -> bool:
+    return normalise(word) in color_words().basic
 
 
 def _used(found: re.Match[str], answer: bool) -> str:

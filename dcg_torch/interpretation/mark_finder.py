@@ -153,7 +153,8 @@ class _Finder:
             ends = after not in self.marks.heads | lists["after"] or not after
             return ends and (i == 0 or before in lists["before_one"])
         counted = before in ("the", "this", "that", "only", "single") and self.words[i] in ("two", "three", "four")
-        counted = counted and not suited
+        told_before = "." in self.text[: self.tokens[i].start()]  # "there are three cubes. take the three"
+        counted = counted and not suited and (bool(after) or told_before)
         return self.raw[i].isdecimal() or not counted or after in self.marks.heads
 
     def _hashed(self, i: int) -> bool:

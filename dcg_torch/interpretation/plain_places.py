@@ -58,6 +58,19 @@ def one_side(words: Sequence[str], beside: Iterable[str]) -> str | None:
     return sides[0] if len(sides) == 1 and {*words} - {*sides} - DEGREES <= {*beside} else None
 
 
+def ranked_by_distance(words: tuple[str, ...], phrase: Phrase) -> tuple[str, ...]:
+    """Words in which "the far chair" is the farthest, "the nearby one" the closest; "far left", "far end" stay."""
+    if {*words}.isdisjoint(_RANKED) or phrase.plural or phrase.noun in PLACE_WORDS or phrase.noun in _ENDS:
+        return words
+    if any(word not in _RANKED and picks_by_place(word) for word in words):
+        return words
+    return tuple(dict.fromkeys(_RANKED.get(word, word) for word in words))
+
+
+_RANKED = dict.fromkeys(listed("far by itself"), "farthest") | dict.fromkeys(listed("near by itself"), "closest")
+_ENDS = SIDED | listed("ends of a thing") | {"side", "edge"}
+
+
 def in_one_corner(children: tuple[ParseTree, ...]) -> tuple[ParseTree, ...]:
     """ "On the right in the back" is near one corner."""
     sides = [c for c in children if c.phrase.words[:1] and c.phrase.words[0] in _BESIDE and len(c.children) == 1]

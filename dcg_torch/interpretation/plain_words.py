@@ -17,6 +17,7 @@ from dcg_torch.interpretation.plain_places import (
     near_side,
     over_and_beyond,
     picks_by_place,
+    ranked_by_distance,
     side_with_a_middle,
     told_sides,
 )
@@ -81,6 +82,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
     picks = tuple(word for child in below if (word := _picks(child)) is not None)
     words = levels_of_stack(read_along(_plain((*phrase.words, *picks)), children), children)
     words = tuple(FLAT_SYNONYMS.get(word, word) for word in words) if flat else words
+    words = ranked_by_distance(words, phrase)
     words = tuple(word for word in words if word not in QUANTIFIERS)
     if not COMPASS.keys().isdisjoint(phrase.words):
         words = tuple(word for word in words if word != "most")  # "the most northern cube"

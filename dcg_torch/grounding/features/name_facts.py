@@ -16,7 +16,8 @@ from dcg_torch.names.attributes import ATTRIBUTE_FACTS, attribute_evidence
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.colors import color_scores, looks_like
 from dcg_torch.names.evidence import evidence
-from dcg_torch.names.palette import named_rgb
+from dcg_torch.names.normal_form import normalise
+from dcg_torch.names.palette import color_words, named_rgb
 from dcg_torch.names.weights import FACTS, fact_weights, log_odds
 from dcg_torch.types import LOOKED_ROUND, NOT, OPAQUE, Object, Phrase
 from dcg_torch.types.arrays import Floats, Ints
@@ -124,6 +125,9 @@ def _denies(word: str, thing: Object, named: bool) -> bool:
     of_color = named and thing.color is not None and not _SAME_COLOR.isdisjoint(color_evidence(denied, thing.color))
     if named and thing.color is None and thing.rgb is not None:
         of_color = looks_like(denied, thing.rgb)
+    shown = named and (thing.color is not None or thing.rgb is not None)
+    if shown and normalise(denied) in color_words().basic:  # no person is "a red" then
+        return of_color
     return of_color or (
         thing.type is not None and not thing.type.startswith(OPAQUE) and log_odds(denied, thing.type) > 0.0
     )
