@@ -7,7 +7,7 @@ import random
 from collections.abc import Callable, Sequence
 
 import pytest
-from asked import grounded
+from asked import grounded, shipped
 
 from dcg_torch.scene.workspace import Workspace
 from dcg_torch.types import Percept, Pose
