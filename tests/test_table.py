@@ -97,3 +97,19 @@ def test_a_table_with_a_lamp_on_it_is_no_covered_one(model: GroundingModel, text
     ]
     answer = model.ground(text, model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True))
     assert answer.probabilities["lit"] == pytest.approx(answer.probabilities["bare"], abs=0.05)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "the green block north of the two orange blocks",
+        "the yellow block south of two orange blocks",
+        "the orange block behind the two orange blocks",
+        "the green cube left of the two green cubes",
+    ],
+)
+def test_several_landmarks_leave_a_distribution(model: GroundingModel, text: str) -> None:
+    """Also where some are nothing at all to a thing, as what is south of it to what is north."""
+    answer = grounded(model, text, CUBES)
+    assert sum(answer.probabilities.values()) == pytest.approx(1.0)
+    assert 0.0 < answer.probability <= 1.0
