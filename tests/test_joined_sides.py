@@ -1,0 +1,35 @@
+"""Things that are told by sides of several others."""
+
+from __future__ import annotations
+
+import pytest
+from seen_whole import meant, thing
+
+CUPS = [
+    thing("near", "cup", 1.5, 0.6),
+    thing("far", "cup", 3.0, -1.0),
+    thing("before", "cup", 0.5, -1.0),
+    thing("lamp", "lamp", 1.0, 0.5),
+    thing("plate", "plate", 2.5, 0.3),
+]
+"""Of the two cups behind the lamp the near one is left of the plate, and the far one right of it."""
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("take the cup behind the lamp and right of the plate", "far"),
+        ("any cup that is right of the plate and behind the lamp", "far"),
+        ("take the cup behind the lamp and left of the plate", "near"),
+        ("take the cup in front of the lamp and to the right of the plate", "before"),
+        ("take the thing behind the lamp and to the right of the plate", "far"),
+    ],
+)
+def test_on_the_side_of_each_the_nearest_of_neither(text: str, id_: str) -> None:
+    assert meant(text, CUPS) == [id_]
+
+
+def test_of_equals_the_one_that_is_meant_by_a_side_alone() -> None:
+    """Both cups are behind the lamp and left of the plate; the second is far off."""
+    things = [*CUPS[3:], thing("first", "cup", 1.5, 0.6), thing("second", "cup", 4.0, 2.5)]
+    assert meant("take the cup behind the lamp and left of the plate", things) == ["first"]
