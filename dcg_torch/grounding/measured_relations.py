@@ -79,7 +79,8 @@ def of_several(
         return np.asarray(each.mean(axis=1))  # said once, it counts once
     off = aslant(phrase.words[0], landmarks, encoder)
     line = np.where(np.isfinite(off), -np.square(np.nan_to_num(off) / STRAIGHT), log_psi)[np.array(chosen)]
-    best: Floats = (line.sum(axis=1, keepdims=True) - line + each).max(axis=1)
+    nearest = [np.delete(line, k, axis=1).sum(axis=1) + each[:, k] for k in range(each.shape[1])]  # the others in line
+    best: Floats = np.max(nearest, axis=0)
     return best
 
 
