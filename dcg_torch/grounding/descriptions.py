@@ -22,6 +22,7 @@ from dcg_torch.grounding.floor_support import by_floor_support
 from dcg_torch.grounding.group_membership import beside_members, log_of_group, of_members
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
 from dcg_torch.grounding.isolation import of_isolation
+from dcg_torch.grounding.joined_sides import by_joined_side
 from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured_relations import means_all, means_several, of_all, of_denied, of_several, surrounded
 from dcg_torch.grounding.measurement import by_measurement, by_measurement_of_few
@@ -129,6 +130,7 @@ def _log_psi(
     log_psi = beside_members(name, by_opposite_side(name, log_psi, landmarks, encoder), landmarks, encoder)
     log_psi = deepest_few(tree, of_all(tree.phrase, log_psi, landmarks, encoder), encoder)
     first = [of[0] for of in landmarks]
+    log_psi = by_joined_side(tree, log_psi, first, encoder)
     log_psi = by_bearing(tree.phrase, log_psi, first, compared, encoder)
     log_psi = by_compass(tree, log_psi, first, compared, encoder)
     if name not in _MEMBER:

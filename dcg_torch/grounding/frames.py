@@ -58,8 +58,10 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     place = next((c for c in tree.children if c.phrase.words[:1] and c.phrase.words[0] in views_ and c.children), None)
     if place is None:
         return _from_before(tree, solve)
-    if len(tree.children) < 2 or place.children[0].phrase.noun is None:
+    if place.children[0].phrase.noun is None:
         return None
+    if len(tree.children) < 2:  # "facing the windows, it is the one on the right"
+        return _from_before(tree, solve)
     found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), place.children[:1]))
     thing = found.object
     if thing is None or thing.hypothetical:

@@ -51,7 +51,7 @@ def ranked_among(noun: ParseTree, modifier: ParseTree) -> ParseTree:
 
 
 def of_all(phrase: Phrase, log_psi: Floats, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder) -> Floats:
-    """(combos, things) log Psi of a modifier that `means_all` with what is measured; of others as it was."""
+    """(combos, things) of a modifier that `means_all`; the rest as it was."""
     name = phrase.words[0]
     if not means_all(phrase):
         return log_psi
@@ -79,9 +79,8 @@ def of_several(
         return np.asarray(each.mean(axis=1))  # said once, it counts once
     off = aslant(phrase.words[0], landmarks, encoder)
     line = np.where(np.isfinite(off), -np.square(np.nan_to_num(off) / STRAIGHT), log_psi)[np.array(chosen)]
-    places = range(each.shape[1])
-    found = [each[:, k] + line[:, [j for j in places if j != k]].sum(axis=1) for k in places]
-    best: Floats = np.max(found, axis=0)
+    nearest = [np.delete(line, k, axis=1).sum(axis=1) + each[:, k] for k in range(each.shape[1])]  # the others in line
+    best: Floats = np.max(nearest, axis=0)
     return best
 
 
@@ -141,7 +140,7 @@ def within_reach(landmarks: Sequence[int], encoder: WorldEncoder, up_to: float |
 def of_denied(
     name: str, log_psi: Floats, landmarks: Sequence[int], scores: Floats, encoder: WorldEncoder, *, denied: bool
 ) -> Floats | None:
-    """(combos, things) log Psi of a modifier that is denied or denies nearness itself ("far from"); None of others."""
+    """(combos, things) of a modifier that is denied, or that denies nearness by itself ("far from"); None of others."""
     if not denied and name not in _FAR_OFF:
         return None
     far = _beyond_reach(name, landmarks, scores, encoder)

@@ -21,6 +21,7 @@ from dcg_torch.grounding.descriptions import (
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF
 from dcg_torch.grounding.hypotheses import NOTHING_BELOW, Beam, Combos, Hypothesis, ModifierFactor
+from dcg_torch.grounding.joined_sides import joined
 from dcg_torch.grounding.landmarks import landmarks_of, only_named, without_landmarks
 from dcg_torch.grounding.measured_relations import ranked_among
 from dcg_torch.grounding.modifiers import is_in_a_group, is_to_a_place, picks_a_side, ranks_from, tells_which_few
@@ -167,7 +168,9 @@ class Search:
         told = tells_which_few(tree) if several else []
         few = {of.children: of for of in told}
         own = [
-            few.get(c.children, ranked_among(tree, c)) for c in tree.children if c.phrase.kind is PhraseKind.MODIFIER
+            few.get(c.children, joined(tree, ranked_among(tree, c)))
+            for c in tree.children
+            if c.phrase.kind is PhraseKind.MODIFIER
         ]
         if not own:
             return []

@@ -87,10 +87,10 @@ def _is_elsewhere(phrase: Phrase, types: Collection[str], told: bool) -> bool:
 
 
 def _is_there(phrase: Phrase, types: Collection[str]) -> bool:
-    """Does a phrase speak of things of which all that is there are?"""
+    """Does a phrase speak of things that are there?"""
     if phrase.noun is None:
         return phrase.color is not None or bool(phrase.words)
-    return all(names_one_of(phrase.noun, (type_,)) for type_ in types)
+    return names_one_of(phrase.noun, types)
 
 
 def _colored(tree: ParseTree, types: Collection[str]) -> ParseTree:
