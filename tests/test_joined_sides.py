@@ -48,3 +48,21 @@ def test_north_of_two_is_a_probability() -> None:
     found = model.ground("the green block north of the two orange blocks", model.world_model(blocks, robot=HERE))
     assert [o.id for o in found.objects] == ["beyond"]
     assert all(0.0 <= p <= 1.0 + 1e-9 for p in found.probabilities.values())
+
+
+@pytest.mark.parametrize(
+    ("text", "id_"),
+    [
+        ("look at the plate that is right of the lamp; any cup behind it", "behind"),
+        ("find the plate. any cup behind it", "behind"),
+        ("take the plate. any cup behind it is fine", "plate"),
+    ],
+)
+def test_any_beside_what_is_looked_at(text: str, id_: str) -> None:
+    things = [
+        thing("behind", "cup", 2.5, 0.1),
+        thing("before", "cup", 0.8, 0.1),
+        thing("plate", "plate", 1.5, 0.0),
+        thing("lamp", "lamp", 1.5, 1.2),
+    ]
+    assert meant(text, things) == [id_]

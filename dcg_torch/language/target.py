@@ -49,7 +49,7 @@ def _object_score(target: Item, clause: Clause, clauses: Sequence[Clause], found
         does = (name for name in CHOICES["target_verbs"].split() if verb in VERBS[name])
         return TARGETS["acting" if clause.acting else next(does, "handled" if target.is_a("named") else "other")]
     again = references.named_again(clause, clauses) is not None
-    if target.definite and not target.plural and (target.noun or any(m.noun.plural for m in found)) and not again:
+    if target.is_a("singled_out") and (target.noun or any(m.noun.plural for m in found)) and not again:
         # "Until you see the window, then it is the plant next to it", or "Is the oven off? The stove by the sink."
         before = (noun for other in clauses for noun in other.objects if noun.text in SETS["stands_for"])
         if clause.verb is not None and any(noun.stop == clause.verb.start for noun in before):
