@@ -113,3 +113,20 @@ def test_several_landmarks_leave_a_distribution(model: GroundingModel, text: str
     answer = grounded(model, text, CUBES)
     assert sum(answer.probabilities.values()) == pytest.approx(1.0)
     assert 0.0 < answer.probability <= 1.0
+
+
+@pytest.mark.parametrize("away", [0.2, 0.35, 0.5, 0.55, 0.7, 1.0])
+@pytest.mark.parametrize(
+    ("side", "x", "y"), [("behind", 1, 0), ("in front of", -1, 0), ("left of", 0, 1), ("right of", 0, -1)]
+)
+def test_what_is_close_on_a_side_is_not_on_the_spot(
+    model: GroundingModel, side: str, x: int, y: int, away: float
+) -> None:
+    """Things of which no extents are known, on one floor: the near one that is straight on, not the far one aslant."""
+    things = [
+        Percept("lamp", "lamp", None, (2.0, 0.0, 0.0)),
+        Percept("near", "cup", None, (2.0 + away * x, away * y, 0.0)),
+        Percept("far", "cup", None, (2.0 + 2.0 * x + 1.5 * y, 2.0 * y - 1.5 * x, 0.0)),
+    ]
+    answer = model.ground(f"the cup {side} the lamp", model.world_model(things, robot=Pose(0.0, 0.0, 0.0), looked=True))
+    assert [thing.id for thing in answer.objects] == ["near"]

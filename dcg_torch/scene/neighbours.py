@@ -13,6 +13,8 @@ import numpy as np
 
 from dcg_torch.types.arrays import Bools, Floats, Ints
 
+LEVEL, SAME_POINT = 0.01, 0.1
+"""Units of height within which things stand on one level, and of floor within which two of these are in one place."""
 SAME_SPOT = 0.6
 """Units between two feet, seen from above, within which one thing is over the other."""
 ONE_LEVEL = 1.2
@@ -69,6 +71,8 @@ def neighbours(
         i, j = there[one], there[other]
         beside[i] = True
         spot = apart < SAME_SPOT
+        if half is None:
+            spot &= (np.abs(position[i, 2] - position[j, 2]) > LEVEL) | (apart <= SAME_POINT)
         if half is not None:
             offset = np.abs(position[i, :2] - position[j, :2])
             with np.errstate(invalid="ignore"):

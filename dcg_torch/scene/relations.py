@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dcg_torch.scene.layout import NEAREST, Layout
-from dcg_torch.scene.neighbours import ONE_LEVEL, SAME_SPOT
+from dcg_torch.scene.neighbours import LEVEL, ONE_LEVEL, SAME_POINT, SAME_SPOT
 from dcg_torch.scene.order import TIE, Alike, counted
 from dcg_torch.scene.order import before as lower
 from dcg_torch.scene.relation_names import DISTANCES, FRAMES, ORDERS, RELATIONS, VERTICAL
@@ -99,7 +99,7 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     exists = np.isfinite(distance) & ~itself
     # A line of the whole scene has everything near it: a thing is in it or not.
     alone = exists & ~where.line[first][:, None] if where.members else exists
-    near = _nearness(where, distance, place, over)
+    near = _nearness(where, distance, (np.abs(up) <= LEVEL) & (distance > SAME_POINT), place, over)
     steps = _BOUNDS.searchsorted(np.where(exists, near, 0.0))
     found = {
         "distance": np.where(alone & ~place, steps, -1),
@@ -125,10 +125,12 @@ def _standing(where: Layout, first: Ints) -> tuple[NDArray[np.int16], Floats, Bo
     return out, distance, alone
 
 
-def _nearness(where: Layout, distance: Floats, place: Bools, over: _Over) -> Floats:
+def _nearness(where: Layout, distance: Floats, level: Bools, place: Bools, over: _Over) -> Floats:
     """(c, n) the distance by which things are near: none of what is over or under, some of what is beside."""
     near = distance
-    if over is not None:
+    if over is None:  # two that stand on one level are not on one spot, however close
+        near = np.where(level & ~place & where.solid[None], np.maximum(near, _BESIDE_IT), near)
+    else:
         covers, apart = over
         near = np.where(apart, np.maximum(distance, _BESIDE_IT), distance)
         near = np.where(covers, np.minimum(near, 0.0), near)
