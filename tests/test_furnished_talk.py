@@ -58,8 +58,10 @@ def test_a_desk_does_not_rest_on_the_bin_below_it() -> None:
         return Object(id_, id_, True, position=(2.0, 0.0, z), size=size)
 
     under = WorldModel((body("desk", 0.37, (1.4, 0.7, 0.74)), body("bin", 0.2, (0.3, 0.3, 0.4))), unit=0.5)
-    stacked = WorldModel((body("cup", 0.45, (0.1, 0.1, 0.1)), body("box", 0.2, (0.3, 0.3, 0.4))), unit=0.5)
+    stacked = WorldModel((body("can", 0.45, (0.2, 0.2, 0.1)), body("box", 0.2, (0.3, 0.3, 0.4))), unit=0.5)
+    lit = WorldModel((body("lamp", 0.84, (0.2, 0.2, 0.2)), body("desk", 0.37, (1.4, 0.7, 0.74))), unit=0.5)
     assert not layout(under).near.covered.any()
+    assert not layout(lit).near.covered.any()  # a lamp is in nobody's way
     assert layout(stacked).near.covered.tolist() == [False, True]
 
 
