@@ -112,6 +112,7 @@ def test_several_landmarks_leave_a_distribution(model: GroundingModel, text: str
     """Also where some are nothing at all to a thing, as what is south of it to what is north."""
     answer = grounded(model, text, CUBES)
     assert sum(answer.probabilities.values()) == pytest.approx(1.0)
+    assert answer.probability is not None
     assert 0.0 < answer.probability <= 1.0
 
 
