@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from dcg_torch.scene import neighbours as room
-from dcg_torch.scene.neighbours import NEXT, ONE_LEVEL, SAME_SPOT, neighbours
+from dcg_torch.scene.neighbours import LEVEL, NEXT, ONE_LEVEL, SAME_POINT, SAME_SPOT, neighbours
 from dcg_torch.scene.order import TIE, Alike, before, signatures
 
 seeds = st.integers(0, 2**32 - 1)
@@ -56,8 +56,9 @@ def test_neighbours_equal_those_of_all_pairs(n: int, pairs: int, monkeypatch: py
     for i in range(n):
         apart = np.hypot(*(position[i, :2] - position[:, :2]).T)
         other = np.arange(n) != i
-        spot = (apart < SAME_SPOT) & other
         up = position[i, 2] - position[:, 2]
+        # Two on one level are beside one another, unless both are in one place.
+        spot = (apart < SAME_SPOT) & other & ((np.abs(up) > LEVEL) | (apart <= SAME_POINT))
         assert found.beside[i] == ((apart < NEXT) & other).any()
         assert found.stacked[i] == spot.any()
         assert found.resting[i] == (spot & (up > 0.01) & (up <= ONE_LEVEL)).any()
