@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import dcg_torch
-from dcg_torch import Percept, Pose
+from dcg_torch import GroundingModel, Percept, Pose
 from dcg_torch.interpretation.anaphora import refer_back
 
 SCENE = [
@@ -27,8 +27,7 @@ SCENE = [
         ("Go to that table.", None),  # which one nobody has said
     ],
 )
-def test_a_landmark_that_is_pointed_back_to(text: str, id_: str | None) -> None:
-    model = dcg_torch.pretrained()
+def test_a_landmark_that_is_pointed_back_to(model: GroundingModel, text: str, id_: str | None) -> None:
     answer = model.ground(text, model.world_model(SCENE, robot=Pose(0.0, 0.0, 0.0), looked=True))
     if id_ is None:
         assert abs(answer.probabilities["lit"] - answer.probabilities["bare"]) < 0.1

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import pytest
 
-import dcg_torch
 from dcg_torch import GroundingModel, Percept, Pose, Workspace
 from dcg_torch.grounding.solution import Solution
 
@@ -22,11 +21,6 @@ CUBES = [
     for name, (x, y) in of.items()
 ]
 ACROSS = {"robot": Pose(-0.3, 0.0, 0.0), "speaker": Pose(1.3, 0.0, 3.14159)}
-
-
-@pytest.fixture(scope="module")
-def model() -> GroundingModel:
-    return dcg_torch.pretrained()
 
 
 def grounded(model: GroundingModel, text: str, things: list[Percept]) -> Solution:

@@ -79,7 +79,7 @@ def _straight_on(offset: Floats, ways: Floats) -> Floats:
 
 
 def _right_before(offset: Floats, solid: Bools) -> Floats:
-    """(things,) how near each stands: to who stands outside all is in front, and what is near is so above all."""
+    """(things,) what each loses for being farther than the nearest: who stands outside has all things in front."""
     away = np.hypot(*offset.T)
     known = solid & np.isfinite(away)
     nearest = max(_LEAST / 2.0, float(away[known].min())) if known.any() else 1.0

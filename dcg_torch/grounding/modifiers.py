@@ -7,7 +7,7 @@ from dataclasses import replace
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, RANKING, SIDED, WITHIN, counted, is_superlative
+from dcg_torch.names.vocabulary import INSIDE, OF_OUTLINE, SIDED, WITHIN, counted, is_superlative, ranks_from_landmark
 from dcg_torch.types import ParseTree, PhraseKind
 
 _MOST_COUNTED = 3
@@ -16,8 +16,7 @@ _MOST_COUNTED = 3
 
 def ranks_from(tree: ParseTree) -> bool:
     """Is it a modifier by which things are ranked from a landmark: "second closest to"?"""
-    name = tree.phrase.words[0]
-    return name in RANKING or name.partition(" ")[2] in RANKING
+    return ranks_from_landmark(tree.phrase.words[0])
 
 
 def tells_which_few(noun: ParseTree) -> list[ParseTree]:

@@ -23,7 +23,7 @@ from dcg_torch.grounding.measured_relations import (
     means_all,
 )
 from dcg_torch.names.vocabulary import OF_TWO
-from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.scene.neighbours import LEVEL, SAME_SPOT
 from dcg_torch.types import NOT, Phrase
 from dcg_torch.types.arrays import Bools, Floats, Ints
 
@@ -97,7 +97,7 @@ def _no_less_near(
     gap = encoder.distances(mark) + TOUCHING
     offset = where.position[None] - where.position[mark][:, None]
     on_spot = np.hypot(offset[..., 0], offset[..., 1]) < SAME_SPOT
-    raised = np.abs(offset[..., 2]) > _LEVEL
+    raised = np.abs(offset[..., 2]) > LEVEL
     beside = np.isfinite(gap) & ~on_spot & where.solid[None] & where.solid[mark][:, None]
     away = _NEARER * np.log(np.where(beside, gap, 1.0))
     value = np.where(beside, log_psi + away, -np.inf)
@@ -135,8 +135,6 @@ def _nearest_by_far(log_psi: Floats, gap: Floats, raised: Bools) -> Floats:
 _TWICE, _NEAREST = 2.0, -2.0
 """How many times farther the second nearest is, where the nearest is meant however far off it is, and its log Psi at
 least."""
-_LEVEL = 0.01
-"""Units up to which things stand at one height."""
 _NEARER, _CLEARLY = 1.5, 1.0
 """Nats that a thing is more beside a landmark than another for each e-fold by which it is nearer, and how many of them
 what else is known of both may be worth."""

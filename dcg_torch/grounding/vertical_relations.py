@@ -16,15 +16,15 @@ from dcg_torch.grounding.measured_relations import TOUCHING, gaps
 from dcg_torch.names.relations import listed
 from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.layout import Layout
-from dcg_torch.scene.neighbours import SAME_SPOT
+from dcg_torch.scene.neighbours import LEVEL, SAME_SPOT
 from dcg_torch.types.arrays import Bools, Floats, Ints
 
 _OVER, _UNDER = listed("straight over"), listed("straight under")
 _ON, _UPRIGHT = listed("resting on"), {"above"} | _UNDER
 """Of those, what says that one thing touches another, and what says in which direction it is."""
 _BETWEEN = "between"
-_LEVEL, _OVERLAP = 0.01, 0.1
-"""Units by which one thing is higher than another at least, and by which things may reach into what they lie on."""
+_OVERLAP = 0.1
+"""Units by which things may reach into what they lie on."""
 _NOT_ON = 5.0
 """Nats that a thing loses that is over or under a landmark on which others are."""
 _REACH = 0.6
@@ -103,7 +103,7 @@ def _next_ones(up: float, mark: Ints, log_psi: Floats, encoder: WorldEncoder, *,
         if len(stacked) < 2:
             continue
         alike, heights = encoder.type_number[stacked], rise[stacked]
-        nearer = ((alike[None] == alike[:, None]) & (heights[None] < heights[:, None] - _LEVEL)).sum(axis=1)
+        nearer = ((alike[None] == alike[:, None]) & (heights[None] < heights[:, None] - LEVEL)).sum(axis=1)
         found = found.copy() if found is log_psi else found
         if whole:
             found[k, stacked] = _AMONG
@@ -119,7 +119,7 @@ def _between(marks: Ints, log_psi: Floats, encoder: WorldEncoder) -> Floats:
     for k in np.flatnonzero(where.stacked[marks].all(axis=1)).tolist():
         one, other = marks[k]
         low, high = sorted((height[one], height[other]))
-        inside = (height > low + _LEVEL) & (height < high - _LEVEL)
+        inside = (height > low + LEVEL) & (height < high - LEVEL)
         if inside.any():
             spot = _on_the_spot(one, where)
             inside &= spot & spot[other]
@@ -151,7 +151,7 @@ def _that_way(up: float, mark: Ints, where: Layout) -> tuple[Floats, Bools]:
     height = where.position[:, 2]
     with np.errstate(invalid="ignore"):
         rise = up * (height[None] - height[mark][:, None])
-        so = rise > _LEVEL
+        so = rise > LEVEL
     if where.bodies is not None:
         bodies, n = where.bodies, len(where.bodies.half)
         middle, foot = (bodies.bottom + bodies.top) / 2.0, bodies.bottom

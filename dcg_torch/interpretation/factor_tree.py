@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -36,6 +36,7 @@ from dcg_torch.names.vocabulary import (
     WITHIN,
     counted,
     is_superlative,
+    ranks_from_landmark,
 )
 from dcg_torch.scene.layout import NEAREST
 from dcg_torch.scene.upright_pictures import is_upright
@@ -269,9 +270,8 @@ def _within_parts(phrase: Phrase, described: list[ParseTree]) -> list[ParseTree]
     # "The left cube at the front", "the cube on your right in the back": the left one of those at the front.
     lateral = not LATERAL.isdisjoint(phrase.words) or any(_side_of(c) in LATERAL for c in described)
 
-    parts = [c for c in described if _is_a_side(c, _AT) and (whole or ranked or (lateral and _side_of(c) in VERTICAL))]
-    # "On your far left" ranks by itself, unless something else does.
-    parts += [c for c in described if from_somebody and _is_a_side(c, RANKING)]
+    parts = [c for c in described if _is_a_side(c) and (whole or ranked or (lateral and _side_of(c) in VERTICAL))]
+    parts += [c for c in described if from_somebody and _is_far_off(c)]
     return [_within(c) if c in parts else c for c in described]
 
 
@@ -283,13 +283,17 @@ def _ranks_from_somebody(place: ParseTree) -> bool:
     """Not from a corner or the middle: these are places beside the side ("in the middle on the left")."""
     landmark = place.children[0].phrase
     kind, _ = PLACE_WORDS.get(landmark.noun or "", (None, None))
-    name = place.phrase.words[0]  # "closest to" or "third closest to"
-    return (name in RANKING or name.partition(" ")[2] in RANKING) and kind in (None, "robot", "speaker")
+    return ranks_from_landmark(place.phrase.words[0]) and kind in (None, "robot", "speaker")
 
 
-def _is_a_side(place: ParseTree, names: Collection[str]) -> bool:
-    landmark, said = place.children[0], place.phrase.text.split(" ")[0] in _AT or names is _AT
-    return place.phrase.words[0] in names and said and landmark.phrase.noun in SIDED and not landmark.children
+def _is_a_side(place: ParseTree) -> bool:
+    return place.phrase.words[0] in _AT and _side_of(place) in SIDED
+
+
+def _is_far_off(place: ParseTree) -> bool:
+    """ "On your far left", which is said to be at a side and ranks from it."""
+    at = place.phrase.text.split(" ")[0] in _AT
+    return at and place.phrase.words[0] in RANKING and _side_of(place) in SIDED
 
 
 def _within(place: ParseTree) -> ParseTree:

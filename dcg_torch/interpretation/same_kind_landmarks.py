@@ -13,9 +13,6 @@ from dcg_torch.names.vocabulary import ORDINALS, is_superlative
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _OTHER, _ONE = "other", "one"
-_INTRODUCED = frozenset({"near", "facing"})
-"""What sentences before the one that matters are taken for: where the thing is, and who looks."""
-_ONE_OF = frozenset({"a", "an"})
 
 
 def by_same_kind(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
@@ -26,32 +23,6 @@ def by_same_kind(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
     """
     picked = any(map(_picks, said.words))
     return _named(tree) if picked or _OTHER in said.words or _OTHER in said.nouns else tree
-
-
-def by_introduction(tree: ParseTree, said: Words, _: WorldModel) -> ParseTree:
-    """ "Look for a cube. Take the cube that ..." speaks of one cube: what is introduced is no landmark.
-
-    Args:
-        said: the words of the tree.
-    """
-    return tree if said.words.isdisjoint(_INTRODUCED) else _introduced(tree)
-
-
-def _introduced(tree: ParseTree) -> ParseTree:
-    phrase, children = tree.phrase, tuple(map(_introduced, tree.children))
-    meant = phrase if phrase.kind is PhraseKind.NOUN else children[0].phrase if children else phrase
-    children = tuple(c for c in children if not (_INTRODUCED.issuperset(c.phrase.words[:1]) and _is_it(c, meant)))
-    return ParseTree(phrase, children)
-
-
-def _is_it(place: ParseTree, phrase: Phrase) -> bool:
-    """Is it what a sentence before named as one of those of which one is meant, and no more of it?"""
-    if len(place.phrase.words) != 1 or len(place.children) != 1:
-        return False
-    first = place.children[0].phrase
-    bare = not (first.words or first.plural or place.children[0].children)
-    said_before = place.phrase.text == first.text and first.text.split(" ")[0] in _ONE_OF
-    return bare and said_before and (first.noun, first.color) == (phrase.noun, phrase.color)
 
 
 def _named(tree: ParseTree) -> ParseTree:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dcg_torch.interpretation.alternatives import by_alternatives
+from dcg_torch.interpretation.anaphora import by_introduction
 from dcg_torch.interpretation.bearers import by_bearers
 from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.denials import by_denials
@@ -15,7 +16,7 @@ from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pa
 from dcg_torch.interpretation.plural_nouns import by_plural_nouns
 from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls
 from dcg_torch.interpretation.rooms import by_rooms
-from dcg_torch.interpretation.same_kind_landmarks import by_introduction, by_same_kind
+from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
 from dcg_torch.types import ParseTree, WorldModel

@@ -228,6 +228,11 @@ PICKED_FROM |= {"behind": "farthest", "in front of": "closest", "at the bottom o
 """What picks a thing from a group: "the one in the middle of the row, at the left end of the row"."""
 
 
+def ranks_from_landmark(relation: str) -> bool:
+    """Does a relation rank things from a landmark: "closest to", "second closest to"?"""
+    return relation in RANKING or relation.partition(" ")[2] in RANKING
+
+
 def is_superlative(word: str) -> bool:
     """Does a word pick the end of an order: "nearest", "leftmost", "middle"?"""
     return word.endswith(("est", "most")) or word == "middle"

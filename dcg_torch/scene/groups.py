@@ -15,7 +15,7 @@ import numpy as np
 
 from dcg_torch.names.vocabulary import LINE_ACROSS, LINE_ALONG, MIDDLE_LINE
 from dcg_torch.scene.clusters import clusters
-from dcg_torch.scene.neighbours import SAME_SPOT, nearest_other
+from dcg_torch.scene.neighbours import LEVEL, SAME_SPOT, nearest_other
 from dcg_torch.scene.order import TIE
 from dcg_torch.scene.upright_pictures import laid_flat
 from dcg_torch.types import Object, Pose
@@ -31,8 +31,6 @@ _HALFWAY = 0.25
 """How near to the middle of a step another thing stands that the step would leave out, as a share of the step."""
 _STEP = 2.0
 """Neighbours in an even row are at most so many times as far apart as the nearest ones."""
-_RAISED = 0.01
-"""Units by which one thing is higher than another at least that is over it."""
 _LEAST = 3
 """Members of a row or cluster; a stack has two."""
 _MOST = {"row": 12, "stack": 48, "cluster": 12}
@@ -285,7 +283,7 @@ def _uncovered(position: Floats) -> Ints:
 def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
     """Things over one another."""
     height = position[:, 2].tolist()
-    if _extent(height) <= _RAISED:
+    if _extent(height) <= LEVEL:
         return ()
     stack = {j: {j} for j in range(len(position))}
     for i, j in zip(*(numbers.tolist() for numbers in _over(position)), strict=True):
@@ -298,7 +296,7 @@ def _stacks(position: Floats) -> Iterable[tuple[int, ...]]:
 def _over(position: Floats) -> tuple[Ints, Ints]:
     """The pairs of things of which one is over the other, the lower number first, in the order of their numbers."""
     i, j = _close_pairs(position[:, :2], SAME_SPOT)
-    apart = np.abs(position[i, 2] - position[j, 2]) > _RAISED
+    apart = np.abs(position[i, 2] - position[j, 2]) > LEVEL
     return i[apart], j[apart]
 
 

@@ -71,9 +71,9 @@ def neighbours(
         i, j = there[one], there[other]
         beside[i] = True
         spot = apart < SAME_SPOT
-        if half is None:
+        if half is None:  # two that stand on one level are beside one another, however close
             spot &= (np.abs(position[i, 2] - position[j, 2]) > LEVEL) | (apart <= SAME_POINT)
-        if half is not None:
+        else:
             offset = np.abs(position[i, :2] - position[j, :2])
             with np.errstate(invalid="ignore"):
                 spot &= ~(offset >= half[i] + half[j]).any(axis=1)
@@ -82,7 +82,7 @@ def neighbours(
         i, j = i[spot], j[spot]
         stacked[i] = True
         up = position[i, 2] - position[j, 2]
-        over = (up > 0.01) & (up <= ONE_LEVEL)
+        over = (up > LEVEL) & (up <= ONE_LEVEL)
         if heights is not None:
             with np.errstate(invalid="ignore"):
                 over &= ~(np.abs(heights[0][i] - heights[1][j]) > RESTS)
@@ -99,7 +99,12 @@ def neighbours(
 
 
 def _covers(i: Ints, j: Ints, half: Floats | None) -> Bools:
-    """(pairs,) whether the upper thing of a pair is no small one on a large one: a table with a lamp on it is clear."""
+    """(pairs,) whether the upper thing covers the lower one. A small thing on a large one does not: a lamp on a table.
+
+    Args:
+        i, j: (pairs,) numbers of the upper and the lower things.
+        half: (n, 2) half extents; None where nobody knows any, and then all that lies on a thing covers it.
+    """
     if half is None:
         return np.ones(len(i), dtype=np.bool_)
     with np.errstate(invalid="ignore"):
@@ -108,7 +113,7 @@ def _covers(i: Ints, j: Ints, half: Floats | None) -> Bools:
 
 
 _COVERS = 0.3
-"""Share of the floor of a thing that what rests on it takes up at least if it covers it."""
+"""A thing is covered by what takes up at least so much of its floor."""
 
 
 def _pairs(points: Floats, bound: float) -> Iterator[tuple[Ints, Ints, Floats]]:

@@ -150,7 +150,7 @@ _VERTICAL = np.array(
     ]
 )
 """Values of "vertical" for what is not on the landmark's spot and what is, from far below to far above."""
-_UP = np.array([*np.nextafter([-ONE_LEVEL, -0.01], -np.inf), 0.01, ONE_LEVEL])
+_UP = np.array([*np.nextafter([-ONE_LEVEL, -LEVEL], -np.inf), LEVEL, ONE_LEVEL])
 """Heights from which on things are one step less far below, or farther above; a thing just at a bound is nearer."""
 
 _BESIDE_IT = 0.7
