@@ -1,4 +1,4 @@
-"""What has nothing beside it: "the cup with nothing around it", "the cups that touch nothing".
+"""What has nothing beside it or on it: "the cup with nothing around it", "the cups that touch nothing", "the bare desk".
 
 That is measured, not learned: of the words for what is near a thing each is denied of all other things.
 """
@@ -28,8 +28,11 @@ _LEVEL = 0.02
 
 
 def of_isolation(words: Sequence[str], encoder: WorldEncoder) -> Floats:
-    """(things,) the log-probability that things have nothing beside them, where the words of a noun phrase say so."""
+    """(things,) the log-probability that things have nothing beside or on them, where a noun phrase's words say so."""
     log = np.zeros(len(encoder.all))
+    if not _BARE.isdisjoint(words):
+        carries = _carries(encoder)
+        log[: len(carries)] += np.where(carries, math.log(_LEAST), 0.0)
     where = encoder.layout
     things = np.flatnonzero(where.solid & np.isfinite(where.position).all(axis=1)).tolist()
     kind = encoder.type_number[things]
@@ -44,6 +47,19 @@ def of_isolation(words: Sequence[str], encoder: WorldEncoder) -> Floats:
 
 
 _BESIDE = NEARNESS | listed("around") | {"touching"}
+_BARE = listed("carrying nothing")
+
+
+def _carries(encoder: WorldEncoder) -> Bools:
+    """(things with extents,) on which does another lie? On none where extents are not known."""
+    bodies, at = encoder.layout.bodies, encoder.layout.position
+    if bodies is None:
+        return np.zeros(0, dtype=np.bool_)
+    numbers = np.arange(len(bodies.half))
+    covers, _ = bodies.over(numbers, at[None, numbers, :2] - at[numbers][:, None, :2])
+    np.fill_diagonal(covers, False)
+    found: Bools = (covers & (bodies.steps(numbers, covers) == 1)).any(axis=1)
+    return found
 
 
 def _there(name: str, things: list[int], encoder: WorldEncoder) -> Floats:

@@ -30,6 +30,7 @@ from dcg_torch.interpretation.factor_tree import (
     speaks_of,
 )
 from dcg_torch.interpretation.grids import by_cells, with_cells
+from dcg_torch.interpretation.informativeness import needless
 from dcg_torch.interpretation.parser_protocol import ReadCommand, WeightedReading, Words
 from dcg_torch.interpretation.plain_places import of_two_sides
 from dcg_torch.interpretation.room_parts import with_corners
@@ -87,6 +88,8 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
         for (r, weight), absent in zip(weighed, strange, strict=True)
         if weight >= least - (_ABSENT if strange[0] and not absent else 0.0)
     ]
+    kept = [(r, w - less) for (r, w), less in zip(kept, needless([r.tree for r, _ in kept], world), strict=True)]
+    kept.sort(key=lambda one: -one[1])
     referring = refer_back([r.tree for r, _ in kept], [r.tree for r in command.readings])
     trees = [in_scene_words(tree, world) for tree in in_what_holds_it(referring, world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)

@@ -35,7 +35,7 @@ def _the_same(one: Item, other: Item) -> bool:
     """ "(This is) a brown desk. The desk (is against the wall)": a thing is told of, and then named again."""
     first, then = sorted((one, other), key=lambda noun: noun.start)
     named = one.noun == other.noun is not None and not (one.plural or other.plural)
-    alone = then.definite and not (then.words or then.color or about_it(then))
+    alone = then.definite and then.text.split(" ", 1)[-1] == then.noun and not about_it(then)
     return named and alone and first.determined and not first.definite
 
 
@@ -120,7 +120,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
     several = [noun for noun in several if one.noun is None or _picks_from(one, noun)]  # "take the middle cone"
     if not several or (one.noun is not None and decisions.choose("picked", CHOICES["picked"]) != "of_those"):
         return
-    whole = [noun for noun in several if noun.plural]
+    whole = [noun for noun in several if noun.plural or "other" in one.words]
     tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
     group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
     one.noun, one.color, one.pronoun = group.noun, one.color or group.color, False

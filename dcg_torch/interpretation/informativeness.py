@@ -1,0 +1,47 @@
+"""Who tells of a thing that is alone of its kind what stands beside it means what stands there.
+
+"There is a bed. The cushion is to its left" says where one of several cushions is, in a room with one bed: to know the
+bed, its name would have been enough. In a room with three beds it may as well tell which of them is meant.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dcg_torch.names.weights import names_one_of
+from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
+
+_NEEDLESS = 2.5
+"""Nats that a reading loses by which more is said of a thing than is needed to know it."""
+_WITH, _PRONOUNS = "with", frozenset({"it", "its"})
+
+
+def needless(trees: Sequence[ParseTree], world: WorldModel) -> list[float]:
+    """By how many nats each reading of a command says more than need be of the thing that it means.
+
+    Args:
+        trees: of the readings; of one alone, and of several that mean the same, nothing is needless.
+        world: its classes say of how many things a noun is the name.
+    """
+    meant = [next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), tree) for tree in trees]
+    told = [any(map(_is_told_beside, noun.children)) for noun in meant]
+    if not any(told) or len({noun.phrase.noun for noun in meant}) < 2:
+        return [0.0] * len(trees)
+    return [
+        _NEEDLESS * (beside and _is_alone(noun.phrase.noun, world)) for noun, beside in zip(meant, told, strict=True)
+    ]
+
+
+def _is_told_beside(place: ParseTree) -> bool:
+    """A sentence of its own says what stands by it: "the cushion is to its left", "there is a bin next to it"."""
+    if place.phrase.words != (_WITH,) or len(place.children) != 1 or place.phrase.text != place.children[0].phrase.text:
+        return False
+    marks = [mark.phrase for relation in place.children[0].children for mark in relation.children]
+    return any(mark.text.split(" ")[0] in _PRONOUNS for mark in marks)
+
+
+def _is_alone(noun: str | None, world: WorldModel) -> bool:
+    types = [o.type for o in world.objects if o.type is not None and not o.hypothetical]
+    if noun is None or any(type_.startswith(OPAQUE) for type_ in types):
+        return False
+    return sum(names_one_of(noun, (type_,)) for type_ in types) == 1

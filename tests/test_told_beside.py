@@ -1,0 +1,83 @@
+"""What is told of a thing in a sentence beside it, or of what is left out; and desks on which nothing is.
+
+Scenes and commands are ours.
+"""
+
+from __future__ import annotations
+
+import pytest
+from asked import grounded
+
+from dcg_torch import Percept
+
+LOFT = [  # one bed and one stove; several stools and bags, of which one each is by them; two desks, one bare
+    Percept("bed", "bed", None, (2.0, 2.0, 0.3), size=(2.0, 1.6, 0.6)),
+    Percept("stove", "stove", None, (6.0, -2.0, 0.45), size=(0.6, 0.6, 0.9)),
+    Percept("stool by the bed", "stool", "green", (2.0, 3.3, 0.25), size=(0.3, 0.3, 0.5)),
+    Percept("stool by the stove", "stool", "white", (6.0, -2.8, 0.25), size=(0.3, 0.3, 0.5)),
+    Percept("bag by the bed", "backpack", "black", (3.4, 2.0, 0.2), size=(0.3, 0.3, 0.4)),
+    Percept("bag by the stove", "backpack", "black", (5.2, -2.0, 0.2), size=(0.3, 0.3, 0.4)),
+    Percept("laden desk", "desk", None, (4.5, 0.5, 0.37), size=(1.2, 0.6, 0.74)),
+    Percept("bare desk", "desk", None, (7.5, 1.5, 0.37), size=(1.2, 0.6, 0.74)),
+    Percept("clock", "clock", None, (4.6, 0.5, 0.79), size=(0.1, 0.1, 0.1)),
+]
+
+
+def meant(text: str) -> set[str]:
+    return {o.id for o in grounded(text, LOFT, None).objects}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("there is a bed. the stool is next to it.", "stool by the bed"),
+        ("there is a stove. the bag is beside it", "bag by the stove"),
+        ("you will see a stove. there is a stool next to it.", "stool by the stove"),
+        ("there is a stool. the bed is next to it.", "stool by the bed"),  # here it tells which stool
+        ("there is a backpack. there is a stove beside it", "bag by the stove"),
+        ("find the bed and then the stool next to it", "stool by the bed"),
+        ("a stool sits by the stove. the stool is white.", "stool by the stove"),
+        ("the stool that the bed is closest to", "stool by the bed"),
+        ("the backpack which the stove is nearest to", "bag by the stove"),
+    ],
+)
+def test_the_one_that_had_to_be_told(text: str, expected: str) -> None:
+    assert meant(text) == {expected}
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("ignore the bag by the bed, take the other", "bag by the stove"),
+        ("disregard the stool by the stove and take the other one", "stool by the bed"),
+        ("the stool across the room from the bed", "stool by the stove"),
+        ("the backpack at the other end of the room from the stove", "bag by the bed"),
+        ("the stool which has a green color", "stool by the bed"),
+        ("the stool. its color is white.", "stool by the stove"),
+    ],
+)
+def test_the_other_one(text: str, expected: str) -> None:
+    assert meant(text) == {expected}
+
+
+@pytest.mark.parametrize("text", ["the bare desk", "the empty desk", "the desk with nothing on it", "the clear desk"])
+def test_a_desk_on_which_nothing_is(text: str) -> None:
+    assert meant(text) == {"bare desk"}
+
+
+@pytest.mark.parametrize("text", ["it's both stools", "it is all the stools", "this is both of the stools"])
+def test_it_stands_for_a_set(text: str) -> None:
+    assert meant(text) == {"stool by the bed", "stool by the stove"}
+
+
+def test_who_looks_at_a_door_does_not_stand_in_it() -> None:
+    hall = [
+        Percept("door", "door", None, (6.0, 0.0, 1.0), size=(0.1, 0.9, 2.0)),
+        Percept("north", "stool", None, (3.0, 2.0, 0.25), size=(0.3, 0.3, 0.5)),
+        Percept("south", "stool", None, (3.0, -2.0, 0.25), size=(0.3, 0.3, 0.5)),
+        Percept("bed", "bed", None, (0.0, 0.0, 0.3), size=(1.6, 2.0, 0.6)),
+    ]
+    looks = grounded("if you look at the door, the left stool", hall, None)
+    stands = grounded("if you look in from the door, the left stool", hall, None)
+    assert [o.id for o in looks.objects] == ["north"]
+    assert [o.id for o in stands.objects] == ["south"]
