@@ -1,4 +1,4 @@
-"""What has nothing beside it or on it: "the cup with nothing around it", "the cups that touch nothing", "the bare desk".
+"""What has nothing beside or on it: "the cup with nothing around it", "the cups that touch nothing", "the bare desk".
 
 That is measured, not learned: of the words for what is near a thing each is denied of all other things.
 """

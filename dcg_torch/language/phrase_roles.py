@@ -95,7 +95,7 @@ class NounPhrases:
         """The cube of "not the cube", "but not the bright one", "(blue,) not pink"."""
         # "No cup, (no) jar or bowl": each is said as one that is not meant.
         item.determined |= self.denied and item.noun is not None
-        self.ruled_out.append((item, (*self.clause.objects, last_thing(self.nouns) if self.nouns else None)[0]))
+        self.ruled_out.append((item, main_object(self.clause) or (last_thing(self.nouns) if self.nouns else None)))
         item.said, self.was_denied, self.meant = True, True, list(self.nouns)
         if item.determined or not item.is_a("color_word"):
             self.nouns.append(item)  # what is said of it goes with it
@@ -168,9 +168,10 @@ class NounPhrases:
         if item.is_a("color") and last.stop == item.start and last.is_a("bare"):
             return True  # "something red"
         ordered = item.is_a("ordered") and not item.determined  # "the cone second from ..."
-        if not (self.joined or ordered) or not item.pronoun or (item.color and last.color) or last.is_a("told"):
-            return False
         one = item.determined and item.text.endswith(" one")
+        told = last.is_a("told") and not (one and last.noun and last in self.clause.objects)
+        if not (self.joined or ordered) or not item.pronoun or (item.color and last.color) or told:
+            return False
         return (one or item.is_a("color_word")) and not (item.determined and self.conjunction)
 
     def merge(self, noun: Item, predicate: Item) -> None:

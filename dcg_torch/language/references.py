@@ -20,13 +20,13 @@ def describe_later(noun: Item, own: Clause, clauses: Sequence[Clause]) -> None:
         if clause is own or clause.refused or not (clause.objects and clause.tells):
             continue
         there, more = exists(clause), clause.objects[0]
-        landmark = named_again(clause, clauses)
-        if landmark is not None:
+        if (landmark := named_again(clause, clauses)) is not None:
             landmark.take_up(more)
         elif there and about_it(more) and more.noun is not None and more.start > noun.start:
             noun.children.append(more.behind("with"))
         elif _the_same(noun, more) or (more.is_a("again") and (clause.statement or there or len(clause.objects) == 1)):
-            another = "other" in more.words or (noun.plural and not more.plural) or None not in (more.color, noun.color)
+            beside = "other" in more.words or about_it(max(noun, more, key=lambda one: one.start))
+            another = beside or (noun.plural and not more.plural) or None not in (more.color, noun.color)
             if more.text in SETS["stands_for"] or not another:
                 noun.take_up(more)
 
@@ -65,8 +65,7 @@ def hang_fragments(clauses: Sequence[Clause]) -> None:
             told = (main_object(other) for other in clauses[: k + 1] if other is before or other.verb is None)
             named = [noun for noun in told if noun is not None and noun.noun is not None]
             if named:  # also of a question: "Where is the cup? On the table."
-                more = replace(named[-1], children=[*named[-1].children, *clause.places])
-                clause.objects, clause.places = [more], []
+                clause.objects, clause.places = [replace(named[-1], children=named[-1].children + clause.places)], []
 
 
 def tells_of_neighbour(clause: Clause) -> bool:
@@ -116,7 +115,7 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
     if not several and len(clauses) > 1 and all(clause.verb is None for clause in clauses):
         several = [noun for noun in map(main_object, clauses) if noun in named]  # "The sofa. The bigger one."
     if one.noun is None and not several and named and not any(_by_looks(one) and _may_be(one, n) for n in named):
-        several = _one_and_another(clauses) or _so_many_of(named[-1], one, clauses)
+        several = _one_and_another(clauses, about_it(one)) or _so_many_of(named[-1], one, clauses)
     several = [noun for noun in several if one.noun is None or _picks_from(one, noun)]  # "take the middle cone"
     if not several or (one.noun is not None and decisions.choose("picked", CHOICES["picked"]) != "of_those"):
         return
@@ -148,9 +147,9 @@ def _picks(place: Item) -> tuple[str, ...]:
     return ("middle",) if at.is_a("middle") else tuple(NORMAL.get(word, word) for word in most)
 
 
-def _one_and_another(clauses: Sequence[Clause]) -> list[Item]:
-    """ "There is a tall plant and a short one": plants, of which nothing else is said."""
-    told = next((clause.objects for clause in clauses if clause.action in SETS["be"] and len(clause.objects) > 1), [])
+def _one_and_another(clauses: Sequence[Clause], near: bool) -> list[Item]:
+    """ "There is a tall plant and a short one", "a tall plant. The short one by it": plants."""
+    told = next((c.objects for c in clauses if c.objects[not near :] and (near or c.action in SETS["be"])), [])
     nouns = {noun.noun for noun in told if noun.noun is not None}
     alike = len(nouns) == 1 and not any(noun.definite for noun in told)
     return [replace(told[0], noun=nouns.pop(), color=None, words=(), plural=True, children=[])] if alike else []
@@ -247,7 +246,8 @@ def _may_be(node: Item, noun: Item) -> bool:
     """Whether a noun phrase may be what another names again."""
     if _by_looks(node):
         return not noun.plural and {node.color, *node.words} <= {None, noun.color, *noun.words}
-    if noun.noun is None or noun.is_a("somewhere") or noun.pronoun:
+    unnamed = noun.definite or noun.is_a("empty") if noun.pronoun else noun.noun is None  # but "a big one"
+    if unnamed or noun.is_a("somewhere"):
         return False
     if node.noun is None or node.noun in SETS["groups"]:
         return noun.plural if node.noun else node.color in (None, noun.color)

@@ -155,8 +155,8 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
             objects = chosen.clause.objects  # "there was a cup. take it": it is to be taken
             objects[objects.index(noun)] = meant.noun
             return Mention(meant.noun, chosen.clause, chosen.score)
-        later = [other for other in found[found.index(chosen) :] if not other.noun.pronoun]
-        return next((other for other in later if other.clause.verb is None), chosen)  # "Bring it to me. The mug."
+        # "Bring it to me. The mug."
+        return next((one for one in found[found.index(chosen) :] if not (one.noun.pronoun or one.clause.verb)), chosen)
     return chosen
 
 
