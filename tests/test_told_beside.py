@@ -8,7 +8,7 @@ from __future__ import annotations
 import pytest
 from asked import grounded
 
-from dcg_torch import Percept
+from dcg_torch import Percept, Pose
 
 LOFT = [  # one bed and one stove; several stools and bags, of which one each is by them; two desks, one bare
     Percept("bed", "bed", None, (2.0, 2.0, 0.3), size=(2.0, 1.6, 0.6)),
@@ -81,3 +81,65 @@ def test_who_looks_at_a_door_does_not_stand_in_it() -> None:
     stands = grounded("if you look in from the door, the left stool", hall, None)
     assert [o.id for o in looks.objects] == ["north"]
     assert [o.id for o in stands.objects] == ["south"]
+
+
+DOTS = [  # a picture: x is up, y to the left; two pairs of which the lower is dark, and a small one by itself
+    Percept("low left", "dot", None, (0.2, 0.4, 0.0), size=0.03, rgb=(20, 20, 20)),
+    Percept("over low left", "dot", None, (0.5, 0.42, 0.0), size=0.08, rgb=(215, 215, 215)),
+    Percept("low right", "dot", None, (0.25, -0.4, 0.0), size=0.08, rgb=(120, 120, 120)),
+    Percept("over low right", "dot", None, (0.55, -0.38, 0.0), size=0.08, rgb=(215, 215, 215)),
+    Percept("top", "dot", None, (0.95, 0.0, 0.0), size=0.03, rgb=(120, 120, 120)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("there is a small black dot. mine is the large one above it", "over low left"),
+        ("do you see a small black one? the large dot above it", "over low left"),
+        ("do you see a big grey dot? the large one above it", "over low right"),
+        ("mine is small and black", "low left"),
+        ("mine is the small grey one", "top"),
+    ],
+)
+def test_which_dot_is_mine(text: str, expected: str) -> None:
+    found = grounded(text, DOTS, Pose(-2.0, 0.0))
+    assert [o.id for o in found.objects] == [expected]
+
+
+BRANDS = [
+    Percept(brand, "block", None, at, attributes=frozenset({f"label: {brand}"}))
+    for brand, at in {
+        "pepsi": (2.9, -0.7, 0.0),
+        "shell": (2.7, -0.4, 0.0),
+        "esso": (1.3, -0.7, 0.0),
+        "toyota": (1.6, 0.9, 0.0),
+        "nvidia": (2.1, 0.4, 0.0),
+    }.items()
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("the block closest to pepsi", "shell"),
+        ("the block farthest from pepsi", "toyota"),
+        ("the block nearest to the nvidia one", "toyota"),
+    ],
+)
+def test_marks_are_no_places(text: str, expected: str) -> None:
+    found = grounded(text, BRANDS)
+    assert [o.id for o in found.objects] == [expected]
+    assert found.probability > 0.6
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("bring me the stool, not the green one", "stool by the stove"),
+        ("take the stool - the white one", "stool by the stove"),
+        ("the stove's neighbouring stool", "stool by the stove"),
+    ],
+)
+def test_said_behind_a_comma(text: str, expected: str) -> None:
+    assert meant(text) == {expected}

@@ -12,6 +12,7 @@ from dcg_torch.grounding.phrase_scores import Scored
 from dcg_torch.interpretation.plain_words import in_group
 from dcg_torch.names.everyday_names import is_everyday
 from dcg_torch.names.evidence import is_generic
+from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.relations import listed
 from dcg_torch.names.rooms import room_named
 from dcg_torch.types import NOT, ParseTree, Phrase, PhraseKind
@@ -33,11 +34,12 @@ speak of two things at once that stand together."""
 
 
 def only_named(tree: ParseTree, found: Scored, encoder: WorldEncoder) -> Scored:
-    """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
+    """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" or "the 6" no place."""
     phrase, named = tree.phrase, found.named
     meanable = len(encoder.world.objects) + len(encoder.world.groups)
     shade = phrase.color == phrase.text  # "closest to blue" is not beside a blue thing
-    if phrase.color is not None and not shade and (phrase.noun is None or is_generic(phrase.noun)):
+    told = (phrase.color is not None and not shade) or any(OF_KEY in word for word in phrase.words)
+    if told and (phrase.noun is None or is_generic(phrase.noun)):
         found.scores[:, meanable:] = -np.inf
     if named is None or phrase.noun is None or phrase.plural or (phrase.count or 1) > 1 or in_group(phrase):
         return found

@@ -73,8 +73,17 @@ def _speaks_of_others(tree: ParseTree, types: frozenset[str]) -> bool:
     _, *others = [node.phrase for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN] or [tree.phrase]
     goals = [noun.phrase for place in tree.children[1:] for noun in place.children]  # "between the two yellow ones"
     return any(
-        names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") or noun in goals for noun in others
+        names_one_of(noun.noun, types) if noun.noun else noun.text.endswith(" one") or noun in goals or _is_told(noun)
+        for noun in others
     )
+
+
+def _is_told(noun: Phrase) -> bool:
+    """Is more said of what a pronoun stands for: "do you see a big dark one? The dot above it"?"""
+    return noun.text in _PRONOUNS and bool(noun.words or noun.color)
+
+
+_PRONOUNS = frozenset({"it", "them"})
 
 
 def _is_mended(tree: ParseTree, text: str) -> bool:
@@ -93,7 +102,7 @@ def _each_told(tree: ParseTree, names: frozenset[str], *, compared: bool) -> Par
     children = tuple([_each_told(child, names, compared=compared) for child in tree.children])
     phrase = tree.phrase
     if phrase.kind is PhraseKind.NOUN and not (compared and not phrase.words and not phrase.look):
-        own = _words(phrase.text)
+        own = _words(" ".join(filter(None, (*phrase.words, phrase.color))) if _is_told(phrase) else phrase.text)
         look = comparing_words([w for w in own if w in phrase.words]) if compared else _but_names(own, names)
         phrase = phrase if look == phrase.look else replace(phrase, look=look)
     return _tree(tree, phrase, children)
