@@ -34,7 +34,7 @@ speak of two things at once that stand together."""
 
 
 def only_named(tree: ParseTree, found: Scored, encoder: WorldEncoder) -> Scored:
-    """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one", "the 6" no place."""
+    """Without what a landmark in the singular is not: "the green block" is no cluster, "the green one" no place."""
     phrase, named = tree.phrase, found.named
     meanable = len(encoder.world.objects) + len(encoder.world.groups)
     shade = phrase.color == phrase.text  # "closest to blue" is not beside a blue thing

@@ -40,7 +40,8 @@ def of_possession(
         None where nobody says how large the landmarks are, and of all other relations.
     """
     bodies, phrase = encoder.layout.bodies, tree.phrase
-    counted = several > 0 or not _NUMBERS.isdisjoint(tree.children[0].phrase.words)
+    what = tree.children[0].phrase
+    counted = several > 0 or what.count == 1 or not _NUMBERS.isdisjoint(what.words)
     on_it = counted and phrase.words[0] in listed("straight under") and phrase.text.startswith(_SAYS_HAS)
     if (phrase.words[0] != _WITH and not on_it) or bodies is None:
         return None
@@ -50,7 +51,7 @@ def of_possession(
     if max(mark, default=len(bodies.half)) >= len(bodies.half) or not encoder.layout.solid[mark].all():
         return None
     bodies = replace(bodies, half=_as_points(bodies.half, mark))
-    count = max(1, several, tree.children[0].phrase.count or 1)
+    count = max(1, several, what.count or 1)
     if len(mark) < count:
         return None
     where = encoder.layout
@@ -63,7 +64,7 @@ def of_possession(
     if NOT in phrase.words:
         best = np.maximum(np.log(-np.expm1(np.minimum(_of_its_kind(best, encoder), -1e-4))), _NOT_ITS)
     else:
-        best = np.maximum(best + _of_number(tree.children[0].phrase, _own(own).sum(axis=0), encoder), _NOT_ITS)
+        best = np.maximum(best + _of_number(what, _own(own).sum(axis=0), encoder), _NOT_ITS)
     found = log_psi.copy()
     found[alike] = np.where(np.isfinite(where.position[:, 0]) & where.solid, best, log_psi[alike])
     return found

@@ -44,6 +44,7 @@ from dcg_torch.interpretation.scene_kinds import is_close_by
 from dcg_torch.interpretation.scene_rewrites import in_scene_words
 from dcg_torch.interpretation.shelves import with_tiers
 from dcg_torch.interpretation.stacks import with_levels
+from dcg_torch.interpretation.walls import with_walls
 from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
@@ -125,7 +126,9 @@ def told_where(world: WorldModel, readings: Sequence[Reading]) -> WorldModel:
         world = with_places_of_all(world, kinds)
     if not any(OF_KEY in word for of in said for word in of.words):
         return world
-    return with_tiers(with_levels(with_corners(with_rooms(with_cells(world, trees), trees), trees), trees), trees)
+    for told in (with_cells, with_rooms, with_corners, with_walls, with_levels, with_tiers):
+        world = told(world, trees)
+    return world
 
 
 def log_weight(reading: WeightedReading, learned: Mapping[str, float]) -> float:

@@ -22,7 +22,7 @@ from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, World
 
 _ALL = listed("whole of a room")
 _CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
-_WITHIN, _WALLS = listed("in a corner"), listed("wall of a room")
+_WITHIN = listed("in a corner")
 _CLASSES, _THINGS, _WIDE = 4, 10, 2.0
 """Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1
@@ -137,26 +137,8 @@ def _on_a_rack(at: np.ndarray, world: WorldModel) -> bool:
     return bool((high.max(axis=1) - low.min(axis=1) >= _APART).any())
 
 
-def by_walls(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
-    """A tree in which "the left wall", that is no thing, is the left side.
-
-    Args:
-        said: the words of the tree.
-    """
-    if said.nouns.isdisjoint(_WALLS) or any(names_one_of(noun, _named(world)) for noun in said.nouns & _WALLS):
-        return tree
-    return _of_sides(tree)
-
-
-def _of_sides(tree: ParseTree) -> ParseTree:
-    phrase, children = tree.phrase, tuple(map(_of_sides, tree.children))
-    sides = [word for word in phrase.words if word in PLACE_WORDS] if phrase.noun in _WALLS else []
-    if len(sides) == 1:
-        phrase = replace(phrase, noun=sides[0], words=tuple(word for word in phrase.words if word != sides[0]))
-    return ParseTree(phrase, children)
-
-
-def _named(world: WorldModel) -> list[str]:
+def named_classes(world: WorldModel) -> list[str]:
+    """The classes that are there, where these are names."""
     return [t for t in world.classes if not t.startswith(OPAQUE)]
 
 
@@ -166,9 +148,9 @@ def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     Args:
         said: the words of the tree.
     """
-    if not any("corner" in noun for noun in said.nouns) or _walls(world) is None:
+    if not any("corner" in noun for noun in said.nouns) or room_walls(world) is None:
         return tree
-    return _told(tree, _named(world))
+    return _told(tree, named_classes(world))
 
 
 def _told(tree: ParseTree, types: list[str]) -> ParseTree:
@@ -198,7 +180,7 @@ def _is_any_corner(place: ParseTree) -> bool:
 def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     """The world whose things are told to be in a corner or not, if a tree speaks of the corners of a room."""
     words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
-    if _CORNER not in words or (walls := _walls(world)) is None:
+    if _CORNER not in words or (walls := room_walls(world)) is None:
         return world
     return replace(world, objects=tuple(_in_corner(o, walls) for o in world.objects))
 
@@ -212,7 +194,7 @@ def _in_corner(thing: Object, walls: np.ndarray) -> Object:
     return replace(thing, attributes=frozenset(own))
 
 
-def _walls(world: WorldModel) -> np.ndarray | None:
+def room_walls(world: WorldModel) -> np.ndarray | None:
     """(2, 2) the least and the greatest x and y of the things of a room; None for what is no room."""
     seen = [o for o in world.objects if not o.hypothetical and o.position is not None]
     if len(seen) < _THINGS or len({o.type for o in seen}) < _CLASSES:

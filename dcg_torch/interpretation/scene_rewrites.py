@@ -14,11 +14,12 @@ from dcg_torch.interpretation.passages import by_passages
 from dcg_torch.interpretation.plain_lines import lines_from_here
 from dcg_torch.interpretation.plain_sets import by_members, few_together, one_pair, several_pairs
 from dcg_torch.interpretation.plural_nouns import by_plural_nouns
-from dcg_torch.interpretation.room_parts import by_corners, by_heights, by_walls
+from dcg_torch.interpretation.room_parts import by_corners, by_heights
 from dcg_torch.interpretation.rooms import by_rooms
 from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
+from dcg_torch.interpretation.walls import by_walls
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
