@@ -41,8 +41,9 @@ def by_opposite_side(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, 
         if np.isfinite(at[mark]).all():
             across = _lost(at, mark, middle)
             for between in _between(mark, solid, encoder):
-                beside = gaps_between([between], encoder)[0] <= _REACH
-                across = np.maximum(across, np.where(beside, _lost(at, mark, at[between]) - _LEAST, -np.inf))
+                lost = _lost(at, mark, at[between])
+                there = (gaps_between([between], encoder)[0] <= _REACH) & (lost > _LEAST)
+                across = np.maximum(across, np.where(there, lost - _LEAST, -np.inf))
             found[k, solid] = across[solid] - across[solid].max()
             found[k, mark] = _LEAST
     return np.maximum(found, 2.0 * _LEAST)
