@@ -18,6 +18,8 @@ _REACH = 1.0
 """Units of a gap up to which two things stand at a third."""
 _ASLANT = np.radians(30.0)
 """Angle at which a thing is half a nat less opposite than one straight across."""
+_NOT_ACROSS = -2.0
+"""Nats from which on a thing is not across what stands between, but beside it."""
 _LEAST = -5.0
 """The most nats that are lost."""
 
@@ -42,7 +44,7 @@ def by_opposite_side(name: str, log_psi: Floats, landmarks: Sequence[tuple[int, 
             across = _lost(at, mark, middle)
             for between in _between(mark, solid, encoder):
                 lost = _lost(at, mark, at[between])
-                there = (gaps_between([between], encoder)[0] <= _REACH) & (lost > _LEAST)
+                there = (gaps_between([between], encoder)[0] <= _REACH) & (lost > _NOT_ACROSS)
                 across = np.maximum(across, np.where(there, lost - _LEAST, -np.inf))
             found[k, solid] = across[solid] - across[solid].max()
             found[k, mark] = _LEAST

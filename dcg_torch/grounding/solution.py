@@ -105,7 +105,11 @@ class Solution:
 
     def _is_excluded(self, other: Object, best: Object) -> bool:
         """Is it too unlikely beside the best to be a further one of a number?  What is of its type may be less so."""
-        least = _EXCLUDED if other.type == best.type else _EXCLUDED_OF_ANOTHER_TYPE
+        same = other.type == best.type
+        # What another reading means is none of the number: its fit is of this one.
+        if not same and self.fits and self.fits[other.id] < _EXCLUDED_OF_ANOTHER_TYPE * self.fits[best.id]:
+            return True
+        least = _EXCLUDED if same else _EXCLUDED_OF_ANOTHER_TYPE
         return self.probabilities[other.id] < least * self.probabilities[best.id]
 
     @property
