@@ -14,9 +14,9 @@ import numpy as np
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.room_parts import named_classes, room_walls
 from dcg_torch.names.attributes import NOT_
+from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import AT_WALL, PLACE_WORDS
-from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
 
 _WALLS, _AT, _OFF, _FREE = (listed(of) for of in ("wall of a room", "at a wall", "off a wall", "free of walls"))
@@ -34,7 +34,7 @@ def by_walls(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     walls = said.nouns & _WALLS
     if not walls and said.words.isdisjoint(_FREE):
         return tree
-    if any(names_one_of(noun, named_classes(world)) for noun in walls or _WALLS):
+    if any(normalise(type_).split(" ")[-1] in _WALLS for type_ in named_classes(world)):
         return tree
     tree = _of_sides(tree)
     return tree if room_walls(world) is None else _told(tree)
