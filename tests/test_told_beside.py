@@ -212,3 +212,40 @@ DESKS = [
 )
 def test_how_many_are_on_a_desk(text: str, expected: str) -> None:
     assert [o.id for o in grounded(text, DESKS, None).objects] == [expected]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "list all the stools",
+        "spell stool",
+        "turn left ninety degrees",
+        "my sister bought a stool yesterday",
+        "nobody likes that clock",
+        "I will sit on the stool",
+        "can you swim",
+        "shall we start",
+        "turn up the volume",
+        "cancel that",
+        "let's talk about the clock",
+        "she went to the bed",
+    ],
+)
+def test_what_orders_nothing(text: str) -> None:
+    found = grounded(text, LOFT, None)
+    assert not found.objects
+    assert found.problem is not None
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("I like the green stool, bring it", "stool by the bed"),
+        ("I saw a clock on a desk. go there", "clock"),
+        ("I will take the clock", "clock"),
+        ("can you move to the clock", "clock"),
+        ("turn around and get the clock", "clock"),
+    ],
+)
+def test_what_orders_something(text: str, expected: str) -> None:
+    assert meant(text) == {expected}
