@@ -6,6 +6,7 @@ stands straight before what stands aslant.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -216,6 +217,9 @@ def nearer_on_a_side(
     lost = np.zeros(gap.shape)
     lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
     lost[slanting] = np.where(nearest[of_each[slanting]] < _NOT_FARTHER * gap[slanting], -_LESS_STRAIGHT, 0.0)
+    there = np.full(len(nearest), False)
+    there[of_each[beside | slanting]] = True
+    lost[(off > _OTHER_SIDE) & np.isfinite(off) & there[of_each]] = -_NOT_THERE
     return lost
 
 
@@ -249,6 +253,8 @@ def nearer_between(
     return found
 
 
+_OTHER_SIDE, _NOT_THERE = math.radians(80.0), 2.0
+"""Angle from which on a thing is not on a side, and nats that it loses where another of its kind is."""
 _LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
 """Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
 _SIDE_FOLD = 0.7
