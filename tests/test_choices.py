@@ -10,6 +10,7 @@ import pytest
 
 from dcg_torch import GroundingModel, Percept, Pose, pretrained
 from dcg_torch.grounding.choices import Likelihood, fit_choices
+from dcg_torch.grounding.encoders import Encoders
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson, fit_landmarks_em, parts_of
 from dcg_torch.types import WorldModel
@@ -51,7 +52,7 @@ def choices_of(model: GroundingModel, text: str, targets: set[str]) -> Likelihoo
         )
 
     parts = parts_of(Lesson(tree, scene(model), frozenset(targets)))
-    fit_landmarks_em(parts, model.features, lambda: model.solve, keep, rounds=1)
+    fit_landmarks_em(parts, Encoders(model.features), lambda: model.solve, keep, rounds=1)
     return found[0]
 
 

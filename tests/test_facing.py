@@ -5,6 +5,11 @@ from __future__ import annotations
 import pytest
 from seen_whole import meant, thing
 
+from dcg_torch.grounding.frames import faced
+from dcg_torch.grounding.solution import Solution
+from dcg_torch.language import parse_command
+from dcg_torch.types import ParseTree, Pose, WorldModel
+
 WALLS = {"north": 5.95, "south": 0.05}
 
 
@@ -22,3 +27,18 @@ def test_sides_of_those_that_are_faced(wall: str, right: str) -> None:
     assert meant("facing the windows, it is the one on the right", room, robot=None) == [right]
     assert meant("facing the windows, it's the one on the left", room, robot=None) == [left]
     assert meant("facing the windows, the window on the right", room, robot=None) == [right]
+
+
+def test_nothing_is_grounded_for_the_sides_of_a_robot_whose_place_is_known() -> None:
+    """Its left is known; where nobody knows where it is, it is first asked which windows one would stand before."""
+    tree, asked = parse_command("the left window").tree, list[ParseTree]()
+    assert tree is not None
+
+    def solve(bare: ParseTree) -> Solution:
+        asked.append(bare)
+        return Solution(bare, WorldModel(()))
+
+    assert faced(tree, WorldModel((), robot=Pose(0.0, 0.0)), solve) is None
+    assert not asked
+    assert faced(tree, WorldModel(()), solve) is None
+    assert len(asked) == 1

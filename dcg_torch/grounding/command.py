@@ -37,7 +37,7 @@ def ground_command(
     readings = worth_grounding(command, world, learned)
     world = told_where(world, readings)
     search = search_in(world)
-    facing = faced(readings[0].tree, search.ground) if speakers is not None else None
+    facing = faced(readings[0].tree, world, search.ground) if speakers is not None else None
     seen = views(command.text, world, speakers) if facing is None else [(facing, 0.0)]
     searches = [(search if view is world else search_in(view), log_probability) for view, log_probability in seen]
     return sum_over_frames(searches, readings if related else readings[:1])

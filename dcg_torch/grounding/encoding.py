@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import copy
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -74,12 +75,21 @@ class WorldEncoder:
         self.world = world
         self._kinds = {} if kinds is None else kinds
         self.related = Group.RELATION in features.groups
+        self._derived: dict[Hashable, WorldEncoder] = {}
         self._said: dict[Said, Coded] = {}
         self._ranked: dict[tuple[int | None, int | None, bytes | None], Coded] = {}
 
-    def of(self, world: WorldModel) -> WorldEncoder:
-        """The encoder of another world under the same features."""
-        return WorldEncoder(self.features, world, self._kinds)
+    def derived(self, key: Hashable, make: Callable[[WorldModel], WorldModel]) -> WorldEncoder:
+        """The encoder of a world that is made of this one; what is made by the same key is made once."""
+        if key not in self._derived:
+            self._derived[key] = WorldEncoder(self.features, make(self.world), self._kinds)
+        return self._derived[key]
+
+    def meaning(self, world: WorldModel) -> WorldEncoder:
+        """The encoder of the same world in which some things alone can be meant; it shares what was worked out."""
+        other = copy.copy(self)
+        other.world, other._derived = world, {}
+        return other
 
     @cached_property
     def all(self) -> tuple[Object, ...]:

@@ -47,21 +47,22 @@ def views(text: str, world: WorldModel, speakers: float | None) -> Sequence[tupl
     return [(world, -math.log1p(math.exp(log_odds))), (other, -math.log1p(math.exp(-log_odds)))]
 
 
-def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
+def faced(tree: ParseTree, world: WorldModel, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
     """The world as who faces what a command says they face sees it: "facing the bed, the nightstand on the left".
 
     Args:
         tree: of the likeliest reading.
-        solve: grounds a tree in the world as the robot sees it.
+        world: as the robot sees it.
+        solve: grounds a tree in it.
     """
     views_ = (FACING, FACING_FROM)
     place = next((c for c in tree.children if c.phrase.words[:1] and c.phrase.words[0] in views_ and c.children), None)
     if place is None:
-        return _from_before(tree, solve)
+        return _from_before(tree, world, solve)
     if place.children[0].phrase.noun is None:
         return None
     if len(tree.children) < 2:  # "facing the windows, it is the one on the right"
-        return _from_before(tree, solve)
+        return _from_before(tree, world, solve)
     found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), place.children[:1]))
     thing = found.object
     if thing is None or thing.hypothetical:
@@ -73,8 +74,10 @@ def faced(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel
     return seen if seen is None or whole or noun is None else _of_those_beside(seen, thing, noun)
 
 
-def _from_before(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
+def _from_before(tree: ParseTree, world: WorldModel, solve: Callable[[ParseTree], Solution]) -> WorldModel | None:
     """ "The left pillow on the couch" is left for who stands before that, where nobody knows who stands where."""
+    if world.robot is not None:
+        return None
     sided = next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN and _is_sided(node)), None)
     if sided is None:
         return None
@@ -82,8 +85,6 @@ def _from_before(tree: ParseTree, solve: Callable[[ParseTree], Solution]) -> Wor
     rest = tuple(child for child in sided.children if not _is_side(child))
     bare = ParseTree(replace(sided.phrase, words=words), rest)
     found = solve(ParseTree(Phrase(PhraseKind.VERB, ""), (bare,)))
-    if found.world.robot is not None:
-        return None
     likely = max(found.probabilities.values(), default=0.0) * _AS_LIKELY
     return seen_before(found.world, {id_ for id_, p in found.probabilities.items() if p >= likely})
 

@@ -19,6 +19,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from dcg_torch.fitting.psi import LogLinearFactor
+from dcg_torch.grounding.encoders import Encoders
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.search import Search
@@ -30,17 +31,15 @@ if TYPE_CHECKING:
     import networkx as nx
 
 
-def solver(
-    features: FeatureSet, factor: LogLinearFactor, *, beam: int
-) -> Callable[[ParseTree, WorldModel, WorldEncoder], Solution]:
+def solver(encoders: Encoders, factor: LogLinearFactor, *, beam: int) -> Callable[[ParseTree, WorldModel], Solution]:
     """Grounds trees in many worlds under the weights as they are now, which it looks up once for each phrase.
 
     Its solutions have no runner-up.
     """
-    tables = Tables(features, factor)
+    tables = Tables(encoders.features, factor)
 
-    def solve(tree: ParseTree, world: WorldModel, encoder: WorldEncoder) -> Solution:
-        return Search(encoder, tables, beam).solve(tree, brief=True)
+    def solve(tree: ParseTree, world: WorldModel) -> Solution:
+        return Search(encoders.of(world), tables, beam).solve(tree, brief=True)
 
     return solve
 

@@ -212,12 +212,16 @@ class SharedSearch:
 
     def _search_in(self, beside: Beside, left_out: frozenset[str]) -> Search:
         """The search in the world with what is spoken of, and without what is left out."""
-        if (beside, left_out) not in self._others:
-            encoder = self._search.encoder
-            world = with_all(encoder.world, beside)
-            world = without(world, left_out) if left_out else world
-            self._others[beside, left_out] = Search(encoder.of(world), self._tables, self._beam)
-        return self._others[beside, left_out]
+        key = beside, left_out
+        if key not in self._others:
+
+            def spoken_of(world: WorldModel) -> WorldModel:
+                world = with_all(world, beside)
+                return without(world, left_out) if left_out else world
+
+            encoder = self._search.encoder.derived(key, spoken_of)
+            self._others[key] = Search(encoder, self._tables, self._beam)
+        return self._others[key]
 
 
 def sum_over_frames(searches: Sequence[tuple[SharedSearch, float]], readings: Sequence[Reading]) -> Solution:

@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from dcg_torch.grounding.choices import Choice, Modified
+from dcg_torch.grounding.encoders import Encoders
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features import GROUNDING_OF, FeatureSet, ranking
 from dcg_torch.grounding.hypotheses import Combos, ModifierFactor
@@ -27,7 +28,7 @@ from dcg_torch.interpretation.factor_tree import (
     to_factor_tree,
 )
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.learning.evidence import told_by_look
+from dcg_torch.learning.evidence import Ground, told_by_look
 from dcg_torch.learning.labelling import labelled
 from dcg_torch.learning.learner import Taught
 from dcg_torch.scene.workspace import with_all
@@ -43,9 +44,6 @@ from dcg_torch.types import (
     WorldModel,
 )
 from dcg_torch.types.arrays import Bools, Floats
-
-GroundEncoded = Callable[[ParseTree, WorldModel, WorldEncoder], Solution]
-"""Grounds a tree of factors in a world whose encoder is given."""
 
 _NEGLIGIBLE = 0.02
 """Landmarks so much less probable than the best teach nothing."""
@@ -80,8 +78,8 @@ class Part:
 
 def fit_landmarks_em(
     parts: Sequence[Part],
-    features: FeatureSet,
-    ground_now: Callable[[], GroundEncoded],
+    encoders: Encoders,
+    ground_now: Callable[[], Ground],
     fit: Callable[[list[Choice], bool], None],
     *,
     rounds: int,
@@ -90,14 +88,13 @@ def fit_landmarks_em(
     """Expect the landmarks and maximise the likelihood, in turn.
 
     Args:
-        features: the columns; only weights change meanwhile, so what a world looks like is encoded once.
+        encoders: of worlds; only weights change meanwhile, so what a world looks like is encoded once.
         ground_now: gives what grounds with the present weights.
         fit: fits them to choices; told whether it is the last round, before which they are only on their way.
         rounds: of expectation and maximisation.
         progress: called with the number of each round that is done.
     """
-    encoders: dict[WorldModel, WorldEncoder] = {}
-    encoded = [(part, encoders.setdefault(part.world, WorldEncoder(features, part.world))) for part in parts]
+    encoded = [(part, encoders.of(part.world)) for part in parts]
     for number in range(rounds):
         ground = ground_now()
         fit([choice for part, encoder in encoded for choice in _expected(part, encoder, ground)], number == rounds - 1)
@@ -180,9 +177,9 @@ def example_choices(examples: Iterable[Example], features: FeatureSet) -> list[C
     return found
 
 
-def _expected(part: Part, encoder: WorldEncoder, ground: GroundEncoded) -> Iterator[Choice]:
+def _expected(part: Part, encoder: WorldEncoder, ground: Ground) -> Iterator[Choice]:
     """What a noun phrase and the phrases of its landmarks choose, as far as a lesson and the present model say."""
-    solution = ground(part.noun, part.world, encoder)
+    solution = ground(part.noun, part.world)
     if solution.best is None:
         return
     meant = _meant(part, solution)

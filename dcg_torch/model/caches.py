@@ -4,37 +4,21 @@ the tables of phrases."""
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from dcg_torch.fitting.psi import LogLinearFactor
+from dcg_torch.grounding.encoders import Encoders
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.grounding.features import FeatureSet, KindColumns
+from dcg_torch.grounding.features import FeatureSet
 from dcg_torch.grounding.statistics import SoftLabels, Statistics
 from dcg_torch.grounding.tables import Tables
 from dcg_torch.types import Example, WorldModel
 from dcg_torch.types.arrays import Bools, Floats
 
-_MOST_KINDS = 1 << 14
-"""Kinds of things whose columns are kept from world to world."""
-
-
-class LastWorld:
-    """The encoder of the world that was last grounded in: what a command teaches is found by grounding there again."""
-
-    def __init__(self) -> None:
-        self._encoder: WorldEncoder | None = None
-        self._kinds: KindColumns = {}
-
-    def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
-        """The one that there is if it is of this very world and under these columns, else a new one."""
-        last = self._encoder
-        if last is None or last.world is not world or last.features is not features:
-            if last is None or last.features is not features or len(self._kinds) > _MOST_KINDS:
-                self._kinds = {}
-            last = self._encoder = WorldEncoder(features, world, self._kinds)
-        return last
+_MOST_THINGS = 1 << 12
+"""Things of all the worlds whose encoders are kept."""
 
 
 @dataclass
@@ -44,14 +28,21 @@ class Kept:
     Attributes:
         statistics: what features see of examples.
         follows: what the weights follow from as they are; None: they have not been fitted.
-        last: the world that was last grounded in.
+        encoders: of the worlds that were grounded in last: what a command teaches is found by grounding there again,
+            and the next command may be about the same scene.
         tables: of the phrases that were grounded under the weights as they were last.
     """
 
     statistics: Statistics
     follows: Followed | None = None
-    last: LastWorld = field(default_factory=LastWorld)
+    encoders: Encoders | None = None
     tables: Tables | None = None
+
+    def encoder(self, features: FeatureSet, world: WorldModel) -> WorldEncoder:
+        """The encoder of a world under these columns."""
+        if self.encoders is None or self.encoders.features is not features:
+            self.encoders = Encoders(features, _MOST_THINGS)
+        return self.encoders.of(world)
 
     def phrases(self, features: FeatureSet, factor: LogLinearFactor) -> Tables:
         """The tables of phrases under these columns and weights."""

@@ -16,7 +16,7 @@ from dcg_torch.fitting.devices import device_of
 from dcg_torch.fitting.fit import FitResult, fit
 from dcg_torch.fitting.psi import BINARY, TERNARY, LogLinearFactor
 from dcg_torch.grounding.command import ground_command
-from dcg_torch.grounding.encoding import WorldEncoder, encode
+from dcg_torch.grounding.encoding import encode
 from dcg_torch.grounding.features import FeatureSet, Group, give_odds
 from dcg_torch.grounding.graph import FactorGraph
 from dcg_torch.grounding.readings import SharedSearch
@@ -176,12 +176,12 @@ class GroundingModel:
         return ground_command(command, world, self._search, self.learner.readings, speakers, related=related)
 
     def _search(self, world: WorldModel) -> SharedSearch:
-        encoder = self._kept.last.encoder(self.features, world)
+        encoder = self._kept.encoder(self.features, world)
         return SharedSearch(encoder, self._kept.phrases(self.features, self.factor), self.variant.beam)
 
-    def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
+    def solve(self, tree: ParseTree, world: WorldModel) -> Solution:
         """The solution of a tree of factors."""
-        encoder = encoder or self._kept.last.encoder(self.features, world)
+        encoder = self._kept.encoder(self.features, world)
         tables = self._kept.phrases(self.features, self.factor)
         return FactorGraph(tree, world, encoder).solve(
             self.features, self.factor, beam=self.variant.beam, tables=tables

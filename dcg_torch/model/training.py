@@ -12,15 +12,16 @@ from dcg_torch.fitting.design import DesignMatrix
 from dcg_torch.fitting.fit import FitResult
 from dcg_torch.fitting.psi import LogLinearFactor
 from dcg_torch.grounding.choices import Choice, correspondence_signs, fit_choices
-from dcg_torch.grounding.encoding import WorldEncoder, encode, firing
+from dcg_torch.grounding.encoders import Encoders
+from dcg_torch.grounding.encoding import encode, firing
 from dcg_torch.grounding.features import FeatureSet, Group
 from dcg_torch.grounding.graph import solver
 from dcg_torch.grounding.readings import SharedSearch
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.grounding.tables import Tables
+from dcg_torch.learning.evidence import Ground
 from dcg_torch.learning.frames import in_likelier_frames
 from dcg_torch.learning.landmarks import (
-    GroundEncoded,
     Lesson,
     Part,
     example_choices,
@@ -36,7 +37,7 @@ from dcg_torch.learning.trainable import taught_mask
 from dcg_torch.model.variant import Variant
 from dcg_torch.names.weights import log_odds
 from dcg_torch.scene.upsilon import with_known
-from dcg_torch.types import Example, ParseTree, Symbol, WorldModel
+from dcg_torch.types import Example, Symbol
 from dcg_torch.types.arrays import Bools, Floats
 
 RELATION_L2 = 1.0
@@ -72,10 +73,6 @@ class Teachable(Protocol):
         """Columns of zero weight for what is new."""
         ...
 
-    def solve(self, tree: ParseTree, world: WorldModel, encoder: WorldEncoder | None = None) -> Solution:
-        """The solution of a tree of factors."""
-        ...
-
     def fit_weights(self, designs: Sequence[DesignMatrix], *, free: Bools | None, l2: float) -> FitResult:
         """Fit the free weights to labelled factors, in place."""
         ...
@@ -93,6 +90,7 @@ def teach_relations(model: Teachable, lessons: Sequence[Lesson], *, rounds: int,
     _fit(
         model,
         _as_known(parts, model),
+        Encoders(model.features),
         always,
         free=taught_mask(model.features),
         l2=RELATION_L2,
@@ -118,27 +116,28 @@ def teach_corpus(
     nouns = [Symbol(word, of) for word, types in said.nouns.items() for of in types]
     columns = model.learner.columns(model.features)
     model.grow(columns.extended(nouns, said.colors, _phrases(parts), scenes=True))
-    parts = _as_known(parts, model)
-    parts, frames = in_likelier_frames(parts, model.solve, model.learner.frames)
+    parts, encoders = _as_known(parts, model), Encoders(model.features)
+    solve = solver(encoders, model.factor, beam=model.variant.beam)
+    parts, frames = in_likelier_frames(parts, solve, model.learner.frames)
     model.learner = model.learner.with_frames(frames).with_readings(readings)
     # What was known before gives way to as much evidence as any.
     model.prior = model.factor.weight.detach().cpu().numpy() + _as_if_named(model, said)
     paths = encode(path_examples(lessons), model.features, model.factor.correspondences)
     model.fit_weights(paths, free=None, l2=CORPUS_L2)
-    fired = _fit(model, parts, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
+    fired = _fit(model, parts, encoders, (), free=None, l2=CORPUS_L2, rounds=rounds, progress=progress)
     model.held |= fired | firing(paths, model.features.shape)
     model.prior = model.factor.weight.detach().cpu().numpy().copy()
-    _hear(model, parts)
+    _hear(model, parts, solver(encoders, model.factor, beam=model.variant.beam))
 
 
 def _all_readings(model: Teachable) -> GroundAll:
     """What grounds all readings of a lesson as the model knows words before it."""
+    encoders, tables = Encoders(model.features), Tables(model.features, model.factor)
 
     def ground(lesson: Lesson) -> list[Solution]:
         world = with_known(lesson.world, model.known_types)
-        tables = Tables(model.features, model.factor)
-        search = SharedSearch(WorldEncoder(model.features, world), tables, model.variant.beam)
-        return [search.ground(reading.tree) for reading in lesson.readings]
+        search = SharedSearch(encoders.of(world), tables, model.variant.beam)
+        return [search.ground(reading.tree, brief=True) for reading in lesson.readings]
 
     return ground
 
@@ -146,6 +145,7 @@ def _all_readings(model: Teachable) -> GroundAll:
 def _fit(
     model: Teachable,
     parts: Sequence[Part],
+    encoders: Encoders,
     always: Sequence[Choice],
     *,
     free: Bools | None,
@@ -171,10 +171,10 @@ def _fit(
             tolerance=tolerance,
         )
 
-    def ground_now() -> GroundEncoded:
-        return solver(model.features, model.factor, beam=model.variant.beam)
+    def ground_now() -> Ground:
+        return solver(encoders, model.factor, beam=model.variant.beam)
 
-    fit_landmarks_em(parts, model.features, ground_now, fit_once, rounds=rounds, progress=progress)
+    fit_landmarks_em(parts, encoders, ground_now, fit_once, rounds=rounds, progress=progress)
     return fired
 
 
@@ -205,14 +205,13 @@ def _phrases(parts: Sequence[Part]) -> list[Example]:
     return [Example(node.phrase, part.world, ()) for part in parts for node in part.noun.walk()]
 
 
-def _hear(model: Teachable, parts: Sequence[Part]) -> None:
+def _hear(model: Teachable, parts: Sequence[Part], solve: Ground) -> None:
     """Weigh what lessons tell of words that they did not settle, landmarks' above all, and train."""
     for part in parts:
         said = {word for node in part.noun.walk() for word in (node.phrase.noun, node.phrase.color)}
         if said - {None} <= model.learner.settled:
             continue
         told = replace(part.world, meant=part.targets)
-        solution = model.solve(part.noun, told)
         taught = Experience(certain=True, taught=True, source="lesson")
-        model.learner, _ = model.learner.hear(solution, taught, model.solve)
+        model.learner, _ = model.learner.hear(solve(part.noun, told), taught, solve)
     model.train()
