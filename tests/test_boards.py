@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections.abc import Callable
 
 import asked
 import numpy as np
@@ -202,3 +203,30 @@ def test_a_pair_is_two_that_are_each_others_nearest(seed: int, count: int) -> No
     found = {tuple(sorted(of)) for of in clusters(points, code, pairs=True) if len(of) == 2}
     assert wide <= found <= pairs
     assert not [of for of in clusters(points, code) if len(of) == 2]
+
+
+@pytest.mark.parametrize("word", ["single", "lone", "solitary"])
+@pytest.mark.parametrize(
+    ("place", "turn"),
+    [
+        ("at the bottom", lambda x, y: (x, y)),
+        ("at the top", lambda x, y: (x, 9 - y)),
+        ("on the left", lambda x, y: (y, x)),
+        ("on the right", lambda x, y: (9 - y, x)),
+    ],
+)
+def test_what_stands_alone_is_in_no_stack(word: str, place: str, turn: Callable[[int, int], tuple[int, int]]) -> None:
+    """The stack is nearest to the edge, but no block of it is a single one. Three stand together at the other edge."""
+    spots = {"under": (4, 0, 0), "over": (4, 0, 1), "one": (8, 1, 0), "a": (0, 9, 0), "b": (1, 8, 0), "c": (2, 9, 0)}
+    turned: Spots = {name: (*turn(x, y), level) for name, (x, y, level) in spots.items()}
+    assert meant(f"move the {word} block {place} onto the stack", turned) == {"one"}
+
+
+def test_what_stands_on_a_table_may_stand_alone() -> None:
+    """Only of its kind nothing is there: the table is not of the lamp's."""
+    things = [
+        Percept("table", "table", None, (1.5, 0.9, 0.0), (0.8, 0.8, 0.7)),
+        Percept("on it", "lamp", None, (1.5, 0.9, 0.7), (0.2, 0.2, 0.4)),
+        *(Percept(f"lamp {k}", "lamp", None, (2.0, -0.6 - 0.3 * k, 0.0), (0.2, 0.2, 0.4)) for k in range(3)),
+    ]
+    assert asked.meant("take the single lamp on the left", things, ROBOT) == {"on it"}

@@ -75,6 +75,13 @@ def test_compressing_chroma_keeps_the_hue() -> None:
         ("bluish green", ((30, 180, 130), (90, 180, 20), RED)),
         ("sky blue", ((110, 190, 250), DARK, GREEN)),
         ("darker than the others", (DARK, BLUE, PALE)),
+        ("not red or green", (PURPLE, RED, GREEN)),
+        ("neither the gray , nor the teal one", (BROWN, GRAY, TEAL)),
+        ("a bit more purple than blue or red", (PURPLE, BLUE, RED)),
+        ("the blue but not bright blue one", (DARK, BLUE, RED)),  # red is not bright blue either, but it is no blue
+        ("not bright blue or red", (DARK, BLUE, RED)),
+        ("not the darkest , not the lightest", (BLUE, DARK, PALE)),
+        ("blueish green", ((30, 180, 130), (90, 180, 20), RED)),
     ],
 )
 def test_descriptions(text: str, rgbs: tuple[tuple[int, int, int], ...]) -> None:

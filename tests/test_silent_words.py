@@ -39,3 +39,15 @@ def test_small_words_of_colour_names_tell_none(words: str) -> None:
     colors = np.array([GREEN, RED, BROWN, PURPLE], dtype=np.float64)
     assert not color_features(words.split(), colors).any()
     assert color_features(["a", "hint", "of", "purple"], colors)[:, 0].argmax() == 3
+
+
+@pytest.mark.parametrize("words", ["blue/grey", "the blue/grey patch", "gray blue", "the blueish gray blue one"])
+def test_two_colours_together_name_neither(words: str) -> None:
+    """All are there, so one of them is meant, though neither word is the name that its colour is given."""
+    shades = {"bluish": (100, 115, 150), "plain": (135, 132, 122), "leaf": (40, 190, 60)}
+    named = {"bluish": "grey", "plain": "grey", "leaf": "green"}
+    patches = [
+        Percept(id_, "patch", named[id_], (1.0, y, 0.0), rgb=shades[id_])
+        for id_, y in zip(shades, (-0.3, 0.0, 0.3), strict=True)
+    ]
+    assert [o.id for o in grounded(words, patches, looked=True).objects] == ["bluish"]

@@ -21,7 +21,7 @@ from dcg_torch.grounding.features.name_facts import is_ruled_out
 from dcg_torch.grounding.floor_support import by_floor_support
 from dcg_torch.grounding.group_membership import beside_members, log_of_group, of_members
 from dcg_torch.grounding.hypotheses import Beam, Combos, ModifierFactor
-from dcg_torch.grounding.isolation import of_isolation
+from dcg_torch.grounding.isolation import not_alone, of_isolation
 from dcg_torch.grounding.joined_sides import by_joined_side
 from dcg_torch.grounding.landmarks import APART, spread
 from dcg_torch.grounding.measured_relations import means_all, means_several, of_all, of_denied, of_several, surrounded
@@ -256,12 +256,12 @@ def _sized(
 
 def _ruled_out(phrase: Phrase, encoder: WorldEncoder) -> Floats:
     """(things,) what takes things out of those that are compared that "not red" rules out, another shelf or column."""
-    tiers = {word for word in phrase.words if word.startswith(TIER)}
+    alone, tiers = not_alone(phrase.words, encoder), {word for word in phrase.words if word.startswith(TIER)}
     cells = [{f"{CELL}{cell}" for cell in w.removeprefix(CELL).split("|")} for w in phrase.words if w.startswith(CELL)]
-    if not (tiers or cells) and not any(word.startswith(f"{NOT} ") for word in phrase.words):
+    if not (tiers or cells or alone.any()) and not any(word.startswith(f"{NOT} ") for word in phrase.words):
         return np.zeros(len(encoder.all))
     elsewhere = [not tiers <= o.attributes or any(map(o.attributes.isdisjoint, cells)) for o in encoder.all]
-    out = np.array(elsewhere) | [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
+    out = alone | elsewhere | [is_ruled_out(phrase.words, o, named=True) for o in encoder.all]
     return np.where(out, -_BEHIND - 1.0, 0.0)
 
 

@@ -1,6 +1,7 @@
 """What has nothing beside or on it: "the cup with nothing around it", "the cups that touch nothing", "the bare desk".
 
-That is measured, not learned: of the words for what is near a thing each is denied of all other things.
+That is measured, not learned: of the words for what is near a thing each is denied of all other things. Where some
+things are stacked, "the lone block at the bottom" picks from those that are not.
 """
 
 from __future__ import annotations
@@ -14,7 +15,8 @@ from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.measured_relations import ASLANT, NEARNESS, ON_A_SIDE, UNSURE, aslant
 from dcg_torch.grounding.stated_distances import gaps_between
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import NO_OTHER, NOTHING
+from dcg_torch.names.vocabulary import ALONE, NO_OTHER, NOTHING, counted
+from dcg_torch.scene.neighbours import SAME_SPOT
 from dcg_torch.types.arrays import Bools, Floats
 
 _TOUCHING, _NEAR = 0.05, 0.6
@@ -25,6 +27,17 @@ _LEAST = 1e-3
 """The least probability that nothing is there."""
 _LEVEL = 0.02
 """Metres by which things may be in one another that are not beside one another."""
+
+
+def not_alone(words: Sequence[str], encoder: WorldEncoder) -> Bools:
+    """(things,) which are in a stack of their kind, where the words of a noun phrase mean one that stands alone."""
+    found, where = np.zeros(len(encoder.all), dtype=np.bool_), encoder.layout
+    if ALONE in words and counted(words) is None:
+        stacked = np.flatnonzero(where.stacked & where.solid)
+        spot, kind = where.position[stacked, :2], encoder.type_number[stacked]
+        apart = np.linalg.norm(spot[:, None] - spot[None], axis=2)
+        found[stacked] = ((apart < SAME_SPOT) & (kind[:, None] == kind)).sum(axis=1) > 1  # itself is one
+    return found
 
 
 def of_isolation(words: Sequence[str], encoder: WorldEncoder) -> Floats:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from dcg_torch.names.attribute_values import stated_values
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.normal_form import normalise
+from dcg_torch.names.palette import color_words
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -104,7 +105,7 @@ def _each_told(tree: ParseTree, names: frozenset[str], *, compared: bool) -> Par
     if phrase.kind is PhraseKind.NOUN and not (compared and not phrase.words and not phrase.look):
         own = _words(" ".join(filter(None, (*phrase.words, phrase.color))) if _is_told(phrase) else phrase.text)
         look = comparing_words([w for w in own if w in phrase.words]) if compared else _but_names(own, names)
-        phrase = phrase if look == phrase.look else replace(phrase, look=look)
+        phrase = phrase if look == phrase.look else _judged(phrase, look, phrase.words)
     return _tree(tree, phrase, children)
 
 
@@ -121,5 +122,12 @@ def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> Pa
         words = tuple(dict.fromkeys((*phrase.words, *values)))
         if words == phrase.words and not look:
             return tree
-        return ParseTree(replace(phrase, look=look or phrase.look, words=words), tree.children)
+        return ParseTree(_judged(phrase, look or phrase.look, words), tree.children)
     return _tree(tree, phrase, (*(_told(c, look, values) for c in tree.children[:1]), *tree.children[1:]))
+
+
+def _judged(phrase: Phrase, look: tuple[str, ...], words: tuple[str, ...]) -> Phrase:
+    """A phrase whose colour is judged by its words: of "blue/gray" neither alone is the name of the colour."""
+    told = {name for word in look for name in (normalise(word), color_words().alike.get(normalise(word)))}
+    others = told & color_words().basic & {*words, normalise(phrase.noun or "")} - {phrase.color}
+    return replace(phrase, look=look, words=words, color=None if others else phrase.color)

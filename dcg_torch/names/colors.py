@@ -6,7 +6,7 @@ import functools
 import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -26,30 +26,35 @@ _TYPICAL = 15.0  # differences of lightness or chroma between patches are measur
 
 @dataclass(frozen=True, slots=True)
 class _Term:
-    """One thing that a description says: a column of `FEATURES`, what of, and with which sign."""
+    """One thing that a description says: a column of `FEATURES`, what of, and with which sign.
+
+    Attributes:
+        denied: 0 for what is said of the thing that is meant; what is denied together has the same number.
+    """
 
     feature: str
     region: Region | None = None
     axes: tuple[tuple[str, float], ...] = ()
     sign: float = 1.0
+    denied: int = 0
 
 
 @functools.lru_cache(maxsize=4096)
 def _terms(words: tuple[str, ...]) -> tuple[_Term, ...]:
     signs, found = color_words().signs, []
-    denied, degree, k = False, 0.0, 0
+    denials, denied, degree, k = 0, False, 0.0, 0
     while k < len(words):
         word = words[k].lower()
         if word in signs["until"]:
             denied, degree = False, 0.0
-        elif word in signs["not"]:
-            denied = True
+        elif word in signs["not"] or (denied and word in signs["either"]):
+            denied, denials, degree = True, denials + 1, 0.0
         elif word in signs["more"] or word in signs["less"]:
             degree = 1.0 if word in signs["more"] else -1.0
         else:
             term, length = _term(words, k, degree)
             if term is not None:
-                found.append(_deny(term) if denied else term)
+                found.append(replace(term, denied=denials) if denied else term)
                 degree = 0.0
             k += length - 1
         k += 1
@@ -73,12 +78,6 @@ def _compares(word: str) -> bool:
         if form != "er" and stem not in color_words().axes:
             return False  # most words: no list of colours is asked for them
     return any(term.feature in ("axes", "compared hue") for term in _terms((word,)))
-
-
-def _deny(term: _Term) -> _Term:
-    if term.feature == "region":
-        return _Term("not region", term.region)
-    return _Term(term.feature, term.region, term.axes, -term.sign)
 
 
 def _term(words: tuple[str, ...], start: int, degree: float) -> tuple[_Term | None, int]:
@@ -128,11 +127,18 @@ def color_features(words: Sequence[str], rgbs: Array) -> Array:
         ("darker", "bright"); how far it tends to a hue compared ("pinker", "more blue"). All but the first two are
         relative to the mean of the scene.
     """
-    colors = lab(rgbs)
+    colors, terms = lab(rgbs), _terms(tuple(words))
+    found = _said([term for term in terms if not term.denied], colors)
+    for number in sorted({term.denied for term in terms} - {0}):
+        found[:, FEATURES.index("not region")] += _denial([t for t in terms if t.denied == number], colors)
+    return found
+
+
+def _said(terms: Sequence[_Term], colors: Array) -> Array:
+    """(n, 6), the columns of what is said of colours (n, 3) in CIELAB."""
     found = np.zeros((len(colors), len(FEATURES)))
-    chroma = np.hypot(colors[:, 1], colors[:, 2])
-    axes = {"lightness": colors[:, 0], "chroma": chroma}
-    for term in _terms(tuple(words)):
+    axes = {"lightness": colors[:, 0], "chroma": np.hypot(colors[:, 1], colors[:, 2])}
+    for term in terms:
         if term.region is not None:
             found[:, FEATURES.index(term.feature)] += _of_region(term, term.region, colors)
         for axis, amount in term.axes:
@@ -141,16 +147,19 @@ def color_features(words: Sequence[str], rgbs: Array) -> Array:
     return found
 
 
+def _denial(terms: Sequence[_Term], colors: Array) -> Array:
+    """(n,) the log of how far each colour is not what is denied: "not bright blue" denies only what is both."""
+    fits = _said(terms, colors) @ np.array(WEIGHTS)
+    share = np.exp(fits - fits.max())
+    alike = np.linalg.norm(colors[:, None] - colors[None], axis=2) < _ONE_COLOR
+    whole = (share / alike.sum(axis=1)).sum()  # several of one colour are denied as one is
+    denied: Array = np.log1p(-0.95 * np.minimum(1.0, share / whole))
+    return denied
+
+
 def _of_region(term: _Term, of: Region, colors: Array) -> Array:
-    density = of.log_density(colors)
     if term.feature == "region":
-        return density + _told_from_grays(of, colors)
-    if term.feature == "not region":
-        share = np.exp(density - density.max())
-        alike = np.linalg.norm(colors[:, None] - colors[None], axis=2) < _ONE_COLOR
-        whole = (share / alike.sum(axis=1)).sum()  # several of one colour are denied as one is
-        denied: Array = np.log1p(-0.95 * np.minimum(1.0, share / whole))
-        return denied
+        return of.log_density(colors) + _told_from_grays(of, colors)
     hue = np.array([0.0, *of.mean[1:]])
     length = float(np.linalg.norm(hue))
     # What tends to a hue is what lies near its vivid form; gray, white and black have none, and are it themselves.

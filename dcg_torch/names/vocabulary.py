@@ -154,6 +154,8 @@ SO_FAR = "so far from"
 ODD, NOTHING, NO_OTHER = "odd", "nothing ", "no other "
 """The word for what alone differs from all else, and what begins the words for what has nothing, or no other of its
 kind, beside it."""
+ALONE = "alone"
+"""The word for what stands by itself, and in no stack."""
 NEARER_OF_TWO, NEARER_THAN = "nearer of two", "nearer than another"
 """Relations to two landmarks: a thing is nearer to the first than to the second, or than the second is."""
 THAN = "than"
@@ -183,13 +185,13 @@ SYNONYMS = {
     **{"smaller": "smallest", "littler": "smallest", "littlest": "smallest", "tiniest": "smallest"},
     **{"larger": "largest", "bigger": "biggest", "upper": "top", "lower": "bottom", "topmost": "top"},
     **{"bottommost": "bottom", "center": "middle", "central": "middle", "middlemost": "middle", "centric": "middle"},
-    **dict.fromkeys(("lone", "single", "freestanding", "solitary", "lonely", "standalone"), "alone"),
+    **dict.fromkeys(("lone", "single", "freestanding", "solitary", "lonely", "standalone"), ALONE),
     **{"northernmost": "top", "southernmost": "bottom", "easternmost": "rightmost", "westernmost": "leftmost"},
     **dict.fromkeys(("tiny", "teeny", "mini", "miniature", "minute", "smallish"), "small"),
     **dict.fromkeys(("huge", "giant", "gigantic", "enormous", "massive", "largish", "biggish"), "big"),
     **{"taller": "tallest", "shorter": "shortest", "higher": "highest", "uppermost": "highest", "lowermost": "lowest"},
     **{"high": "highest", "low": "lowest", "farther": "farthest", "closer": "closest", "nearer": "closest"},
-    **{"isolated": "alone"},
+    **{"isolated": ALONE},
     **{"frontmost": "closest", "foremost": "closest", "rearmost": "farthest", "hindmost": "farthest"},
 }
 """Words of noun phrases, and those that say the same where nothing is compared with a thing that is named."""
