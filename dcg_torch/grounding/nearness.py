@@ -49,7 +49,11 @@ def by_nearness(
     log_psi = _no_less_near(name, log_psi, landmarks, compared, encoder)
     log_psi = log_psi + by_distance(name, landmarks, scores, compared, encoder)
     nearer = nearer_on_a_side(name, landmarks, compared, encoder)
-    return log_psi if nearer is None else log_psi + nearer
+    if nearer is None:
+        return log_psi
+    alone = _alone_on_a_side(name, landmarks, compared, encoder)
+    found: Floats = np.where(alone, np.maximum(log_psi, _ONLY_ONE), log_psi) + nearer
+    return found
 
 
 def _nearly_as_near(
@@ -219,8 +223,23 @@ def nearer_on_a_side(
     lost[slanting] = np.where(nearest[of_each[slanting]] < _NOT_FARTHER * gap[slanting], -_LESS_STRAIGHT, 0.0)
     there = np.full(len(nearest), False)
     there[of_each[beside | slanting]] = True
-    lost[(off > _OTHER_SIDE) & np.isfinite(off) & there[of_each]] = -_NOT_THERE
+    elsewhere = np.isfinite(off) & there[of_each]
+    lost[elsewhere & (off > _ACROSS)] = -_NOT_THERE
+    lost[elsewhere & (off > _OTHER_SIDE)] = -2.0 * _NOT_THERE
     return lost
+
+
+def _alone_on_a_side(name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder) -> Bools:
+    """(combos, things) the only ones of their kind on a side of a thing, where others of it are elsewhere."""
+    solid, mark = encoder.layout.solid, list(landmarks)
+    off = np.where(solid[mark][:, None] & solid, aslant(name, mark, encoder), np.nan)
+    off[np.arange(len(mark)), mark] = np.nan
+    kind = encoder.type_number if compared is None else compared.astype(np.int64)
+    of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(off))[:, None]
+    most = of_each.max(initial=0) + 1
+    there, known = (np.bincount(of_each[some], minlength=most) for some in (off < _ACROSS, np.isfinite(off)))
+    found: Bools = (off < ASLANT) & (there[of_each] == 1) & (known[of_each] > 1)
+    return found
 
 
 def nearer_between(
@@ -253,8 +272,11 @@ def nearer_between(
     return found
 
 
-_OTHER_SIDE, _NOT_THERE = math.radians(80.0), 2.0
-"""Angle from which on a thing is not on a side, and nats that it loses where another of its kind is."""
+_ACROSS, _OTHER_SIDE, _NOT_THERE = math.radians(80.0), math.radians(100.0), 2.0
+"""Angles from which on a thing is not on a side, and on the other, and nats that it loses where another of its kind is
+on this side; twice as many on the other side."""
+_ONLY_ONE = -1.5
+"""Log Psi at least of the only one of its kind on a side, however far off."""
 _LESS_STRAIGHT, _NOT_FARTHER = 1.0, 2.0
 """Nats that a thing aslant loses where another is straight on that side, and at most so many times as far off."""
 _SIDE_FOLD = 0.7
