@@ -26,7 +26,7 @@ _OFF = 0.15
 
 _HALF_AN_HOUR = np.pi / 12.0
 """Angle by which what is said to be at an hour of the clock may be off."""
-_CONCENTRATION = 1.5
+_CONCENTRATION = 2.0
 """Of the directions in which lies what a way leads to, about that in which the way ends (of von Mises)."""
 MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN, LED})
 """Relations of which distances say all."""
