@@ -35,6 +35,7 @@ class Everyday:
         kinds: name of a kind -> names of what people count as it.
         packages: last words of the names of what is called by what it holds as well.
         fillings: names of whatever is in a thing.
+        packs, wares: what things come packed in whatever they are, and names of whatever comes so.
         portions: what behind the name of a thing only says how much of it.
         beside: first word of a compound -> the name of what such a thing stands beside.
         ages: the same -> how large it is among those of its kind.
@@ -47,6 +48,8 @@ class Everyday:
     kinds: dict[str, frozenset[str]]
     packages: frozenset[str]
     fillings: frozenset[str]
+    packs: frozenset[str]
+    wares: frozenset[str]
     portions: frozenset[str]
     beside: dict[str, str]
     ages: dict[str, str]
@@ -66,14 +69,15 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    lists = ("generic", "purposeful", "packages", "fillings", "portions")
-    generic, purposeful, packages, fillings, portions = (frozenset(map(str, data[name])) for name in lists)
+    lists = ("generic", "purposeful", "packages", "fillings", "packs", "wares", "portions")
+    listed = (frozenset(map(str, data[name])) for name in lists)
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
     kinds = {kind: _also_called(members, data["same"]) for kind, members in kinds.items()}
     compounds = data["beside"], data["ages"]
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, *compounds)
+    generic, purposeful, *others = listed
+    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, *others, *compounds)
 
 
 @functools.cache
