@@ -8,6 +8,7 @@ from dcg_torch.interpretation.bearers import by_bearers
 from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.denials import by_denials
 from dcg_torch.interpretation.faces import by_faces
+from dcg_torch.interpretation.loads import by_loads
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.passages import by_passages
@@ -28,6 +29,7 @@ _REWRITES = (
     by_introduction,
     by_same_kind,
     by_rooms,
+    by_loads,
     by_compounds,
     by_faces,
     by_corners,
