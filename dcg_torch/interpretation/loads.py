@@ -29,7 +29,8 @@ def by_loads(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     if _HOLDS.isdisjoint(said.words):
         return tree
-    types = tuple(sorted({o.type for o in world.objects if o.type and not o.type.startswith(OPAQUE)}))
+    there = (o.type for o in world.objects if not o.hypothetical)
+    types = tuple(sorted({type_ for type_ in there if type_ and not type_.startswith(OPAQUE)}))
     return _by_loads(tree, types)
 
 
