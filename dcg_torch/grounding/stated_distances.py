@@ -5,6 +5,7 @@ That is measured, not learned.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -93,11 +94,11 @@ def log_led(way: float, encoder: WorldEncoder) -> Floats:
     Args:
         way: radians to the left of where the robot heads.
     """
-    robot, anywhere = encoder.world.robot, float(np.log(np.i0(_CONCENTRATION)))
-    placed = {} if robot is None else {j: o.position for j, o in enumerate(encoder.all) if o.position is not None}
-    found = np.full(len(encoder.all), anywhere)
-    for j, (x, y, *_) in placed.items():
-        found[j] = _CONCENTRATION * np.cos(np.arctan2(y - robot.y, x - robot.x) - robot.yaw - way)
+    robot, found = encoder.world.robot, np.full(len(encoder.all), np.log(np.i0(_CONCENTRATION)))
+    for j, o in enumerate(encoder.all):
+        if robot is not None and o.position is not None:
+            turned = math.atan2(o.position[1] - robot.y, o.position[0] - robot.x) - robot.yaw
+            found[j] = _CONCENTRATION * math.cos(turned - way)
     return found - _CONCENTRATION
 
 
