@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from dcg_torch.names.normal_form import head_index, normalise, read_data, singular
 from dcg_torch.names.wordnet import nouns
@@ -70,14 +71,14 @@ def everyday() -> Everyday:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
     lists = ("generic", "purposeful", "packages", "fillings", "packs", "wares", "portions")
-    listed = (frozenset(map(str, data[name])) for name in lists)
+    listed: dict[str, Any] = {name: frozenset(map(str, data[name])) for name in lists}
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
     kinds = {kind: _also_called(members, data["same"]) for kind, members in kinds.items()}
-    compounds = data["beside"], data["ages"]
-    generic, purposeful, *others = listed
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, *others, *compounds)
+    return Everyday(
+        groups=frozen, kinds=kinds, purposes=data["purposes"], beside=data["beside"], ages=data["ages"], **listed
+    )
 
 
 @functools.cache
