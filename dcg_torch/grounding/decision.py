@@ -8,13 +8,43 @@ import numpy as np
 
 from dcg_torch.grounding.absence import judges_absence
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.types import Object
+from dcg_torch.interpretation.scene_kinds import is_close_by
+from dcg_torch.names.vocabulary import LED
+from dcg_torch.types import Object, ParseTree
 from dcg_torch.types.arrays import Floats
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
+_NEARER = 3.0
+"""Nats for each e-fold by which a thing is nearer to the robot than another that is described alike."""
 _SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
 """Log of the probability that something is there from which on something is meant that is."""
+
+
+def rather_near(totals: Floats, noun: ParseTree | None, encoder: WorldEncoder) -> Floats:
+    """(meanable,) log-scores in which the nearer of things that are described alike is likelier, where names count.
+
+    What they have together stays what it is. Not so of several that are meant, on a table, where nothing is far, and
+    where a way is told: what is near where that begins tells nothing.
+
+    Args:
+        totals: (meanable,) log-score of every thing that may be meant, up to a constant.
+        noun: the phrase of what is meant.
+    """
+    robot, afar = encoder.world.robot, judges_absence(encoder) and not is_close_by(encoder.world)
+    one = noun is not None and not noun.phrase.plural and all(LED not in child.phrase.words for child in noun.children)
+    if robot is None or not (afar and one):
+        return totals
+    equal = np.flatnonzero(totals >= totals.max() + _EQUAL)
+    things = [encoder.all[int(j)] for j in equal]
+    spots = [o.position[:2] for o in things if o.position is not None and not (o.hypothetical or o.members)]
+    if len(spots) < max(2, len(things)):
+        return totals
+    apart = np.linalg.norm(np.array(spots) - (robot.x, robot.y), axis=1)
+    rather = -_NEARER * np.log(apart + encoder.world.unit)
+    found = totals.copy()
+    found[equal] += rather + np.logaddexp.reduce(totals[equal]) - np.logaddexp.reduce(totals[equal] + rather)
+    return found
 
 
 def instead_of(best: Object, totals: Floats, encoder: WorldEncoder, *, several: bool) -> str:
