@@ -20,6 +20,7 @@ from dcg_torch.interpretation.rooms import by_rooms
 from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
+from dcg_torch.interpretation.surfaces import by_surfaces
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
@@ -35,6 +36,7 @@ _REWRITES = (
     by_corners,
     by_walls,
     by_bearers,
+    by_surfaces,
     by_alternatives,
     by_denials,
     by_heights,

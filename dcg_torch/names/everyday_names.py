@@ -37,6 +37,7 @@ class Everyday:
         packages: last words of the names of what is called by what it holds as well.
         fillings: names of whatever is in a thing.
         packs, wares: what things come packed in whatever they are, and names of whatever comes so.
+        surfaces: names of what is so long that people mean a part of it.
         portions: what behind the name of a thing only says how much of it.
         beside: first word of a compound -> the name of what such a thing stands beside.
         ages: the same -> how large it is among those of its kind.
@@ -51,6 +52,7 @@ class Everyday:
     fillings: frozenset[str]
     packs: frozenset[str]
     wares: frozenset[str]
+    surfaces: frozenset[str]
     portions: frozenset[str]
     beside: dict[str, str]
     ages: dict[str, str]
@@ -70,7 +72,7 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    lists = ("generic", "purposeful", "packages", "fillings", "packs", "wares", "portions")
+    lists = ("generic", "purposeful", "packages", "fillings", "packs", "wares", "surfaces", "portions")
     listed: dict[str, Any] = {name: frozenset(map(str, data[name])) for name in lists}
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
