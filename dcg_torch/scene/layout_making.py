@@ -77,7 +77,8 @@ def _outlook(world: WorldModel, position: Floats, sized: Bodies | None) -> Float
         found = None if sized is None else outlooks(position, sized, classes, world.unit)
         return None if found is None else np.pad(found, (0, len(position) - len(found)))
     seen = position[: len(world.objects), :2]
-    if not ((np.nanmin(seen, axis=0) < 0.0).all() and (np.nanmax(seen, axis=0) > 0.0).all()):
+    seen = seen[np.isfinite(seen).all(axis=1)]
+    if not len(seen) or (seen.min(axis=0) >= 0.0).any() or (seen.max(axis=0) <= 0.0).any():
         return None
     at = positions(world.objects) / world.unit  # walls are along the axes of the world
     own = bodies(world.objects, at[:, 2], 0.0, world.unit) or points(len(at))

@@ -39,15 +39,16 @@ def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_
     low, high = (at - half)[there].min(axis=0), (at + half)[there].max(axis=0)
     if ((high - low) * unit < _WIDE).any():
         return None
-    inward, lies = _from_edges(at, bodies)
     gaps = np.concatenate([at - half - low, high - at - half], axis=1) * unit  # (n, 4): low x, low y, high x, high y
     along = np.tile(half[:, ::-1], 2)  # how far a thing reaches along each of these walls
     wall = np.where(gaps <= _AT_WALL, along - TIE * gaps, -np.inf)
-    best = wall.argmax(axis=1)
-    other = np.where(lies[:, None], inward, at - (low + high) / 2.0)
-    out = np.where(np.isfinite(wall.max(axis=1))[:, None], _OUT[best], other)
+    stands, out = np.isfinite(wall.max(axis=1)), _OUT[wall.argmax(axis=1)]
+    if at_walls:
+        return np.where(stands, np.arctan2(out[:, 1], out[:, 0]), np.nan)
+    inward, lies = _from_edges(at, bodies)
+    out = np.where(stands[:, None], out, np.where(lies[:, None], inward, at - (low + high) / 2.0))
     found: Floats = np.where(there, np.arctan2(out[:, 1], out[:, 0]), 0.0)
-    return np.where(np.isfinite(wall.max(axis=1)), found, np.nan) if at_walls else found
+    return found
 
 
 _OUT = np.array([(-1.0, 0.0), (0.0, -1.0), (1.0, 0.0), (0.0, 1.0)])
