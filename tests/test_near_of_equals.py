@@ -7,7 +7,8 @@ from asked import HERE, grounded, standing
 
 from dcg_torch.types import Pose
 
-YARD = standing(("near", "crate", None, 3.0, 0.0), ("far", "crate", None, 9.0, 0.0), ("truck", "truck", None, 5.0, 4.0))
+CRATES = (("near", "crate", None, 3.0, 0.0), ("far", "crate", None, 9.0, 0.0))
+YARD = standing(*CRATES, ("truck", "truck", None, -5.0, 4.0), ("gate", "gate", None, -4.0, -6.0))
 
 
 def odds(text: str, robot: Pose | None) -> float:
@@ -28,6 +29,12 @@ def test_they_are_equal_where_nobody_stands(text: str) -> None:
 
 def test_they_are_equal_at_the_same_distance() -> None:
     assert odds("lift the crate", Pose(6.0, 1.0)) == pytest.approx(1.0)
+
+
+def test_they_are_equal_to_who_is_not_among_the_things() -> None:
+    ahead = standing(*CRATES, ("truck", "truck", None, 5.0, 4.0))
+    probabilities = grounded("lift the crate", ahead, HERE, looked=True).probabilities
+    assert probabilities["near"] == pytest.approx(probabilities["far"])
 
 
 def test_what_is_near_where_a_way_begins_tells_nothing() -> None:

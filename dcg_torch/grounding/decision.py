@@ -8,7 +8,6 @@ import numpy as np
 
 from dcg_torch.grounding.absence import judges_absence
 from dcg_torch.grounding.encoding import WorldEncoder
-from dcg_torch.interpretation.scene_kinds import is_close_by
 from dcg_torch.names.vocabulary import LED
 from dcg_torch.types import Object, ParseTree
 from dcg_torch.types.arrays import Floats
@@ -24,16 +23,16 @@ _SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
 def rather_near(totals: Floats, noun: ParseTree | None, encoder: WorldEncoder) -> Floats:
     """(meanable,) log-scores in which the nearer of things that are described alike is likelier, where names count.
 
-    What they have together stays what it is. Not so of several that are meant, on a table, where nothing is far, and
-    where a way is told: what is near where that begins tells nothing.
+    What they have together stays what it is. Not so of several that are meant, where the robot does not stand among
+    the things, as an arm at a table, and where a way is told: what is near where that begins tells nothing.
 
     Args:
         totals: (meanable,) log-score of every thing that may be meant, up to a constant.
         noun: the phrase of what is meant.
     """
-    robot, afar = encoder.world.robot, judges_absence(encoder) and not is_close_by(encoder.world)
+    robot, among = encoder.world.robot, judges_absence(encoder) and encoder.among_things
     one = noun is not None and not noun.phrase.plural and all(LED not in child.phrase.words for child in noun.children)
-    if robot is None or not (afar and one):
+    if robot is None or not (among and one):
         return totals
     equal = np.flatnonzero(totals >= totals.max() + _EQUAL)
     things = [encoder.all[int(j)] for j in equal]
