@@ -8,7 +8,8 @@ from asked import HERE, grounded, standing
 from dcg_torch.types import Pose
 
 CRATES = (("near", "crate", None, 3.0, 0.0), ("far", "crate", None, 9.0, 0.0))
-YARD = standing(*CRATES, ("truck", "truck", None, -5.0, 4.0), ("gate", "gate", None, -4.0, -6.0))
+AROUND = (("truck", "truck", None, -5.0, 4.0), ("gate", "gate", None, -4.0, -6.0))
+YARD = standing(*CRATES, *AROUND)
 
 
 def odds(text: str, robot: Pose | None) -> float:
@@ -20,6 +21,18 @@ def odds(text: str, robot: Pose | None) -> float:
 @pytest.mark.parametrize("text", ["lift the crate", "pick up a crate"])
 def test_the_nearer_of_equals_is_likelier(text: str) -> None:
     assert odds(text, HERE) > 3.0
+
+
+def test_nearness_alone_makes_nobody_sure() -> None:
+    """One speaker in seven means any of them, so that no more than 93 of 100 mean the nearer of two."""
+    assert odds("lift the crate", Pose(2.9, 0.0)) < 0.93 / 0.07
+
+
+def test_it_is_the_way_there_that_counts() -> None:
+    """Of two that are half a metre and a metre off either may be meant: 0.85 * 1 / (1 + e**-0.25) + 0.075 is 0.55."""
+    close = standing(("near", "crate", None, 0.5, 0.0), ("far", "crate", None, 1.0, 0.0), *AROUND)
+    probabilities = grounded("lift the crate", close, HERE, looked=True).probabilities
+    assert probabilities["near"] / probabilities["far"] == pytest.approx(0.553 / 0.447, abs=0.02)
 
 
 @pytest.mark.parametrize("text", ["lift the crate", "pick up a crate"])

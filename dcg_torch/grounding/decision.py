@@ -14,8 +14,9 @@ from dcg_torch.types.arrays import Floats
 
 _EQUAL = math.log(0.9)
 """Log of the share of the best thing's probability from which another is as good."""
-_NEARER = 3.0
-"""Nats for each e-fold by which a thing is nearer to the robot than another that is described alike."""
+_NEARER, _REGARDLESS = 2.0, 0.15
+"""Metres by which a thing is nearer to the robot than another that is described alike and is e times likelier for it,
+and the share of people who mean any of them: at arm's length the robot still asks which, and not across a yard."""
 _SEVERAL_THERE, _ONE_THERE = math.log(0.5), math.log(2.0 / 3.0)
 """Log of the probability that something is there from which on something is meant that is."""
 
@@ -40,9 +41,13 @@ def rather_near(totals: Floats, noun: ParseTree | None, encoder: WorldEncoder) -
     if len(spots) < max(2, len(things)):
         return totals
     apart = np.linalg.norm(np.array(spots) - (robot.x, robot.y), axis=1)
-    rather = -_NEARER * np.log(apart + encoder.world.unit)
+    rather = totals[equal] - apart / _NEARER
+    whole = np.logaddexp.reduce(totals[equal])
+    nearer = np.logaddexp(
+        math.log1p(-_REGARDLESS) + rather - np.logaddexp.reduce(rather), math.log(_REGARDLESS) + totals[equal] - whole
+    )
     found = totals.copy()
-    found[equal] += rather + np.logaddexp.reduce(totals[equal]) - np.logaddexp.reduce(totals[equal] + rather)
+    found[equal] = nearer + whole
     return found
 
 
