@@ -168,6 +168,22 @@ def test_a_side_is_a_place_where_things_are_turned_to_sides() -> None:
     assert _told_apart("the chair facing left", *chairs) == ["o1"]
 
 
+@pytest.mark.parametrize(
+    ("way", "which"),
+    [
+        ("rear", "o2"),
+        ("the rear", "o2"),
+        ("rearward", "o2"),
+        ("rearwards", "o2"),
+        ("leftward", "o1"),
+        ("rightwards", "o0"),
+    ],
+)
+def test_ways_to_be_turned_have_several_names(way: str, which: str) -> None:
+    chairs = [("chair", None, {f"orientation: {side}"}) for side in ("right", "left", "back")]
+    assert _told_apart(f"the chair facing {way}", *chairs) == [which]
+
+
 @pytest.mark.parametrize("text", ["the cube that is not red", "the non-red cube"])
 def test_a_color_that_is_denied(text: str) -> None:
     assert _told_apart(text, ("cube", "red", set()), ("cube", "blue", set())) == ["o1"]

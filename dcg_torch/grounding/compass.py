@@ -37,7 +37,7 @@ def by_compass(
     phrase = tree.phrase
     sides = BY_COMPASS.get(" ".join(phrase.text.split(" ")[-2:]), ())
     where = encoder.layout
-    if phrase.words[0] not in sides or where.outlook is not None:
+    if phrase.words[0] not in sides or (where.outlook is not None and encoder.world.robot is None):
         return log_psi
     way = np.sum([ON_A_SIDE[side] for side in sides], axis=0)[None] / math.sqrt(len(sides))
     found = log_psi.copy()

@@ -229,7 +229,7 @@ def _ways(side: tuple[float, float], landmarks: Sequence[int], encoder: WorldEnc
     x, y = side
     if encoder.layout.outlook is None:
         return x, y
-    angle = encoder.layout.outlook[list(landmarks)][:, None]
+    angle = np.nan_to_num(encoder.layout.outlook[list(landmarks)])[:, None]
     return x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)
 
 

@@ -45,6 +45,7 @@ from dcg_torch.interpretation.scene_rewrites import in_scene_words
 from dcg_torch.interpretation.shelves import with_tiers
 from dcg_torch.interpretation.stacks import with_levels
 from dcg_torch.interpretation.walls import with_walls
+from dcg_torch.interpretation.ways import led_along
 from dcg_torch.names.keys import OF_KEY
 from dcg_torch.names.vocabulary import PLACE_WORDS
 from dcg_torch.scene.workspace import Beside, with_all, with_places_of_all
@@ -94,10 +95,12 @@ def worth_grounding(command: ReadCommand, world: WorldModel, learned: Mapping[st
     referring = refer_back([r.tree for r, _ in kept], [r.tree for r in command.readings])
     trees = [in_scene_words(tree, world) for tree in in_what_holds_it(referring, world)]
     led, looks = led_into_rooms(trees, world), Looks.of(world)
-    told = by_attributes([with_appearance_words(tree, command.text, looks) for tree, _ in led], world)
+    told = by_cells(by_attributes([with_appearance_words(tree, command.text, looks) for tree, _ in led], world), world)
+    if stands:
+        told = [led_along(tree, r.tree, command.text) for tree, (r, _) in zip(told, kept, strict=True)]
     return [
         Reading(tree, weight - (_TO_A_ROOM if leads else 0.0), tuple(r.rules))
-        for tree, (_, leads), (r, weight) in zip(by_cells(told, world), led, kept, strict=True)
+        for tree, (_, leads), (r, weight) in zip(told, led, kept, strict=True)
     ]
 
 

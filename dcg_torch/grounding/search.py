@@ -9,7 +9,7 @@ import numpy as np
 
 from dcg_torch.grounding.absence import judges_absence, less_for_many_types, log_odds_of_absence
 from dcg_torch.grounding.contradictions import of_missing_marks
-from dcg_torch.grounding.decision import instead_of
+from dcg_torch.grounding.decision import instead_of, rather_near
 from dcg_torch.grounding.descriptions import (
     comparison_set,
     is_narrowed,
@@ -78,6 +78,7 @@ class Search:
         root = self._picked(tree, landmark=False)
         number, totals = self.encoder.number, root.totals()[: self._meanable]
         found = target_of(tree)
+        totals = rather_near(totals, found, self.encoder)
         best = self._best(root, 1)[0]
         id_ = instead_of(best.meant, totals, self.encoder, several=found is not None and found.phrase.plural)
         best = best if id_ == best.meant.id else self._best_about(id_, root) or best

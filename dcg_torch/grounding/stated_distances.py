@@ -5,13 +5,15 @@ That is measured, not learned.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
 
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.interpretation.distances import Apart, said_apart, said_turn
-from dcg_torch.names.vocabulary import NEARER_OF_TWO, NEARER_THAN, SO_FAR
+from dcg_torch.interpretation.ways import said_way
+from dcg_torch.names.vocabulary import LED, NEARER_OF_TWO, NEARER_THAN, SO_FAR
 from dcg_torch.types import Phrase
 from dcg_torch.types.arrays import Floats
 
@@ -25,7 +27,9 @@ _OFF = 0.15
 
 _HALF_AN_HOUR = np.pi / 12.0
 """Angle by which what is said to be at an hour of the clock may be off."""
-MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN})
+_CONCENTRATION = 2.0
+"""Of the directions in which lies what a way leads to, about that in which the way ends (of von Mises)."""
+MEASURED = frozenset({SO_FAR, NEARER_OF_TWO, NEARER_THAN, LED})
 """Relations of which distances say all."""
 
 
@@ -37,6 +41,8 @@ def log_distance(
     Raises:
         ValueError: the phrase says no distance.
     """
+    if phrase.words[0] == LED:
+        return np.tile(log_led(said_way(phrase), encoder), (len(landmarks), 1))
     if phrase.words[0] != SO_FAR:
         return log_nearer(phrase.words[0], landmarks, encoder, denied=denied)
     said, turn = said_apart(phrase), said_turn(phrase)
@@ -78,6 +84,22 @@ def log_turned(turn: float, encoder: WorldEncoder, *, denied: bool) -> Floats:
     likely = _SLIP + (1.0 - 2.0 * _SLIP) * (1.0 - inside if denied else inside)
     found: Floats = np.log(np.where(np.isfinite(off) & where.solid, likely, _SLIP))
     return found
+
+
+def log_led(way: float, encoder: WorldEncoder) -> Floats:
+    """(things,) how much likelier a thing lies at the end of a way than what lies just there, as a logarithm.
+
+    What is nowhere may be in any direction.
+
+    Args:
+        way: radians to the left of where the robot heads.
+    """
+    robot, found = encoder.world.robot, np.full(len(encoder.all), np.log(np.i0(_CONCENTRATION)))
+    for j, o in enumerate(encoder.all):
+        if robot is not None and o.position is not None:
+            turned = math.atan2(o.position[1] - robot.y, o.position[0] - robot.x) - robot.yaw
+            found[j] = _CONCENTRATION * math.cos(turned - way)
+    return found - _CONCENTRATION
 
 
 def log_nearer(name: str, landmarks: Sequence[tuple[int, ...]], encoder: WorldEncoder, *, denied: bool) -> Floats:

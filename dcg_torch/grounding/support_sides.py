@@ -59,5 +59,5 @@ def _looked_at_alike(things: Ints, encoder: WorldEncoder) -> bool:
     outlook = encoder.layout.outlook
     if outlook is None:
         return True
-    turned = np.abs(outlook[things] - outlook[things[0]])
+    turned = np.abs(np.nan_to_num(outlook[things] - outlook[things[0]])) % (2.0 * math.pi)
     return bool((np.minimum(turned, 2.0 * math.pi - turned) < _ALIKE).all())

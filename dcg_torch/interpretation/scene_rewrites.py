@@ -8,6 +8,7 @@ from dcg_torch.interpretation.bearers import by_bearers
 from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.denials import by_denials
 from dcg_torch.interpretation.faces import by_faces
+from dcg_torch.interpretation.loads import by_loads
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.interpretation.passages import by_passages
@@ -19,7 +20,11 @@ from dcg_torch.interpretation.rooms import by_rooms
 from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
+<<<<<<< HEAD
 from dcg_torch.interpretation.walls import by_walls
+=======
+from dcg_torch.interpretation.surfaces import by_surfaces
+>>>>>>> rooms
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
@@ -29,11 +34,13 @@ _REWRITES = (
     by_introduction,
     by_same_kind,
     by_rooms,
+    by_loads,
     by_compounds,
     by_faces,
     by_corners,
     by_walls,
     by_bearers,
+    by_surfaces,
     by_alternatives,
     by_denials,
     by_heights,

@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from dcg_torch.names.normal_form import head_index, normalise, read_data, singular
 from dcg_torch.names.wordnet import nouns
@@ -35,6 +36,8 @@ class Everyday:
         kinds: name of a kind -> names of what people count as it.
         packages: last words of the names of what is called by what it holds as well.
         fillings: names of whatever is in a thing.
+        packs, wares: what things come packed in whatever they are, and names of whatever comes so.
+        surfaces: names of what is so long that people mean a part of it.
         portions: what behind the name of a thing only says how much of it.
         beside: first word of a compound -> the name of what such a thing stands beside.
         ages: the same -> how large it is among those of its kind.
@@ -47,6 +50,9 @@ class Everyday:
     kinds: dict[str, frozenset[str]]
     packages: frozenset[str]
     fillings: frozenset[str]
+    packs: frozenset[str]
+    wares: frozenset[str]
+    surfaces: frozenset[str]
     portions: frozenset[str]
     beside: dict[str, str]
     ages: dict[str, str]
@@ -66,14 +72,15 @@ def everyday() -> Everyday:
         for name in names:
             groups.setdefault(name_parts(str(name)).text, set()).add(k)
     frozen = {name: frozenset(numbers) for name, numbers in groups.items()}
-    lists = ("generic", "purposeful", "packages", "fillings", "portions")
-    generic, purposeful, packages, fillings, portions = (frozenset(map(str, data[name])) for name in lists)
+    lists = ("generic", "purposeful", "packages", "fillings", "packs", "wares", "surfaces", "portions")
+    listed: dict[str, Any] = {name: frozenset(map(str, data[name])) for name in lists}
     kinds = {
         name_parts(kind).text: _members(kind, data["kinds"]) for line in data["kinds"] for kind in line.split(", ")
     }
     kinds = {kind: _also_called(members, data["same"]) for kind, members in kinds.items()}
-    compounds = data["beside"], data["ages"]
-    return Everyday(frozen, generic, purposeful, data["purposes"], kinds, packages, fillings, portions, *compounds)
+    return Everyday(
+        groups=frozen, kinds=kinds, purposes=data["purposes"], beside=data["beside"], ages=data["ages"], **listed
+    )
 
 
 @functools.cache

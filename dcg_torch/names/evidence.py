@@ -66,6 +66,7 @@ def evidence(noun: str, class_name: str) -> tuple[str, ...]:
     said, named = name_parts(noun), name_parts(class_name)
     if unheard_of(noun):
         said = next((other for other in (named, name_parts(named.head)) if _misspells(said.text, other.text)), said)
+    said = _unpacked(said, named)
     if (told := _by_purpose(said, named)) is not None:
         return told
     if (held := _as_held(said, named)) is not None:
@@ -99,6 +100,22 @@ def _by_purpose(said: Name, named: Name) -> tuple[str, ...] | None:
         return None
     inner = " ".join(before)
     return evidence(inner, named.text) if base is None and not unheard_of(word) else ("name: generic",)
+
+
+def _unpacked(said: Name, named: Name) -> Name:
+    """What was said with what wares come in for wares, or the other way round: "box pallet" for "spare parts pallet".
+
+    A noun without either, and for a class of no package, stays.
+    """
+    packs, wares, holds = everyday().packs, everyday().wares, named.words[:-1]
+    if named.head not in everyday().packages or not set(said.words).isdisjoint(holds):
+        return said
+    for these, those in ((packs, wares), (wares, packs)):
+        held = next((word for word in holds if word in those), None)
+        spoken = next((k for k, word in enumerate(said.words) if word in these and word != named.head), None)
+        if held is not None and spoken is not None:
+            return name_parts(" ".join((*said.words[:spoken], held, *said.words[spoken + 1 :])))
+    return said
 
 
 def _as_held(said: Name, named: Name) -> tuple[str, ...] | None:

@@ -151,6 +151,8 @@ HALF, FEW = "half", {"few": 3}
 """Words for a share of what is described, and for how many are meant at most."""
 SO_FAR = "so far from"
 """The relation of what is so far from a landmark as the text of a phrase says: "within a metre of"."""
+LED = "led from"
+"""The relation of what lies where a way leads from the robot."""
 ODD, NOTHING, NO_OTHER = "odd", "nothing ", "no other "
 """The word for what alone differs from all else, and what begins the words for what has nothing, or no other of its
 kind, beside it."""

@@ -122,6 +122,11 @@ def gap(one: Object, other: Object) -> float:
     return math.hypot(*(max(0.0, abs(one.position[k] - other.position[k]) - half[k]) for k in (0, 1)))
 
 
+def points(number: int) -> Bodies:
+    """So many things of which nobody says how large they are."""
+    return Bodies(np.full((number, 2), math.nan), np.full(number, math.nan), np.full(number, math.nan))
+
+
 def bodies(objects: Sequence[Object], height: Floats, turned: float, unit: float) -> Bodies | None:
     """How large things are; None where of none it is known.
 

@@ -65,7 +65,8 @@ class Layout:
         speaker: (2,) where the speaker is, or None.
         bodies: how large the objects are, or None.
         picture: does it show a page or a wall, where none is over another?
-        outlook: (n,) angles along which things are looked at, in a room where nobody says who stands where.
+        outlook: (n,) angles along which things are looked at, in a room where nobody says who stands where. Around a
+            robot, of what is at the walls; NaN of all else.
     """
 
     things: tuple[Object, ...]

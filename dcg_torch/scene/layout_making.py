@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from dcg_torch.scene.bodies import Bodies, bodies
+from dcg_torch.scene.bodies import Bodies, bodies, points
 from dcg_torch.scene.layout import DIRECTION, EDGES, GROUND, HEADINGS, OF_SPEAKER, Layout
 from dcg_torch.scene.order import TIE
 from dcg_torch.scene.outlooks import outlooks
@@ -61,16 +61,31 @@ def layout(world: WorldModel) -> Layout:
         speaker,
         sized,
         picture=not on_floor,
-        outlook=None if sized is None else _outlook(world, position, sized),
+        outlook=_outlook(world, position, sized) if on_floor else None,
     )
 
 
-def _outlook(world: WorldModel, position: Floats, sized: Bodies) -> Floats | None:
-    """(n,) from where each thing is looked at, where nobody stands; see `outlooks`."""
-    if world.robot is not None or world.viewer is not None:
+def _outlook(world: WorldModel, position: Floats, sized: Bodies | None) -> Floats | None:
+    """(n,) from where each thing is looked at in a room; see `outlooks`.
+
+    Where a robot stands in the middle of the room that is so of what is at a wall, and NaN for all else.
+    """
+    classes = len({o.type for o in world.objects if not o.hypothetical})
+    if world.viewer is not None:
         return None
-    found = outlooks(position, sized, len({o.type for o in world.objects if not o.hypothetical}), world.unit)
-    return None if found is None else np.pad(found, (0, len(position) - len(found)))
+    if world.robot is None:
+        found = None if sized is None else outlooks(position, sized, classes, world.unit)
+        return None if found is None else np.pad(found, (0, len(position) - len(found)))
+    seen = position[: len(world.objects), :2]
+    seen = seen[np.isfinite(seen).all(axis=1)]
+    if not len(seen) or (seen.min(axis=0) >= 0.0).any() or (seen.max(axis=0) <= 0.0).any():
+        return None
+    at = positions(world.objects) / world.unit  # walls are along the axes of the world
+    own = bodies(world.objects, at[:, 2], 0.0, world.unit) or points(len(at))
+    found = outlooks(at, own, classes, world.unit, at_walls=True)
+    if found is None:
+        return None
+    return np.pad(found - world.robot.yaw, (0, len(position) - len(found)), constant_values=math.nan)
 
 
 def _as_seen(world: WorldModel, viewer: Pose) -> tuple[Floats, bool]:

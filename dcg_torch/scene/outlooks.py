@@ -2,7 +2,8 @@
 
 Nobody says where who speaks stands in a room that was scanned. People then mean a thing's sides as who stands before it
 sees them: its back is to the wall that it stands at. What lies on a table is looked at from the nearest edge of that;
-what else stands at no wall, from the middle of the room.
+what else stands at no wall, from the middle of the room. Where a robot stands in the middle of a room, what is at a
+wall has its sides so as well, wherever the robot looks: who speaks thinks of it as it is used.
 """
 
 from __future__ import annotations
@@ -21,13 +22,14 @@ _THINGS, _CLASSES, _WIDE = 10, 4, 2.0
 """Things and classes at least in a room, and metres between its walls."""
 
 
-def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float) -> Floats | None:
+def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_walls: bool = False) -> Floats | None:
     """(n,) angles along which who stands before things looks at them; None for what is no room.
 
     Args:
         position: (n, 2 or more) of the objects, in units.
         classes: how many there are.
         unit: metres.
+        at_walls: leave out what is at no wall, which is NaN then: somebody is there to look at it.
     """
     at = position[: len(bodies.half), :2]
     half = np.nan_to_num(bodies.half)
@@ -37,13 +39,14 @@ def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float) -> Flo
     low, high = (at - half)[there].min(axis=0), (at + half)[there].max(axis=0)
     if ((high - low) * unit < _WIDE).any():
         return None
-    inward, lies = _from_edges(at, bodies)
     gaps = np.concatenate([at - half - low, high - at - half], axis=1) * unit  # (n, 4): low x, low y, high x, high y
     along = np.tile(half[:, ::-1], 2)  # how far a thing reaches along each of these walls
     wall = np.where(gaps <= _AT_WALL, along - TIE * gaps, -np.inf)
-    best = wall.argmax(axis=1)
-    other = np.where(lies[:, None], inward, at - (low + high) / 2.0)
-    out = np.where(np.isfinite(wall.max(axis=1))[:, None], _OUT[best], other)
+    stands, out = np.isfinite(wall.max(axis=1)), _OUT[wall.argmax(axis=1)]
+    if at_walls:
+        return np.where(stands, np.arctan2(out[:, 1], out[:, 0]), np.nan)
+    inward, lies = _from_edges(at, bodies)
+    out = np.where(stands[:, None], out, np.where(lies[:, None], inward, at - (low + high) / 2.0))
     found: Floats = np.where(there, np.arctan2(out[:, 1], out[:, 0]), 0.0)
     return found
 

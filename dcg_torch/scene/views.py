@@ -19,8 +19,8 @@ def views(where: Layout, first: Ints, sided: Bools) -> tuple[Floats, Bools]:
         (frames, c) angles, and (frames, c, n) which things stand on a side.
     """
     mark = where.position[first, :2]
-    if where.outlook is not None:
-        seen = where.outlook[first]
+    seen = None if where.outlook is None else where.outlook[first]
+    if seen is not None and np.isfinite(seen).all():
         return np.array([seen, seen]), np.array([sided, sided])
     away = np.hypot(*mark.T)[:, None] > TIE  # the robot doesn't see itself from anywhere
     found, kept = [np.zeros(len(first)), np.arctan2(mark[:, 1], mark[:, 0])], [sided, sided & away]
@@ -29,4 +29,5 @@ def views(where: Layout, first: Ints, sided: Bools) -> tuple[Floats, Bools]:
         near = np.hypot(*view.T) <= TIE  # the speaker looks at the middle of the objects
         view[near] = where.middle - where.speaker
         found, kept = [*found, np.arctan2(view[:, 1], view[:, 0])], [*kept, sided]
-    return np.array(found), np.array(kept)
+    angles: Floats = np.array(found) if seen is None else np.where(np.isfinite(seen), seen, np.array(found))
+    return angles, np.array(kept)
