@@ -81,6 +81,10 @@ def test_compressing_chroma_keeps_the_hue() -> None:
         ("the blue but not bright blue one", (DARK, BLUE, RED)),  # red is not bright blue either, but it is no blue
         ("not bright blue or red", (DARK, BLUE, RED)),
         ("not the darkest , not the lightest", (BLUE, DARK, PALE)),
+        ("the darker gray one", ((70, 75, 80), (110, 110, 110), GREEN)),  # though the lighter is the grayer
+        ("the darkest yellow", ((150, 130, 30), (240, 220, 60), RED)),
+        ("the brighter purple", ((190, 40, 250), PURPLE, GREEN)),
+        ("the darkest green", (GREEN, (120, 220, 130), DARK)),  # what is still darker is no green
         ("blueish green", ((30, 180, 130), (90, 180, 20), RED)),
     ],
 )
@@ -131,6 +135,9 @@ def test_a_region_is_graded() -> None:
         ("aqua", "cyan", "color: alike"),
         ("violet", "purple", "color: alike"),
         ("silver", "gray", "color: alike"),
+        ("pink", "magenta", "color: alike"),
+        ("purple", "magenta", "color: alike"),
+        ("purple", "pink", "color: near"),
         ("orange", "red", "color: near"),
         ("navy", "blue", "color: near"),
         ("red", "green", "color: far"),

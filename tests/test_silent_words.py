@@ -51,3 +51,18 @@ def test_two_colours_together_name_neither(words: str) -> None:
         for id_, y in zip(shades, (-0.3, 0.0, 0.3), strict=True)
     ]
     assert [o.id for o in grounded(words, patches, looked=True).objects] == ["bluish"]
+
+
+@pytest.mark.parametrize(
+    ("words", "looks"),
+    [("the duller green", "dull"), ("dull green", "dull"), ("the bluish green patch", "dull"), ("green", "vivid")],
+)
+def test_a_shade_is_judged_by_looking_and_a_plain_name_by_names_too(words: str, looks: str) -> None:
+    """What is a dull bluish green may be called gray, or blue, by who knows but few names."""
+    for name in ("grey", "blue"):
+        patches = [
+            Percept("dull", "patch", name, (1.0, 0.3, 0.0), rgb=(70, 165, 135)),
+            Percept("vivid", "patch", "green", (1.0, 0.0, 0.0), rgb=(60, 200, 50)),
+            Percept("other", "patch", "red", (1.0, -0.3, 0.0), rgb=RED),
+        ]
+        assert [o.id for o in grounded(words, patches, looked=True).objects] == [looks]

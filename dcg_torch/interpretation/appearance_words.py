@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, replace
 
 from dcg_torch.names.attribute_values import stated_values
-from dcg_torch.names.colors import comparing_words
+from dcg_torch.names.colors import comparing_words, is_shade
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import color_words
 from dcg_torch.names.weights import names_one_of
@@ -127,7 +127,8 @@ def _told(tree: ParseTree, look: tuple[str, ...], values: tuple[str, ...]) -> Pa
 
 
 def _judged(phrase: Phrase, look: tuple[str, ...], words: tuple[str, ...]) -> Phrase:
-    """A phrase whose colour is judged by its words: of "blue/gray" neither alone is the name of the colour."""
+    """A phrase whose colour is judged by its words: "blue/gray" and "dull green" are no names of a colour."""
     told = {name for word in look for name in (normalise(word), color_words().alike.get(normalise(word)))}
     others = told & color_words().basic & {*words, normalise(phrase.noun or "")} - {phrase.color}
-    return replace(phrase, look=look, words=words, color=None if others else phrase.color)
+    plain = not others and not is_shade(look) and " " not in (phrase.color or "")
+    return replace(phrase, look=look, words=words, color=phrase.color if plain else None)

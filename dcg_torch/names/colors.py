@@ -16,11 +16,12 @@ from dcg_torch.names.palette import Array, Region, color_words, lab, listed_colo
 
 FEATURES: Final = ("region", "not region", "tinge", "lightness", "chroma", "compared hue")
 """What the columns of `color_features` say; see there."""
-WEIGHTS: Final = (1.0, 1.0, 0.5, 1.0, 1.0, 1.0)
+WEIGHTS: Final = (1.0, 1.0, 0.5, 1.5, 1.5, 1.0)
 """The shipped weight of each; they can be learned from use."""
 _VIVID = 60.0  # chroma of a vivid colour
 _ONE_COLOR = 10.0  # distance up to which several things are of one colour
 _GRAYISH = 7.0  # chroma up to which the mean of a region is gray
+_COMPARED = 1.5  # log-density by which one of "the darker gray ones" may stay behind the grayest: all are compared
 _TYPICAL = 15.0  # differences of lightness or chroma between patches are measured in this
 
 
@@ -29,6 +30,7 @@ class _Term:
     """One thing that a description says: a column of `FEATURES`, what of, and with which sign.
 
     Attributes:
+        compares: does it ask for more, or the most, of an axis: "darker", "brightest"?
         denied: 0 for what is said of the thing that is meant; what is denied together has the same number.
     """
 
@@ -36,6 +38,7 @@ class _Term:
     region: Region | None = None
     axes: tuple[tuple[str, float], ...] = ()
     sign: float = 1.0
+    compares: bool = False
     denied: int = 0
 
 
@@ -71,6 +74,16 @@ def comparing_words(words: Sequence[str]) -> tuple[str, ...]:
 
 
 @functools.lru_cache(maxsize=4096)
+def is_shade(words: tuple[str, ...]) -> bool:
+    """Do words say more of a colour than names: "dull green", "bluish", "the darker red"?
+
+    >>> is_shade(("the", "green", "one")), is_shade(("the", "dull", "green", "one"))
+    (False, True)
+    """
+    return any(term.feature != "region" or term.axes for term in _terms(words) if not term.denied)
+
+
+@functools.lru_cache(maxsize=4096)
 def _compares(word: str) -> bool:
     name = normalise(word)
     if " " not in name:
@@ -92,7 +105,7 @@ def _term(words: tuple[str, ...], start: int, degree: float) -> tuple[_Term | No
     stem, form = _stem(normalise(words[start]))
     axes = tuple(color_words().axes.get(stem, {}).items()) if stem != "gray" or form == "er" else ()
     if axes:
-        return _Term("axes", None, axes, degree or 1.0), 1
+        return _Term("axes", None, axes, degree or 1.0, compares=bool(degree) or form == "er"), 1
     found = region(stem)
     if found is None:
         return None, 1
@@ -138,12 +151,16 @@ def _said(terms: Sequence[_Term], colors: Array) -> Array:
     """(n, 6), the columns of what is said of colours (n, 3) in CIELAB."""
     found = np.zeros((len(colors), len(FEATURES)))
     axes = {"lightness": colors[:, 0], "chroma": np.hypot(colors[:, 1], colors[:, 2])}
+    compared = any(term.compares for term in terms)
     for term in terms:
         if term.region is not None:
-            found[:, FEATURES.index(term.feature)] += _of_region(term, term.region, colors)
+            found[:, FEATURES.index(term.feature)] += _of_region(term, term.region, colors, compared)
         for axis, amount in term.axes:
             value = axes[axis]
             found[:, FEATURES.index(axis)] += term.sign * amount * (value - value.mean()) / _TYPICAL
+    fits = found[:, FEATURES.index("region")]
+    if compared and fits.any():
+        fits[:] = -np.logaddexp(0.0, fits.max() - _COMPARED - fits)
     return found
 
 
@@ -157,9 +174,9 @@ def _denial(terms: Sequence[_Term], colors: Array) -> Array:
     return denied
 
 
-def _of_region(term: _Term, of: Region, colors: Array) -> Array:
+def _of_region(term: _Term, of: Region, colors: Array, compared: bool) -> Array:
     if term.feature == "region":
-        return of.log_density(colors) + _told_from_grays(of, colors)
+        return of.log_density(colors) + (0.0 if compared else _told_from_grays(of, colors))
     hue = np.array([0.0, *of.mean[1:]])
     length = float(np.linalg.norm(hue))
     # What tends to a hue is what lies near its vivid form; gray, white and black have none, and are it themselves.
