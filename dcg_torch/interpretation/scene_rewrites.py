@@ -20,11 +20,8 @@ from dcg_torch.interpretation.rooms import by_rooms
 from dcg_torch.interpretation.same_kind_landmarks import by_same_kind
 from dcg_torch.interpretation.shelves import by_shelves
 from dcg_torch.interpretation.stacks import by_levels
-<<<<<<< HEAD
-from dcg_torch.interpretation.walls import by_walls
-=======
 from dcg_torch.interpretation.surfaces import by_surfaces
->>>>>>> rooms
+from dcg_torch.interpretation.walls import by_walls
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
