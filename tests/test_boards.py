@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from dcg_torch.interpretation.plain_sets import of_its_members
+from dcg_torch.language import parse_command
 from dcg_torch.model.pretrain import pretrained
 from dcg_torch.scene.clusters import clusters
 from dcg_torch.scene.places import side_middles
@@ -230,3 +231,24 @@ def test_what_stands_on_a_table_may_stand_alone() -> None:
         *(Percept(f"lamp {k}", "lamp", None, (2.0, -0.6 - 0.3 * k, 0.0), (0.2, 0.2, 0.4)) for k in range(3)),
     ]
     assert asked.meant("take the single lamp on the left", things, ROBOT) == {"on it"}
+
+
+@pytest.mark.parametrize(
+    ("short", "long", "block"),
+    [
+        ("the bottom left table corner", "the bottom left corner of the table", "a"),
+        ("the top right board corner", "the top right corner of the board", "d"),
+        ("the grid center", "the center of the grid", "e"),
+    ],
+)
+def test_a_table_corner_is_a_corner_of_the_table(short: str, long: str, block: str) -> None:
+    spots: Spots = {"a": (0, 0, 0), "b": (9, 1, 0), "c": (1, 9, 0), "d": (9, 8, 0), "e": (5, 4, 0)}
+    assert meant(f"take the block closest to {short}", spots) == {block}
+    one, other = (parse_command(f"take the block closest to {words}").tree for words in (short, long))
+    assert one == other
+
+
+def test_a_table_center_piece_is_no_center_of_the_table() -> None:
+    tree = parse_command("take the table center piece").tree
+    assert tree is not None
+    assert all(node.phrase.noun != "center" for node in tree.walk())

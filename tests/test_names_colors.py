@@ -85,6 +85,9 @@ def test_compressing_chroma_keeps_the_hue() -> None:
         ("the darkest yellow", ((150, 130, 30), (240, 220, 60), RED)),
         ("the brighter purple", ((190, 40, 250), PURPLE, GREEN)),
         ("the darkest green", (GREEN, (120, 220, 130), DARK)),  # what is still darker is no green
+        ("medium blue", (BLUE, (10, 20, 90), (150, 180, 250))),
+        ("the middle shade", (BLUE, DARK, PALE)),
+        ("the middle green color", ((40, 150, 60), (20, 70, 30), (150, 230, 160))),
         ("blueish green", ((30, 180, 130), (90, 180, 20), RED)),
     ],
 )

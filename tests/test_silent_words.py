@@ -66,3 +66,13 @@ def test_a_shade_is_judged_by_looking_and_a_plain_name_by_names_too(words: str, 
             Percept("other", "patch", "red", (1.0, -0.3, 0.0), rgb=RED),
         ]
         assert [o.id for o in grounded(words, patches, looked=True).objects] == [looks]
+
+
+def test_a_middle_shade_may_stand_anywhere_and_the_middle_one_may_have_any() -> None:
+    shades = {"l": (150, 220, 160), "m": (15, 60, 25), "r": (50, 140, 70)}
+    patches = [
+        Percept(id_, "patch", "green", (1.0, y, 0.0), rgb=shades[id_])
+        for id_, y in zip(shades, (0.3, 0.0, -0.3), strict=True)
+    ]
+    for words, id_ in (("the middle shade", "r"), ("the medium green patch", "r"), ("the middle patch", "m")):
+        assert [o.id for o in grounded(words, patches, looked=True).objects] == [id_], words

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass, replace
 
 from dcg_torch.names.attribute_values import stated_values
-from dcg_torch.names.colors import comparing_words, is_shade
+from dcg_torch.names.colors import comparing_words, is_shade, middle_shade
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import color_words
 from dcg_torch.names.weights import names_one_of
@@ -131,4 +131,6 @@ def _judged(phrase: Phrase, look: tuple[str, ...], words: tuple[str, ...]) -> Ph
     told = {name for word in look for name in (normalise(word), color_words().alike.get(normalise(word)))}
     others = told & color_words().basic & {*words, normalise(phrase.noun or "")} - {phrase.color}
     plain = not others and not is_shade(look) and " " not in (phrase.color or "")
+    placed = not any(middle_shade(look[k:]) for k in range(len(look)))  # a middle shade may stand anywhere
+    words = words if placed else tuple(word for word in words if word not in color_words().signs["middle"])
     return replace(phrase, look=look, words=words, color=phrase.color if plain else None)

@@ -30,6 +30,7 @@ class _Term:
     """One thing that a description says: a column of `FEATURES`, what of, and with which sign.
 
     Attributes:
+        feature: "axes" is of both columns of axes, and so is "middle", of what is near the median of the scene.
         compares: does it ask for more, or the most, of an axis: "darker", "brightest"?
         denied: 0 for what is said of the thing that is meant; what is denied together has the same number.
     """
@@ -52,6 +53,8 @@ def _terms(words: tuple[str, ...]) -> tuple[_Term, ...]:
             denied, degree = False, 0.0
         elif word in signs["not"] or (denied and word in signs["either"]):
             denied, denials, degree = True, denials + 1, 0.0
+        elif (middle := middle_shade(words[k:])) is not None:
+            found.append(replace(middle, denied=denials if denied else 0))
         elif word in signs["more"] or word in signs["less"]:
             degree = 1.0 if word in signs["more"] else -1.0
         else:
@@ -62,6 +65,21 @@ def _terms(words: tuple[str, ...]) -> tuple[_Term, ...]:
             k += length - 1
         k += 1
     return tuple(found)
+
+
+def middle_shade(words: Sequence[str]) -> _Term | None:
+    """What words say that begin with "medium green" or "middle purple shade": neither the dark nor the vivid one.
+
+    None of other words: "the middle green one" stands in the middle.
+    """
+    signs, k = color_words().signs, 1
+    if not words or words[0].lower() not in signs["middle"]:
+        return None
+    while k < len(words) and _stem(normalise(words[k]))[0] in color_words().basic:
+        k += 1
+    shade = k < len(words) and words[k].lower() in signs["shade"]
+    named = k > 1 and words[0].lower() not in signs["middle of places"]
+    return _Term("middle", axes=(("lightness", 1.0), ("chroma", 1.0))) if shade or named else None
 
 
 def comparing_words(words: Sequence[str]) -> tuple[str, ...]:
@@ -157,6 +175,7 @@ def _said(terms: Sequence[_Term], colors: Array) -> Array:
             found[:, FEATURES.index(term.feature)] += _of_region(term, term.region, colors, compared)
         for axis, amount in term.axes:
             value = axes[axis]
+            value = -abs(value - np.median(value)) if term.feature == "middle" else value
             found[:, FEATURES.index(axis)] += term.sign * amount * (value - value.mean()) / _TYPICAL
     fits = found[:, FEATURES.index("region")]
     if compared and fits.any():

@@ -100,7 +100,8 @@ class ColorWords:
 def color_words() -> ColorWords:
     """What the data file says, read at the first call."""
     data = read_data("colors.yaml")
-    signs = {key: tuple(map(str, data[key])) for key in ("not", "more", "less", "until", "either")}
+    lists = ("not", "more", "less", "until", "either", "middle", "middle of places", "shade")
+    signs = {key: tuple(map(str, data[key])) for key in lists}
     exchanged = frozenset(frozenset(map(str, pair)) for pair in data["exchanged"])
     return ColorWords(frozenset(data["basic"]), data["alike"], exchanged, data["axes"], signs)
 
