@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from episode_making import COLORS, episode
 
+from dcg_torch.evaluation import protocol
 from dcg_torch.evaluation.episodes import Episode, EpisodeError
 from dcg_torch.evaluation.protocol import Answer, Seconds, Training, answers, train
 from dcg_torch.evaluation.splits import split_folds, split_halves
@@ -19,6 +20,8 @@ from dcg_torch.grounding.solution import target_of
 from dcg_torch.language import Parser
 from dcg_torch.learning.word_posterior import WordPosterior
 from dcg_torch.model import GroundingModel, TrainingSet, Variant
+from dcg_torch.scene.workspace import Workspace
+from dcg_torch.types import WorldModel
 
 RELATIONS = Variant(groups=PAPER | {Group.OPEN, Group.RELATION}, hypothetical=False, l2=0.2)
 
@@ -62,6 +65,25 @@ def judged(monkeypatch: pytest.MonkeyPatch, found: list[Answer], right: list[boo
     """Let the answers be right or wrong as given."""
     verdict = {id(a): r for a, r in zip(found, right, strict=True)}
     monkeypatch.setattr(Answer, "correct", property(lambda self: verdict[id(self)]))
+
+
+@pytest.mark.parametrize(("learn", "looked_at"), [(False, ["e0", "e2"]), (True, ["e0", "e1", "e2"])])
+def test_a_scene_is_looked_at_once_for_the_commands_in_a_row_in_it(
+    training: TrainingSet, monkeypatch: pytest.MonkeyPatch, learn: bool, looked_at: list[str]
+) -> None:
+    """And again when what was learned meanwhile makes a type known that is there."""
+    rng, looks, look = np.random.default_rng(0), list[str](), protocol.test_world
+
+    def noted(model: GroundingModel, one: Episode, where: Workspace) -> WorldModel:
+        looks.append(one.id)
+        return look(model, one, where)
+
+    monkeypatch.setattr(protocol, "test_world", noted)
+    first = made(0, rng, "prism", "prism", "red")
+    said = [first, first.model_copy(update={"id": "e1"}), made(2, rng, "cube", "cube", "red")]
+    found = list(answers(untaught(training), said, Parser().parse, learn=learn))
+    assert looks == looked_at
+    assert found[0].predicted == found[1].predicted
 
 
 def test_halves_are_those_of_the_file(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import math
 import time
 from collections import Counter
@@ -145,14 +146,14 @@ def train(
         weight = 1.0 if len(corpora) == 1 else min(1.0, math.sqrt(_FULL_WEIGHT / max(1, len(kept))))
         scenes = [_scene(episode) for episode in kept]
         times = Counter(scenes)
-        for episode, scene in zip(kept, scenes, strict=True):
-            world = test_world(model, episode, where)
+        for episode, scene, world in zip(kept, scenes, _worlds(model, kept, where), strict=True):
             read = heard(parse, episode.text, (), world.objects)
             if read.readings and episode.target:
                 readings = worth_grounding(read, world, model.learner.readings)
                 counts = weight * min(1.0, math.sqrt(_FULL_SCENE / times[scene]))
                 lesson = Lesson(readings[0].tree, world, frozenset(episode.target), counts, tuple(readings))
                 lessons.append(lesson)
+    gc.freeze()  # they stay until all is learned, and walking them again and again takes time
     model.teach(
         lessons,
         known_types=training.known_types,
@@ -175,6 +176,17 @@ def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> Wor
     return model.world_model(percepts, episode.pose, episode.speaker_pose, looked=True, workspace=scale)
 
 
+def _worlds(model: GroundingModel, episodes: Iterable[Episode], where: Workspace) -> Iterator[WorldModel]:
+    """The `test_world` of each episode, as the model knows things by then: of some in a row in one scene it is one."""
+    last: tuple[object, ...] | None = None
+    world = WorldModel(())
+    for episode in episodes:
+        seen = episode.robot, episode.speaker, episode.holding, model.known_types, episode.objects
+        if seen != last:
+            last, world = seen, test_world(model, episode, where)
+        yield world
+
+
 def answers(
     model: GroundingModel, test: Sequence[Episode], parse: CommandParser, *, file: str = "", learn: bool = False
 ) -> Iterator[Answer]:
@@ -185,8 +197,7 @@ def answers(
         learn: learn after each from what it was grounded to; the target is never looked at.
     """
     first_words, where = frozenset(model.symbols), workspace(test)
-    for episode in test:
-        world = test_world(model, episode, where)
+    for episode, world in zip(test, _worlds(model, test, where), strict=True):
         began = time.perf_counter()
         words = model.symbols
         reading = heard(parse, episode.text, words.keys(), world.objects)

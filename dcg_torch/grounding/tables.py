@@ -49,6 +49,7 @@ class Tables:
         self._version = _version(weight)
         self._weight = None if weight.device.type != "cpu" or weight.requires_grad else weight.numpy()
         self._sides: dict[Phrase, Floats] = {}
+        self._ranking: dict[Phrase, bool] = {}
         self._related: dict[Phrase, Floats] = {}
         self._patterns: dict[Phrase, dict[Pattern, Floats]] = {}
         self._spread: dict[tuple[Phrase, int], dict[object, Floats]] = {}
@@ -72,8 +73,13 @@ class Tables:
 
     def _weighs_ranks(self, phrase: Phrase) -> bool:
         """Is there a weight between a word of a phrase and some rank? Without one it matters not which ranks fire."""
-        ranks = self.features.rank_of
-        return self._weight is None or bool(self._side(phrase)[:, ranks[ranks >= 0]].any())
+        if self._weight is None:
+            return True
+        found = self._ranking.get(phrase)
+        if found is None:
+            ranks = self.features.rank_of
+            found = self._ranking[phrase] = bool(self._side(phrase)[:, ranks[ranks >= 0]].any())
+        return found
 
     def unranked(self, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         """(P, things) log Psi of a noun phrase as if it ranked nothing."""

@@ -229,8 +229,9 @@ def _modified(modifier: ModifierFactor, encoder: WorldEncoder, kept: Bools) -> M
 
 def _landmarks(combos: Combos, rests: Floats, encoder: WorldEncoder, weight: float) -> Iterator[Choice]:
     """What the phrases for the landmarks of a modifier choose, which rests on each tuple of them by so much."""
+    things = np.array(combos.things, dtype=np.int64)
     for k, beam in enumerate(combos.beams if len(combos) else ()):
         share = np.zeros(len(encoder.world.things))
-        np.add.at(share, [encoder.number[of[k].child.grounding.object.id] for of in combos], rests)
+        np.add.at(share, things[:, k], rests)
         phrase = beam.tree.phrase
         yield Choice(phrase, encoder.ranked(phrase), share / share.sum(), weight)

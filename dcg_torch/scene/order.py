@@ -106,8 +106,7 @@ def before(values: Floats, alike: Alike, most: int) -> Ints:
         (r, n); 0 for what is in no class. A count of `most` or more means as many or more.
     """
     if values.shape[1] <= _FEW:
-        with np.errstate(invalid="ignore"):
-            less = values[:, None, :] < (values - TIE)[:, :, None]
+        less = values[:, None, :] < (values - TIE)[:, :, None]
         less &= alike.table
         few: Ints = np.einsum("rij->ri", less.view(np.int8)).astype(np.int64)  # far faster than a sum of truth values
         return few
