@@ -19,7 +19,7 @@ from dcg_torch.types import WorldModel
 def scene(model: GroundingModel) -> WorldModel:
     seen = [
         Percept("a", "cube", "red", (2.0, 1.0, 0.0)),
-        Percept("b", "cube", "red", (4.0, -1.0, 0.0)),
+        Percept("b", "cube", "red", (4.0, 0.0, 0.0)),  # straight: of what stands aslant more is measured than learned
         Percept("c", "cube", "blue", (2.0, -1.0, 0.0)),
         Percept("d", "sphere", "red", (4.0, 1.0, 0.0)),
         Percept("e", "sphere", "green", (5.0, 2.5, 0.0)),
