@@ -11,6 +11,7 @@ from dcg_torch.names.attribute_values import stated_values
 from dcg_torch.names.colors import comparing_words, is_shade, middle_shade
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import color_words
+from dcg_torch.names.relations import listed
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -84,7 +85,7 @@ def _is_told(noun: Phrase) -> bool:
     return noun.text in _PRONOUNS and bool(noun.words or noun.color)
 
 
-_PRONOUNS = frozenset({"it", "them"})
+_PRONOUNS = listed("stands for a thing")
 
 
 def _is_mended(tree: ParseTree, text: str) -> bool:

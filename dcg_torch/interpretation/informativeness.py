@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from dcg_torch.names.relations import listed
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
 
 _NEEDLESS = 2.5
 """Nats that a reading loses by which more is said of a thing than is needed to know it."""
-_WITH, _PRONOUNS = "with", frozenset({"it", "its"})
+_WITH, _PRONOUNS = "with", listed("stands for a thing")
 
 
 def needless(trees: Sequence[ParseTree], world: WorldModel) -> list[float]:
