@@ -270,3 +270,33 @@ PITCH = [  # a robot at the origin looks along x
 )
 def test_the_only_one_on_a_side(text: str, expected: str) -> None:
     assert [o.id for o in grounded(text, PITCH).objects] == [expected]
+
+
+def test_medium_is_a_size_where_things_differ_in_size() -> None:
+    row = [(0.03, 20), (0.05, 20), (0.08, 20), (0.05, 215), (0.08, 120)]
+    dots = [
+        Percept(f"d{k}", "dot", None, (0.3, 0.8 - 0.4 * k, 0.0), size=(wide, wide, 0.0), rgb=(shade, shade, shade))
+        for k, (wide, shade) in enumerate(row)
+    ]
+    assert [o.id for o in grounded("the medium black one", dots, Pose(-2.0, 0.0)).objects] == ["d1"]
+
+
+ASKED = [
+    Percept("left", "sheep", "white", (1.0, 1.0, 0.0)),
+    Percept("middle", "sheep", "black", (1.6, 0.0, 0.0)),
+    Percept("right", "sheep", "black", (1.2, -1.0, 0.0)),
+    Percept("bus", "bus", "red", (2.0, 0.4, 0.0)),
+]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("is it a sheep? yes. is it the rightmost one? no. is it black? yes.", "middle"),
+        ("is it a sheep? yes. the leftmost sheep? no. is it next to the bus? yes.", "middle"),
+        ("is it a sheep? yes. is it the farthest one? no. is it black? yes.", "right"),
+        ("the sheep that is neither leftmost nor rightmost", "middle"),
+    ],
+)
+def test_ends_that_are_denied_are_those_of_all(text: str, expected: str) -> None:
+    assert [o.id for o in grounded(text, ASKED).objects] == [expected]

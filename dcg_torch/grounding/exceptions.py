@@ -6,10 +6,12 @@ import functools
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import target_of, with_target
+from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, EXCEPT, ORDINALS, is_superlative
-from dcg_torch.types import ParseTree, WorldModel
+from dcg_torch.types import NOT, ParseTree, Phrase, WorldModel
 
-_ALL = "all"
+_ALL, _NOT = "all", f"{NOT} "
+_PRONOUNS = listed("stands for a thing")
 
 
 @functools.lru_cache(maxsize=1024)
@@ -19,11 +21,16 @@ def split_exceptions(tree: ParseTree) -> tuple[ParseTree, tuple[ParseTree, ...]]
     What is left out is one of those that are meant otherwise: it is called so and stands so, if nothing else is said.
     """
     noun = target_of(tree)
-    exceptions = () if noun is None else tuple(c for c in noun.children if c.phrase.words[:1] == (EXCEPT,))
-    if noun is None or not exceptions:
+    if noun is None:
+        return tree, ()
+    exceptions = tuple(c for c in noun.children if c.phrase.words[:1] == (EXCEPT,))
+    ends = () if noun.phrase.plural else tuple(word for word in noun.phrase.words if _denies_an_end(word))
+    if not exceptions and not ends:
         return tree, ()
     named = [out for child in exceptions for out in child.children]
-    kept = replace(noun, children=tuple(c for c in noun.children if c not in exceptions))
+    named += [_at_the_end(word, noun.phrase) for word in ends]
+    words = tuple(word for word in noun.phrase.words if word not in ends)
+    kept = ParseTree(replace(noun.phrase, words=words), tuple(c for c in noun.children if c not in exceptions))
     bare = kept.phrase.noun is None and kept.phrase.color is None
     if bare and (any(map(_counts, named)) or (kept.phrase.text == _ALL and any(map(_is_told_apart, named)))):
         of = named[0]  # "all but two of the cubes", "all but the smallest cube": they are cubes
@@ -37,6 +44,16 @@ def without(world: WorldModel, ids: frozenset[str]) -> WorldModel:
     """A world in which some things are there and are not meant."""
     may_be = frozenset(o.id for o in world.things) if world.meant is None else world.meant
     return replace(world, meant=may_be - ids)
+
+
+def _denies_an_end(word: str) -> bool:
+    """ "Not leftmost", "not closest": an end that is denied is that of all of the name, whatever else is said."""
+    return word.startswith(_NOT) and is_superlative(word.removeprefix(_NOT))
+
+
+def _at_the_end(word: str, phrase: Phrase) -> ParseTree:
+    end = word.removeprefix(_NOT)
+    return ParseTree(replace(phrase, text=f"the {end} {phrase.noun or 'one'}", words=(end,), count=None))
 
 
 def _is_definite(out: ParseTree) -> bool:
@@ -58,6 +75,8 @@ def _of_those(out: ParseTree, kept: ParseTree) -> ParseTree:
     phrase = out.phrase
     by_name = phrase.noun is not None and phrase.noun != kept.phrase.noun and not _is_told_apart(out)
     several = phrase.plural or by_name or not (_is_definite(out) or _counts(out))
+    if kept.phrase.text in _PRONOUNS:  # "Is it the leftmost? No. Is it red? Yes.": of all, not of the red ones
+        return ParseTree(replace(phrase, noun=phrase.noun or kept.phrase.noun, plural=several), out.children)
     shared = tuple(w for w in kept.phrase.words if w not in ORDINALS and not is_superlative(w))
     words = tuple(dict.fromkeys((*shared, *phrase.words)))
     color = phrase.color or kept.phrase.color

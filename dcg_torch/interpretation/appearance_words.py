@@ -24,12 +24,14 @@ class Looks:
         shown, named: do things show their colours, or are these but named?
         valued: have things attributes with values?
         classes: the types that may be there, where colours are shown.
+        sized: have things that show their colours several sizes?
     """
 
     shown: bool
     named: bool
     valued: bool
     classes: frozenset[str]
+    sized: bool = False
 
     @classmethod
     def of(cls, world: WorldModel) -> Looks:
@@ -37,7 +39,8 @@ class Looks:
         shown = any(o.rgb is not None for o in world.objects)
         named = not shown and any(o.color is not None for o in world.objects)
         valued = any(":" in a for of in {o.attributes for o in world.objects} for a in of)
-        return cls(shown, named, valued, world.classes if shown else frozenset())
+        sized = shown and len({o.size for o in world.objects if o.size is not None}) > 1
+        return cls(shown, named, valued, world.classes if shown else frozenset(), sized)
 
 
 @functools.lru_cache(maxsize=1024)
@@ -54,6 +57,9 @@ def with_appearance_words(tree: ParseTree, text: str, looks: Looks) -> ParseTree
     several = looks.shown and (_speaks_of_others(tree, looks.classes) or _is_mended(tree, text))
     values = stated_values(words) if looks.valued else ()
     names = _names_of_classes(tree, looks.classes)
+    signs = color_words().signs
+    if looks.sized and not {*words} & {*signs["shade"]}:
+        names |= {*signs["middle"]}  # "the medium black one" is of medium size
     if looks.named or several:
         tree = _each_told(tree, names, compared=looks.named)
         words = ()
