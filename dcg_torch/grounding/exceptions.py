@@ -6,11 +6,12 @@ import functools
 from dataclasses import replace
 
 from dcg_torch.grounding.solution import target_of, with_target
+from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import DEFINITE, EXCEPT, ORDINALS, is_superlative
-from dcg_torch.types import NOT, ParseTree, Phrase, WorldModel
+from dcg_torch.types import ParseTree, Phrase, WorldModel
 
-_ALL, _NOT = "all", f"{NOT} "
+_ALL = "all"
 _PRONOUNS = listed("stands for a thing")
 
 
@@ -48,11 +49,11 @@ def without(world: WorldModel, ids: frozenset[str]) -> WorldModel:
 
 def _denies_an_end(word: str) -> bool:
     """ "Not leftmost", "not closest": an end that is denied is that of all of the name, whatever else is said."""
-    return word.startswith(_NOT) and is_superlative(word.removeprefix(_NOT))
+    return word.startswith(NOT_) and is_superlative(word.removeprefix(NOT_))
 
 
 def _at_the_end(word: str, phrase: Phrase) -> ParseTree:
-    end = word.removeprefix(_NOT)
+    end = word.removeprefix(NOT_)
     return ParseTree(replace(phrase, text=f"the {end} {phrase.noun or 'one'}", words=(end,), count=None))
 
 

@@ -48,12 +48,7 @@ def by_nearness(
     log_psi = _nearly_as_near(name, log_psi, landmarks, compared, encoder)
     log_psi = _no_less_near(name, log_psi, landmarks, compared, encoder)
     log_psi = log_psi + by_distance(name, landmarks, scores, compared, encoder)
-    nearer = nearer_on_a_side(name, landmarks, compared, encoder)
-    if nearer is None:
-        return log_psi
-    alone = _alone_on_a_side(name, landmarks, compared, encoder)
-    found: Floats = np.where(alone, np.maximum(log_psi, _ONLY_ONE), log_psi) + nearer
-    return found
+    return _nearest_on_a_side(name, log_psi, landmarks, compared, encoder)
 
 
 def _nearly_as_near(
@@ -197,48 +192,37 @@ def by_distance(
     return lost
 
 
-def nearer_on_a_side(
-    name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
-) -> Floats | None:
-    """(combos, things) what the others that stand on a side of a thing lose to the nearest of their kind there.
+def _nearest_on_a_side(
+    name: str, log_psi: Floats, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder
+) -> Floats:
+    """(combos, things) the nearest of a kind on a side of a thing is meant rather than others there, or elsewhere.
 
-    What stands aslant loses where another stands straight.
+    What stands aslant loses where another stands straight. The only one of its kind there is meant however far off.
 
     Args:
+        log_psi: what is known of each thing; it stays for what is no side, and for places.
         compared: (things,) those that are compared; None: those of one type.
-
-    Returns:
-        None for what is no side; nothing is lost to what stands to places.
     """
     if name not in ON_A_SIDE:
-        return None
+        return log_psi
     solid, mark = encoder.layout.solid, list(landmarks)
     gap = encoder.distances(mark) + TOUCHING
     off = np.where(solid[mark][:, None] & solid, aslant(name, mark, encoder), np.inf)
     off[np.arange(len(mark)), mark] = np.inf
     beside, slanting = off < STRAIGHT, (off >= STRAIGHT) & (off < ASLANT)
     of_each, nearest = nearest_of_a_kind(np.where(beside, gap, np.inf), compared, encoder)
+    on_side, across, known = (
+        np.bincount(of_each[some], minlength=len(nearest))[of_each]
+        for some in (off < ASLANT, off < _ACROSS, np.isfinite(off))
+    )
     lost = np.zeros(gap.shape)
     lost[beside] = -_SIDE_FOLD * np.log(gap[beside] / nearest[of_each[beside]])
     lost[slanting] = np.where(nearest[of_each[slanting]] < _NOT_FARTHER * gap[slanting], -_LESS_STRAIGHT, 0.0)
-    there = np.full(len(nearest), False)
-    there[of_each[beside | slanting]] = True
-    elsewhere = np.isfinite(off) & there[of_each]
+    elsewhere = np.isfinite(off) & (on_side > 0)
     lost[elsewhere & (off > _ACROSS)] = -_NOT_THERE
     lost[elsewhere & (off > _OTHER_SIDE)] = -2.0 * _NOT_THERE
-    return lost
-
-
-def _alone_on_a_side(name: str, landmarks: Sequence[int], compared: Bools | None, encoder: WorldEncoder) -> Bools:
-    """(combos, things) the only ones of their kind on a side of a thing, where others of it are elsewhere."""
-    solid, mark = encoder.layout.solid, list(landmarks)
-    off = np.where(solid[mark][:, None] & solid, aslant(name, mark, encoder), np.nan)
-    off[np.arange(len(mark)), mark] = np.nan
-    kind = encoder.type_number if compared is None else compared.astype(np.int64)
-    of_each = kind + (kind.max(initial=0) + 1) * np.arange(len(off))[:, None]
-    most = of_each.max(initial=0) + 1
-    there, known = (np.bincount(of_each[some], minlength=most) for some in (off < _ACROSS, np.isfinite(off)))
-    found: Bools = (off < ASLANT) & (there[of_each] == 1) & (known[of_each] > 1)
+    alone = (off < ASLANT) & (across == 1) & (known > 1)
+    found: Floats = np.where(alone, np.maximum(log_psi, _ONLY_ONE), log_psi) + lost
     return found
 
 

@@ -10,11 +10,12 @@ from dataclasses import replace
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.everyday_names import everyday, share_a_name
 from dcg_torch.names.evidence import evidence
+from dcg_torch.names.relations import listed
 from dcg_torch.names.weights import log_odds
 from dcg_torch.types import OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
 _HOLDS = frozenset({"with", "of"})
-_IT = "it"
+_IT = listed("stands for a thing")
 _CALLED = frozenset({"name: equal", "name: head", "name: part", "name: shared word"})
 """How the name of a class is said that has both words in it, or a word for one of them."""
 _NAMED = 1.0
@@ -67,4 +68,4 @@ def _called(noun: str, place: ParseTree, types: tuple[str, ...]) -> str | None:
 
 def _is_in_it(place: ParseTree) -> bool:
     """ "(With tires) on it"."""
-    return len(place.children) == 1 and place.children[0].phrase.text == _IT
+    return len(place.children) == 1 and place.children[0].phrase.text in _IT

@@ -7,7 +7,7 @@ corner. So a noun phrase gets a word ("spot: corner"), which is compared with wh
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -179,18 +179,34 @@ def _is_any_corner(place: ParseTree) -> bool:
 
 def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     """The world whose things are told to be in a corner or not, if a tree speaks of the corners of a room."""
+    return told_of_walls(world, trees, SPOT, _in_corner)
+
+
+def _in_corner(gaps: np.ndarray) -> str | None:
+    return _CORNER if gaps.max() <= _IN else _ELSEWHERE if gaps.max() > _OUT else None
+
+
+def told_of_walls(
+    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], str | None]
+) -> WorldModel:
+    """The world whose things have an attribute by how far they are from the walls of a room, if a tree speaks of it.
+
+    Args:
+        attribute: how the attribute begins.
+        told: it, from (2,) metres between a thing and the nearer wall along x and along y; None where it is unsure.
+    """
     words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
-    if _CORNER not in words or (walls := room_walls(world)) is None:
+    if not any(word.startswith(attribute) for word in words) or (walls := room_walls(world)) is None:
         return world
-    return replace(world, objects=tuple(_in_corner(o, walls) for o in world.objects))
+    return replace(world, objects=tuple(_told_of(o, walls, attribute, told) for o in world.objects))
 
 
-def _in_corner(thing: Object, walls: np.ndarray) -> Object:
-    own = {a for a in thing.attributes if not a.startswith(SPOT)}
+def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], str | None]) -> Object:
+    own = {a for a in thing.attributes if not a.startswith(attribute)}
     if thing.position is not None and not thing.hypothetical:
         half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
-        off = float((np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half).max())
-        own |= {_CORNER} if off <= _IN else {_ELSEWHERE} if off > _OUT else set()
+        word = told(np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half)
+        own |= {word} if word is not None else set()
     return replace(thing, attributes=frozenset(own))
 
 

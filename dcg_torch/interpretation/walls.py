@@ -12,12 +12,12 @@ from dataclasses import replace
 import numpy as np
 
 from dcg_torch.interpretation.parser_protocol import Words
-from dcg_torch.interpretation.room_parts import named_classes, room_walls
+from dcg_torch.interpretation.room_parts import named_classes, room_walls, told_of_walls
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import AT_WALL, PLACE_WORDS
-from dcg_torch.types import Object, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
 
 _WALLS, _AT, _OFF, _FREE = (listed(of) for of in ("wall of a room", "at a wall", "off a wall", "free of walls"))
 _YES, _NO = f"{AT_WALL}yes", f"{AT_WALL}no"
@@ -74,16 +74,8 @@ def _stands_at(place: ParseTree) -> str | None:
 
 def with_walls(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     """The world whose things are told to stand at a wall or at none, if a tree speaks of that."""
-    words = {word for tree in trees for node in tree.walk() for word in node.phrase.words}
-    if words.isdisjoint((_YES, _NO)) or (walls := room_walls(world)) is None:
-        return world
-    return replace(world, objects=tuple(_at_wall(o, walls) for o in world.objects))
+    return told_of_walls(world, trees, AT_WALL, _at_wall)
 
 
-def _at_wall(thing: Object, walls: np.ndarray) -> Object:
-    own = {a for a in thing.attributes if not a.startswith(AT_WALL)}
-    if thing.position is not None and not thing.hypothetical:
-        half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
-        gap = float((np.abs(np.array(thing.position[:2]) - walls) - half).min())
-        own |= {_YES} if gap <= _STANDS else {_NO} if gap > _CLEAR else set()
-    return replace(thing, attributes=frozenset(own))
+def _at_wall(gaps: np.ndarray) -> str | None:
+    return _YES if gaps.min() <= _STANDS else _NO if gaps.min() > _CLEAR else None
