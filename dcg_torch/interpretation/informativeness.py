@@ -1,7 +1,8 @@
 """Who tells of a thing that is alone of its kind what stands beside it means what stands there.
 
 "There is a bed. The cushion is to its left" says where one of several cushions is, in a room with one bed: to know the
-bed, its name would have been enough. In a room with three beds it may as well tell which of them is meant.
+bed, its name would have been enough. In a room with three beds it may as well tell which of them is meant. So with
+"the chair closest to the sink at the table that is near the door": the only sink needs no table, two tables need a door.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from dcg_torch.names.relations import listed
+from dcg_torch.names.vocabulary import STOOD_ON, ranks_from_landmark
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
 
@@ -18,19 +20,43 @@ _WITH, _PRONOUNS = "with", listed("stands for a thing")
 
 
 def needless(trees: Sequence[ParseTree], world: WorldModel) -> list[float]:
-    """By how many nats each reading of a command says more than need be of the thing that it means.
+    """By how many nats each reading of a command says more than need be of what it speaks of.
 
     Args:
         trees: of the readings; of one alone, and of several that mean the same, nothing is needless.
         world: its classes say of how many things a noun is the name.
     """
+    if len(trees) < 2:
+        return [0.0] * len(trees)
     meant = [next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), tree) for tree in trees]
     told = [any(map(_is_told_beside, noun.children)) for noun in meant]
-    if not any(told) or len({noun.phrase.noun for noun in meant}) < 2:
-        return [0.0] * len(trees)
+    needed = len({noun.phrase.noun for noun in meant}) < 2
+    more = [_more_of_landmarks(tree, world) for tree in trees]
     return [
-        _NEEDLESS * (beside and _is_alone(noun.phrase.noun, world)) for noun, beside in zip(meant, told, strict=True)
+        _NEEDLESS * (landmarks - min(more) + (beside and not needed and _is_alone(noun.phrase.noun, world)))
+        for noun, beside, landmarks in zip(meant, told, more, strict=True)
     ]
+
+
+def _more_of_landmarks(tree: ParseTree, world: WorldModel) -> int:
+    """How many landmarks are described that need it not, or are not that need it.
+
+    Of tables, which may be where all stands, and of what a thing is said to be the nearest to.
+    """
+    wrong = 0
+    for place in tree.walk():
+        ranked = any(map(ranks_from_landmark, place.phrase.words))
+        for mark in place.children if place.phrase.kind is PhraseKind.PREPOSITION else ():
+            noun, again = mark.phrase.noun, mark.phrase.text.split(" ")[0] in _AGAIN
+            told = again or any(where.phrase.kind is PhraseKind.PREPOSITION for where in mark.children)
+            if noun in STOOD_ON:
+                wrong += told is (_how_many(noun, world) < _SEVERAL)
+            elif ranked and told:
+                wrong += _is_alone(noun, world)
+    return wrong
+
+
+_SEVERAL, _AGAIN = 2, frozenset({"that", "this", "it"})
 
 
 def _is_told_beside(place: ParseTree) -> bool:
@@ -42,7 +68,12 @@ def _is_told_beside(place: ParseTree) -> bool:
 
 
 def _is_alone(noun: str | None, world: WorldModel) -> bool:
+    return _how_many(noun, world) == 1
+
+
+def _how_many(noun: str | None, world: WorldModel) -> int:
+    """Of how many things a noun is the name, where their classes say what they are."""
     types = [o.type for o in world.objects if o.type is not None and not o.hypothetical]
     if noun is None or any(type_.startswith(OPAQUE) for type_ in types):
-        return False
-    return sum(names_one_of(noun, (type_,)) for type_ in types) == 1
+        return 0
+    return sum(names_one_of(noun, (type_,)) for type_ in types)

@@ -29,6 +29,7 @@ from dcg_torch.names.vocabulary import (
     BESIDE_WHOM,
     BY_COMPASS,
     COMPASS,
+    FARTHEST,
     FLAT_SYNONYMS,
     GROUND_WORD,
     GROUP_WORDS,
@@ -153,9 +154,13 @@ def _counted_from_a_side(tree: ParseTree) -> ParseTree:
                 phrase=replace(phrase, words=(*phrase.words, end)),
                 children=(*tree.children[:k], *tree.children[k + 1 :]),
             )
-        if place.phrase.words[:1] == ("from",) and _is_a_thing(side):  # "the second chair from the door"
-            nearest = replace(place, phrase=replace(place.phrase, words=(NEAREST, *place.phrase.words[1:])))
-            return replace(tree, children=(*tree.children[:k], nearest, *tree.children[k + 1 :]))
+        if place.phrase.words[:1] in {("from",), ("away from",)} and _is_a_thing(side):
+            # "The second chair from the door", and the last and the second to last from there.
+            end = FARTHEST if "last" in phrase.words else NEAREST
+            ranked = replace(place, phrase=replace(place.phrase, words=(end, *place.phrase.words[1:])))
+            words = tuple(word for word in phrase.words if word != "last")
+            children = (*tree.children[:k], ranked, *tree.children[k + 1 :])
+            return replace(tree, phrase=replace(phrase, words=words), children=children)
         beside = place.phrase.words[:1] == ("from",) or place.phrase.text.split()[:1] == ["to"]
         if beside and side.phrase.noun in SIDED and not (side.children or {*side.phrase.words} - {"your", "my"}):
             word = f"from the {side.phrase.noun}"

@@ -63,7 +63,7 @@ def _of_heights(tree: ParseTree, world: WorldModel) -> ParseTree:
     if not _TALL.keys().isdisjoint(phrase.words) and phrase.noun and _reach_up(_called(phrase.noun, world)):
         phrase = replace(phrase, words=tuple(_TALL.get(word, word) for word in phrase.words))
     ends = [child for child in children if _is_on_an_end(child)]
-    if phrase.noun is not None and len(ends) == 1 and _lie_on_one_another(_called(phrase.noun, world)):
+    if len(ends) == 1 and _stand_apart_in_height(phrase, world):
         word = _HEIGHTS[ends[0].children[0].phrase.noun or ""]
         return ParseTree(replace(phrase, words=(*phrase.words, word)), tuple(c for c in children if c is not ends[0]))
     return ParseTree(phrase, children)
@@ -182,18 +182,19 @@ def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     return told_of_walls(world, trees, SPOT, _in_corner)
 
 
-def _in_corner(gaps: np.ndarray) -> str | None:
-    return _CORNER if gaps.max() <= _IN else _ELSEWHERE if gaps.max() > _OUT else None
+def _in_corner(gaps: np.ndarray) -> Sequence[str]:
+    farther = gaps.min(axis=0).max()
+    return [_CORNER] if farther <= _IN else [_ELSEWHERE] if farther > _OUT else []
 
 
 def told_of_walls(
-    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], str | None]
+    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], Sequence[str]]
 ) -> WorldModel:
-    """The world whose things have an attribute by how far they are from the walls of a room, if a tree speaks of it.
+    """The world whose things have attributes by how far they are from the walls of a room, if a tree speaks of them.
 
     Args:
-        attribute: how the attribute begins.
-        told: it, from (2,) metres between a thing and the nearer wall along x and along y; None where it is unsure.
+        attribute: how the attributes begin.
+        told: these, from (2, 2) metres between a thing and the walls at the least and the greatest x and y.
     """
     words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
     if not any(word.startswith(attribute) for word in words) or (walls := room_walls(world)) is None:
@@ -201,13 +202,21 @@ def told_of_walls(
     return replace(world, objects=tuple(_told_of(o, walls, attribute, told) for o in world.objects))
 
 
-def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], str | None]) -> Object:
+def _told_of(
+    thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], Sequence[str]]
+) -> Object:
     own = {a for a in thing.attributes if not a.startswith(attribute)}
-    if thing.position is not None and not thing.hypothetical:
-        half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
-        word = told(np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half)
-        own |= {word} if word is not None else set()
+    if not thing.hypothetical and (gaps := gaps_to_walls(thing, walls)) is not None:
+        own.update(told(gaps))
     return replace(thing, attributes=frozenset(own))
+
+
+def gaps_to_walls(thing: Object, walls: np.ndarray) -> np.ndarray | None:
+    """(2, 2) metres between a thing and the walls at the least and the greatest x and y; None where it is unseen."""
+    if thing.position is None:
+        return None
+    half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
+    return np.asarray(np.abs(np.array(thing.position[:2]) - walls) - half)
 
 
 def room_walls(world: WorldModel) -> np.ndarray | None:

@@ -202,6 +202,7 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     """
     apart = SETS["directions"] | SETS["someone"]
     below = [node for child in target.children for node in child.children]
+    ranked = [node for child in target.children if child.name in PLACING["extremes"] for node in child.children]
     sides = [node for node in below if node.is_a("left_right") and "my" not in node.words]
     goal: Item | None = None
     turned = False
@@ -218,7 +219,7 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     facing = [goal.copy().behind("facing")] if turned and sides else []
     for side in sides if turned else ():
         side.words = tuple(word for word in side.words if word not in SETS["owned"])
-    placed = any(node.noun not in SETS["places"] | apart for node in below)
+    placed = any(node.noun not in SETS["places"] | apart for node in below if node not in ranked)
     if not placed and decisions.choose("route", CHOICES["route"]) == "there":
         target.children.append(goal.copy().behind("near"))
     return facing

@@ -96,11 +96,13 @@ SPOT = "spot: "
 """Begins the attribute that tells whether a thing is in a corner of a room."""
 AT_WALL = "at a wall: "
 """Begins the attribute that tells whether a thing stands at a wall of a room, or hangs there."""
+OF_WALL = "of a wall: "
+"""Begins the attributes that tell at which walls of a room a thing stands or hangs."""
 LEVEL = "level: "
 """Begins the attributes that tell how many levels of its stack are below a thing, and how many above it."""
 TIER = "tier: "
 """Begins the attribute that tells on which shelf a thing stands, from the bottom, where shelves are no things."""
-WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, AT_WALL, LEVEL, TIER)
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, AT_WALL, OF_WALL, LEVEL, TIER)
 """Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}
@@ -110,7 +112,7 @@ CELL_STEPS |= {"northwest of": (-1, -1), "northeast of": (-1, 1), "southwest of"
 NUMBER_WORDS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7, "eight": 8}
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
-NEAREST = "closest to"
+NEAREST, FARTHEST = "closest to", "farthest from"
 RANKING = frozenset({NEAREST, "farthest from", "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
 WITHIN = "within"
