@@ -7,11 +7,12 @@ likely one of N as the distance to its Nth nearest is small beside that of the c
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from dcg_torch.grounding.counting import WAYS
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.features.name_facts import look_scores
 from dcg_torch.grounding.hypotheses import ModifierFactor
@@ -19,7 +20,7 @@ from dcg_torch.grounding.modifiers import ranks_from, tells_which_few
 from dcg_torch.names.attribute_values import size_side
 from dcg_torch.names.colors import comparing_words
 from dcg_torch.names.vocabulary import LATERAL, ORDINALS, WITHIN
-from dcg_torch.scene.neighbours import nearest
+from dcg_torch.scene.neighbours import LEVEL, nearest
 from dcg_torch.scene.order import highest
 from dcg_torch.types import ParseTree, Phrase
 from dcg_torch.types.arrays import Bools, Floats
@@ -35,6 +36,8 @@ _COUNTED = 3.0
 """Nats for each place by which a thing stays behind "the second darkest"."""
 _NONE_OF_THEM = 2.0
 """Nats that are lost by what is none of those that are described best."""
+_NOT_THERE = 4.0
+"""The same where they are the farthest to a side, which is measured."""
 _TIGHT = 4.0
 """Nats that a thing loses for each e-fold by which its N stand wider than the closest."""
 _FAR = -8.0
@@ -70,7 +73,7 @@ def counted_set(
             break  # "closest to the corner" picks one of so many; where there are more, it says which so many
     if sided is not None or not (close or tied):
         found[first[:several]] = True
-        return found, np.where(found, 0.0, -_NONE_OF_THEM)
+        return found, np.where(found, 0.0, -_NONE_OF_THEM if sided is None else -_NOT_THERE)
     alike = np.zeros(len(fit), dtype=np.bool_)
     alike[:objects] = values >= last - _ALIKE
     found, log_close = closest_together(position, alike, fit, several)
@@ -112,21 +115,25 @@ def closest_together(position: Floats, candidates: Bools, log_fit: Floats, sever
     return found, np.where(found, 0.0, log_close)
 
 
+_CALLED = {"top": "back", "bottom": "front"}
+
+
 def _along_a_side(fit: Floats, modifiers: Sequence[ModifierFactor], encoder: WorldEncoder) -> Floats | None:
     """(things,) how well each is one of those on a side: "the five cubes on the left" are the five farthest left.
 
     What a modifier says of a single thing is no measure of it: the leftmost of its kind outdoes all others. None where
-    nothing is ranked within a side.
+    nothing is ranked within a side, or "the top" may be a height.
     """
     sided = [(m, m.tree.children[0].phrase.noun) for m in modifiers if m.tree.phrase.words[0] == WITHIN]
-    sides = [(m, side) for m, side in sided if side in LATERAL]
+    sides = [(m, _CALLED.get(side, side)) for m, side in sided if side in WAYS.keys() | _CALLED.keys()]
     if len(sides) != 1:
         return None
     modifier, side = sides[0]
-    rest = fit - modifier.log_psi
-    y = encoder.layout.position[:, 1]
-    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(y)
-    return np.where(described, y if side == "left" else -y, fit - _BEYOND)
+    rest, where = fit - modifier.log_psi, encoder.layout
+    described = (rest >= rest.max() + _IN_THE_SET) & np.isfinite(where.position).all(axis=1)
+    if side not in LATERAL and not (where.picture or np.ptp(where.position[described, 2]) <= LEVEL):
+        return None
+    return np.where(described, where.position[:, :2] @ np.array(WAYS[side]), fit - _BEYOND)
 
 
 def shaded(said: Phrase, phrase: Phrase, described: Bools, encoder: WorldEncoder) -> tuple[Phrase, Floats]:
@@ -155,8 +162,13 @@ def shaded(said: Phrase, phrase: Phrase, described: Bools, encoder: WorldEncoder
         place = np.argsort(np.argsort(-log_shade[members], kind="stable"))
         log_shade[members] = -_COUNTED * np.abs(place + 1 - number)
     log_shade[~among] = log_shade.min()
-    words = tuple(w for w in phrase.words if w not in shades and w not in ORDINALS)
-    return replace(phrase, words=words, look=tuple(w for w in phrase.look if w not in shades)), log_shade
+    return without_shades(phrase, (*shades, *ORDINALS)), log_shade
+
+
+def without_shades(phrase: Phrase, shades: Collection[str]) -> Phrase:
+    """A phrase without words that compare colours, which are measured."""
+    words, look = (tuple(word for word in said if word not in shades) for said in (phrase.words, phrase.look))
+    return phrase if (words, look) == (phrase.words, phrase.look) else replace(phrase, words=words, look=look)
 
 
 def shades_among(words: tuple[str, ...], among: Bools, encoder: WorldEncoder) -> Floats:

@@ -13,7 +13,7 @@ from dcg_torch.grounding.bearings import by_bearing
 from dcg_torch.grounding.colored_groups import of_colors, without_colors
 from dcg_torch.grounding.compass import by_compass
 from dcg_torch.grounding.contradictions import of_contradictions
-from dcg_torch.grounding.counted_sets import counted_set, evenly, shaded, shades_among
+from dcg_torch.grounding.counted_sets import counted_set, evenly, shaded, shades_among, without_shades
 from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.exact_names import compared_by_name
 from dcg_torch.grounding.features import picked_from, ranking
@@ -195,6 +195,7 @@ def comparison_set(
     among = counted_set(several, counts, fit, modifiers, encoder, bool(close)) if several else None
     if among is not None:
         phrase, log_extent = by_measurement_of_few(phrase, told, (among[0], fit), encoder)
+        phrase = without_shades(phrase, shades)
         log_size = log_size + shades_among(shades, among[0], encoder) + log_extent + evenly(tree, among[0], modifiers)
         return Comparison(among[0], log_size + among[1], phrase)
     log_size = log_size + log_of_group(phrase, encoder)

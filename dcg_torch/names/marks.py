@@ -21,6 +21,7 @@ from dcg_torch.names.keys import OF_KEY, attribute_key
 from dcg_torch.names.normal_form import normalise, read_data, singular
 from dcg_torch.names.palette import color_words, region
 from dcg_torch.names.rooms import room_keys, room_named
+from dcg_torch.names.vocabulary import SIDED, SYNONYMS
 
 WORD: Final = re.compile(r"\d+(?:\.\d+|[^\W\d_]+)?|[^\W\d_]+(?:'[^\W\d_]+)?")
 """A word of a text or of a name: letters, or a number with its unit."""
@@ -202,7 +203,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
 def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
     """The keys and values of attributes that are names: neither looks nor yes or no, and no numbers among other values.
 
-    Where half of the values of a key are basic colours, they are looks. Names of rooms are places.
+    Where half of the values of a key are basic colours, they are looks. Names of rooms are places, and so are sides.
     """
     rooms = {room_named(value) for key, value in given if key in room_keys()} - {None}
     for key in sorted({key for key, _ in given}):
@@ -211,10 +212,14 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
         if any(value not in "01" for value in numbers):
             yield from ((key, value) for value in numbers)
         others = [value for value in values if value not in numbers and 0 < len(words_of(value)) <= MARK_WORDS]
+        others = [value for value in others if SYNONYMS.get(value.lower(), value.lower()) not in _SIDES]
         colors = [value for value in others if normalise(value).split(" ")[-1] in color_words().basic]
         if 2 * len(colors) < len(others):
             suits = mark_words()["suits"]  # the key is that of what people wear as well
             yield from ((key, v) for v in others if v.lower() in suits or not describes(attribute_key(key), v))
+
+
+_SIDES = SIDED | {"middle"}
 
 
 def _nouns(type_: str) -> list[str]:

@@ -43,7 +43,7 @@ def laid_flat(position: Floats) -> Floats:
     if (lowest | (beside & below).any(axis=1)).all() and not _is_full_grid(beside, seen[:, 2]):
         return position
     flat = position.copy()
-    flat[:, 0] += position[:, 2] - seen[:, 2].min()
+    flat[:, 0] += position[:, 2]  # not from the lowest: pictures of one page keep its frame
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
 
