@@ -247,7 +247,7 @@ def _may_be(node: Item, noun: Item) -> bool:
     """Whether a noun phrase may be what another names again."""
     if _by_looks(node):
         return not noun.plural and {node.color, *node.words} <= {None, noun.color, *noun.words}
-    unnamed = noun.definite or noun.is_a("empty") if noun.pronoun else noun.noun is None  # but "a big one"
+    unnamed = noun.is_a("empty") if noun.pronoun else noun.noun is None  # but "a big one", "the darkest one"
     if unnamed or noun.is_a("somewhere"):
         return False
     if node.noun is None or node.noun in SETS["groups"]:
