@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
 from dcg_torch.names.keys import attributes_of, is_used
+from dcg_torch.scene.upright_pictures import is_upright
 from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.untrusted_files import misspelt, plain, read_json, read_text, shown
@@ -278,11 +279,25 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
         return Workspace(None, unit)
     bounds = [scene.scene_bounds([o.position for o in e.objects], e.pose) for e in episodes if e.objects]
+    low = [_foot_of_picture(e.percepts(), e.pose) for e in episodes if e.objects]
     near, far, right, left = zip(*bounds, strict=True)
+    near, far = (tuple(map(sum, zip(end, low, strict=True))) for end in (near, far))
     return Workspace((min(near), max(far), min(right), max(left)), unit)
 
 
-def own_scale(percepts: Sequence[Percept], where: Workspace) -> Workspace:
-    """The workspace with the scene's own unit where it is of another scale: a table top among rooms."""
+def _foot_of_picture(percepts: Sequence[Percept], robot: Pose | None) -> float:
+    """How high the lowest thing is in a picture that stands upright, and is laid flat from there; else 0."""
+    return min(p.position[2] for p in percepts) if is_upright(percepts, robot) else 0.0
+
+
+def of_scene(percepts: Sequence[Percept], robot: Pose | None, where: Workspace) -> Workspace:
+    """The workspace of one of several scenes: the page as a picture that is laid flat from its lowest thing has it.
+
+    With the scene's own unit where it is of another scale: a table top among rooms.
+    """
+    low = _foot_of_picture(percepts, robot)
+    if where.bounds is not None and low:
+        near, far, right, left = where.bounds
+        where = replace(where, bounds=(near - low, far - low, right, left))
     unit = spacing(percepts) or where.unit
     return where if 1.0 / _ONE_SCALE <= unit / where.unit <= _ONE_SCALE else replace(where, unit=unit)

@@ -10,7 +10,7 @@ from collections.abc import Callable, Collection, Hashable, Iterable, Iterator, 
 from dataclasses import dataclass
 from typing import Any
 
-from dcg_torch.evaluation.episodes import Episode, own_scale, workspace
+from dcg_torch.evaluation.episodes import Episode, of_scene, workspace
 from dcg_torch.grounding.readings import worth_grounding
 from dcg_torch.grounding.solution import Solution
 from dcg_torch.interpretation.marks import heard
@@ -172,7 +172,7 @@ def _scene(episode: Episode) -> Hashable:
 def test_world(model: GroundingModel, episode: Episode, where: Workspace) -> WorldModel:
     """Upsilon of an episode: all there is has been perceived, and there are places to speak of."""
     percepts = episode.percepts()
-    scale = own_scale(percepts, where)
+    scale = of_scene(percepts, episode.pose, where)
     return model.world_model(percepts, episode.pose, episode.speaker_pose, looked=True, workspace=scale)
 
 

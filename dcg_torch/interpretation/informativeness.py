@@ -31,14 +31,15 @@ def needless(trees: Sequence[ParseTree], world: WorldModel) -> list[float]:
     meant = [next((node for node in tree.walk() if node.phrase.kind is PhraseKind.NOUN), tree) for tree in trees]
     told = [any(map(_is_told_beside, noun.children)) for noun in meant]
     needed = len({noun.phrase.noun for noun in meant}) < 2
-    more = [_more_of_landmarks(tree, world) for tree in trees]
+    more, texts = [_wrongly_described(tree, world) for tree in trees], [noun.phrase.text for noun in meant]
+    least = {one: min(m for m, text in zip(more, texts, strict=True) if text == one) for one in set(texts)}
     return [
-        _NEEDLESS * (landmarks - min(more) + (beside and not needed and _is_alone(noun.phrase.noun, world)))
-        for noun, beside, landmarks in zip(meant, told, more, strict=True)
+        _NEEDLESS * (wrong - least[text] + (beside and not needed and _is_alone(noun.phrase.noun, world)))
+        for noun, beside, wrong, text in zip(meant, told, more, texts, strict=True)
     ]
 
 
-def _more_of_landmarks(tree: ParseTree, world: WorldModel) -> int:
+def _wrongly_described(tree: ParseTree, world: WorldModel) -> int:
     """How many landmarks are described that need it not, or are not that need it.
 
     Of tables, which may be where all stands, and of what a thing is said to be the nearest to.

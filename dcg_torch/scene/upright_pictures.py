@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from dcg_torch.scene.order import TIE
-from dcg_torch.types import Object, Pose
+from dcg_torch.types import Object, Percept, Pose
 from dcg_torch.types.arrays import Bools, Floats
 from dcg_torch.types.geometry import positions, to_robot_frame
 
@@ -43,7 +43,7 @@ def laid_flat(position: Floats) -> Floats:
     if (lowest | (beside & below).any(axis=1)).all() and not _is_full_grid(beside, seen[:, 2]):
         return position
     flat = position.copy()
-    flat[:, 0] += position[:, 2]  # not from the lowest: pictures of one page keep its frame
+    flat[:, 0] += position[:, 2] - seen[:, 2].min()
     flat[:, 2] = np.where(np.isfinite(position[:, 2]), 0.0, position[:, 2])
     return flat
 
@@ -58,9 +58,10 @@ def before_it(flat: Floats) -> Floats:
     return np.array([low[0] - _FAR_BEFORE * max(float(high[1] - low[1]), TIE), (low[1] + high[1]) / 2.0, 0.0])
 
 
-def is_upright(objects: Sequence[Object], viewer: Pose | None) -> bool:
+def is_upright(objects: Sequence[Object] | Sequence[Percept], viewer: Pose | None) -> bool:
     """Do objects stand as on a page or a wall that the viewer has before them?"""
-    there = positions([o for o in objects if o.position is not None])
+    at = positions(objects)
+    there = at[np.isfinite(at).all(axis=1)]
     if len(there) < 3 or np.ptp(there[:, 2]) <= TIE:
         return False
     there[:, :2] = to_robot_frame(viewer or Pose(0.0, 0.0), there[:, :2])
