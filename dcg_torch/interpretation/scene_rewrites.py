@@ -8,6 +8,7 @@ from dcg_torch.interpretation.bearers import by_bearers
 from dcg_torch.interpretation.compounds import by_compounds
 from dcg_torch.interpretation.denials import by_denials
 from dcg_torch.interpretation.faces import by_faces
+from dcg_torch.interpretation.generic_nouns import by_generic_nouns
 from dcg_torch.interpretation.loads import by_loads
 from dcg_torch.interpretation.middles import by_middles
 from dcg_torch.interpretation.parser_protocol import Words
@@ -25,6 +26,7 @@ from dcg_torch.interpretation.walls import by_walls
 from dcg_torch.types import ParseTree, WorldModel
 
 _REWRITES = (
+    by_generic_nouns,
     by_passages,
     by_plural_nouns,
     by_members,
