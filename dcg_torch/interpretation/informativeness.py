@@ -1,8 +1,8 @@
 """Who tells of a thing that is alone of its kind what stands beside it means what stands there.
 
 "There is a bed. The cushion is to its left" says where one of several cushions is, in a room with one bed: to know the
-bed, its name would have been enough. In a room with three beds it may as well tell which of them is meant. So with
-"the chair closest to the sink at the table that is near the door": the only sink needs no table, two tables need a door.
+bed, its name would have been enough. In a room with three beds it may as well tell which of them is meant. So with "the
+chair closest to the sink at the table that is near the door": the only sink needs no table, one of two tables a door.
 """
 
 from __future__ import annotations

@@ -202,9 +202,7 @@ def told_of_walls(
     return replace(world, objects=tuple(_told_of(o, walls, attribute, told) for o in world.objects))
 
 
-def _told_of(
-    thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], Sequence[str]]
-) -> Object:
+def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], Sequence[str]]) -> Object:
     own = {a for a in thing.attributes if not a.startswith(attribute)}
     if not thing.hypothetical and (gaps := gaps_to_walls(thing, walls)) is not None:
         own.update(told(gaps))

@@ -1,8 +1,8 @@
 """Walls that are no things of a room: "the cabinet against the wall", "the left wall", "the freestanding shelf".
 
 Where nobody lists the walls, the things at the edges of a room tell where these are. A noun phrase gets a word
-("at a wall: yes"), which is compared with where each thing stands (`with_walls`). "On the same wall as the door" and "on
-the wall opposite the door" are words of that wall, where one door is there.
+("at a wall: yes"), which is compared with where each thing stands (`with_walls`). "On the same wall as the door" and
+"on the wall opposite the door" are words of that wall, where one door is there.
 """
 
 from __future__ import annotations
@@ -59,8 +59,8 @@ def _of_one_wall(tree: ParseTree, world: WorldModel, around: np.ndarray) -> Pars
     for mark in marks:
         said = {*wall.phrase.words, *mark.phrase.words}
         if wall.phrase.color is None and said in _RELATED and (ends := _walls_of(mark.children[0], world, around)):
-            at = [end if said == _SAME else (1 - end[0], end[1]) for end in ends]
-            words = (*tree.phrase.words, *(f"{OF_WALL}{row}, {column}" for row, column in at))
+            at = [_NAMED[row if said == _SAME else 1 - row][column] for row, column in ends]
+            words = (*tree.phrase.words, *(f"{OF_WALL}{name}" for name in at))
             kept = tuple(child for child in children if child is not walls[0] and child is not mark)
             return ParseTree(replace(tree.phrase, words=words), kept)
     return ParseTree(tree.phrase, children)
@@ -69,6 +69,8 @@ def _of_one_wall(tree: ParseTree, world: WorldModel, around: np.ndarray) -> Pars
 _SAME, _OPPOSITE = {"same", "as"}, "opposite"
 _RELATED = (_SAME, {_OPPOSITE}, *({_OPPOSITE, of} for of in ("from", "of", "to")))
 """What is said of a wall and before the landmark."""
+_NAMED = (("west", "south"), ("east", "north"))
+"""The walls at the least and the greatest x and y."""
 
 
 def _walls_of(landmark: ParseTree, world: WorldModel, around: np.ndarray) -> list[tuple[int, int]]:
@@ -123,4 +125,4 @@ def _at_wall(gaps: np.ndarray) -> Sequence[str]:
 
 
 def _at_which(gaps: np.ndarray) -> Sequence[str]:
-    return [f"{OF_WALL}{row}, {column}" for row, column in np.argwhere(gaps <= _STANDS)]
+    return [f"{OF_WALL}{_NAMED[row][column]}" for row, column in np.argwhere(gaps <= _STANDS)]

@@ -83,10 +83,8 @@ class _Builder(NounPhrases):
             return self.nouns
         agree = [verb.text not in SETS["one_does" if n.plural else "several_do"] for n in (place.before[-1], last)]
         agree[1] = agree[1] and not last.is_a("pointed")
-        table = last.noun in SETS["tables"]
-        options = CHOICES["relative_of_table" if table else "relative"]
-        options = options if agree[0] == agree[1] else {"thing" if agree[0] else "landmark": 0.0}
-        landmark = [last] if table else self.nouns
+        options = CHOICES["relative"] if agree[0] == agree[1] else {"thing" if agree[0] else "landmark": 0.0}
+        landmark = [last] if last.noun in SETS["tables"] else self.nouns
         return list(place.before) if self.decisions.choose("relative", options) == "thing" else landmark
 
     def negation(self, item: Item, after: Item) -> None:

@@ -110,8 +110,7 @@ class Parser:
             return Parse(text, problem=f"the command is longer than {MAX_WORDS} words")
         command = _Command(words, frozenset(map(normal_noun, vocabulary)), names(text))
         found: dict[Hashable, Reading] = {}
-        reason = NO_THING
-        nothing = -math.inf  # the log-weight of the likeliest reading that means no thing
+        reason, nothing = NO_THING, -math.inf  # the log-weight of the likeliest reading that means no thing
         for read, decisions in best_first(command.read, _RUNS_A_READING * k):
             if isinstance(read, Reading):
                 found.setdefault(_shape(read.tree), read)

@@ -155,8 +155,7 @@ def _nearest(place: Item, decisions: Decisions) -> Item:
     solid = [noun for noun in candidates if not noun.is_a("not_solid")] or candidates
     table = last.noun in SETS["tables"] and last.text.split(" ")[0] not in SETS["demonstratives"]
     if (table or last.noun in SETS["groups"]) and last is not solid[-1]:  # "the cube above the tower on the left"
-        rule = "group_extreme" if place.name in PLACING["extremes"] else "group_owner"
-        rule = "table_owner" if table else rule
+        rule = "group_extreme" if place.name in PLACING["extremes"] and not table else "group_owner"
         return last if decisions.choose(rule, CHOICES[rule]) == "group" else solid[-1]
     far = len(solid) > 1 and solid[0].children + solid[-1].children != []
     return solid[0] if far and decisions.choose("owner", CHOICES["owner"]) == "far" else solid[-1]

@@ -202,7 +202,6 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     """
     apart = SETS["directions"] | SETS["someone"]
     below = [node for child in target.children for node in child.children]
-    ranked = [node for child in target.children if child.name in PLACING["extremes"] for node in child.children]
     sides = [node for node in below if node.is_a("left_right") and "my" not in node.words]
     goal: Item | None = None
     turned = False
@@ -219,7 +218,8 @@ def arrive(target: Item, own: Clause, clauses: Sequence[Clause], decisions: Deci
     facing = [goal.copy().behind("facing")] if turned and sides else []
     for side in sides if turned else ():
         side.words = tuple(word for word in side.words if word not in SETS["owned"])
-    placed = any(node.noun not in SETS["places"] | apart for node in below if node not in ranked)
+    told = [node for child in target.children if child.name not in PLACING["extremes"] for node in child.children]
+    placed = any(node.noun not in SETS["places"] | apart for node in told)
     if not placed and decisions.choose("route", CHOICES["route"]) == "there":
         target.children.append(goal.copy().behind("near"))
     return facing
@@ -247,8 +247,7 @@ def _may_be(node: Item, noun: Item) -> bool:
     """Whether a noun phrase may be what another names again."""
     if _by_looks(node):
         return not noun.plural and {node.color, *node.words} <= {None, noun.color, *noun.words}
-    unnamed = noun.is_a("empty") if noun.pronoun else noun.noun is None  # but "a big one", "the darkest one"
-    if unnamed or noun.is_a("somewhere"):
+    if (noun.is_a("empty") if noun.pronoun else noun.noun is None) or noun.is_a("somewhere"):  # but "a big one"
         return False
     if node.noun is None or node.noun in SETS["groups"]:
         return noun.plural if node.noun else node.color in (None, noun.color)

@@ -17,8 +17,7 @@ def repair(items: Sequence[Item]) -> list[Item]:
     at = next((k for k, item in enumerate(items) if item.text in SETS["corrections"]), None)
     if at is None:
         return list(items)
-    said, new = items[:at], list(items[at + 1 :])
-    denied = False
+    said, new, denied = items[:at], list(items[at + 1 :]), False
     while new and (denied or new[0].kind not in _SAYING):  # "no, not the red one, the blue one"
         denied = new[0].kind is Kind.NEGATION
         new.pop(0).said = True
