@@ -124,7 +124,8 @@ class _Speaking:
         if not found and (found := self.corner(phrase, tree.children)):
             kept = [self.node(place) for place in tree.children if not _is_a_spot(place)]
         if found:
-            phrase = replace(phrase, words=tuple(w for w in phrase.words if w not in _RIMS))
+            noun = None if phrase.noun in LINE_OF and len(found) == 1 else phrase.noun  # "row 2, column 3"
+            phrase = replace(phrase, noun=noun, words=tuple(w for w in phrase.words if w not in _RIMS))
             phrase = replace(phrase, words=(*phrase.words, f"{CELL}{'|'.join(map(_name, sorted(found)))}"))
         return ParseTree(phrase, tuple(kept))
 

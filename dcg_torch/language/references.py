@@ -121,7 +121,8 @@ def one_of_several(one: Item, clauses: Sequence[Clause], decisions: Decisions) -
         return
     whole = [noun for noun in several if noun.plural or "other" in one.words]
     tops = [noun for noun in several if not any(noun is not other and noun in other.walk() for other in whole)]
-    group = max(tops, key=lambda noun: noun.start).copy()  # "(two men) with hats"
+    top = max(tops, key=lambda noun: noun.start)  # "(two men) with hats", "yellow cup: the one left of it"
+    group = replace(top, color=None, words=(), children=[]) if about_it(one) else top.copy()
     one.noun, one.color, one.pronoun = group.noun, one.color or group.color, False
     for place in [place for place in one.children if _picks(place)]:
         one.children.remove(place)

@@ -110,12 +110,11 @@ def _choose(found: list[Mention], decisions: Decisions) -> Mention:
     goals = [choice for choice in found if _relation(choice, found[first]) == "earlier_goal"]
     # "Go to the table and take the cup on it", "go to the table, then take the cup", "enter the hall, go to the ..."
     parted = references.about_it(found[first].noun) or found[first].clause.apart
-    leads = not parted and all(goal.clause is goals[0].clause for goal in goals)
+    leads = goals[:1] if not parted and all(goal.clause is goals[0].clause for goal in goals) else []
     for k, choice in enumerate(found):
         if k != first and not choice.noun.pronoun:
             step = CHOICES["target_step"] * (choice.score - best - 1.0)
-            weight = CHOICES["first_order"] if leads and choice in goals[:1] else step
-            options[f"{_relation(choice, found[first])} {k}"] = weight
+            options[f"{_relation(choice, found[first])} {k}"] = CHOICES["first_order"] if choice in leads else step
     return found[int(decisions.choose("target", options).split()[1])]
 
 
