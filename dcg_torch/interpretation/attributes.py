@@ -107,7 +107,10 @@ class _Speaking:
         """The whole tree: "he has dark hair and a tie", "glasses, no beard" name the thing by what it has."""
         nouns = [child for child in tree.children if child.phrase.kind is PhraseKind.NOUN]
         wears = "wear" in tree.phrase.words
-        of_each = [self.possessed(noun, denied=False) if wears or noun.phrase.noun else [] for noun in nouns]
+        of_each = [
+            self.possessed(noun, denied=noun.phrase.text.startswith("no ")) if wears or noun.phrase.noun else []
+            for noun in nouns
+        ]
         had = [word for words in of_each for word in words]
         owners = [noun for noun, words in zip(nouns, of_each, strict=True) if not words]
         if had and (len(nouns) > 1 or not set(tree.phrase.words).isdisjoint(_HAVING) or not tree.phrase.words):
@@ -131,10 +134,19 @@ class _Speaking:
             words += [word for word, _ in moved]
             left[:0] = [below for _, of in moved for below in of]
             children += [] if moved else [child]
+        if tree.phrase.kind is PhraseKind.PREPOSITION:
+            children = [self.bearer(child) for child in children]
         tree = replace(tree, children=tuple(self.described(child) for child in children))
         if tree.phrase.kind is not PhraseKind.NOUN:
             return tree
         return _with_words(replace(tree, phrase=self.own_words(tree.phrase)), words)
+
+    def bearer(self, landmark: ParseTree) -> ParseTree:
+        """ "Left of the white shirt" is left of who has it."""
+        words = self.possessed(landmark, denied=False) if landmark.phrase.noun else []
+        if not words:
+            return landmark
+        return ParseTree(replace(landmark.phrase, noun=None, color=None, words=tuple(words)), landmark.children)
 
     def pictured(self, tree: ParseTree) -> ParseTree:
         """ "The picture of the old man", "the man in the left picture": what shows somebody stands for who is shown."""

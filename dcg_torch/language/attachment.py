@@ -136,7 +136,7 @@ class _Builder(NounPhrases):
         # "the cube that is biggest", "the cube, big", "the cone second from the left", "... second closest to the cone"
         bare = self.copula or (name not in SETS["sides"] and (self.joined or self.clause.verb is None))
         predicate = name not in SETS["adverbs"] and (self.forced or bare)
-        apart = name == "alone" or item.words[-1] == "each other"
+        apart = name in SETS["predicates"] or item.words[-1] == "each other"
         where = name in SETS["bare_sides"] and self.says_where()
         if predicate or ranks or where or apart or is_superlative(name) or name[:7] == "facing ":
             item.said = True
