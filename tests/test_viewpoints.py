@@ -26,6 +26,8 @@ _FACED, _LEFT_BEHIND = "facing", "facing from"
         ("as you come in the door it is the hook on the right", "hook", _LEFT_BEHIND, "door"),
         ("standing at the door looking in, it's the bin on your left", "bin", _LEFT_BEHIND, "door"),
         ("if you stand with your back against the stove, the left crate", "crate", _LEFT_BEHIND, "stove"),
+        ("when you lie in the bed, cushion on your left", "cushion", _LEFT_BEHIND, "bed"),
+        ("if you are lying in the bed by the stove, the cushion on your left", "cushion", _LEFT_BEHIND, "bed"),
         ("as you enter the room through the door it is the first bunk on the right", "bunk", _LEFT_BEHIND, "door"),
     ],
 )
@@ -66,3 +68,16 @@ _ROOM = [  # north is y: who faces the shelves has the west on the left, who fac
 )
 def test_sides_are_those_of_the_viewpoint(text: str, id_: str) -> None:
     assert meant(text, _ROOM, robot=None) == [id_]
+
+
+@pytest.mark.parametrize(
+    ("text", "relations"),
+    [
+        ("the stool with its back to the window", ["near"]),
+        ("a sofa whose back is against the wall", ["touching"]),
+        ("the crate by itself near the stove, has a jar on it", ["near", "with"]),
+    ],
+)
+def test_backs_and_what_is_told_behind_a_comma(text: str, relations: list[str]) -> None:
+    tree = parse(text).readings[0].tree
+    assert [child.phrase.words[0] for child in tree.children[0].children] == relations
