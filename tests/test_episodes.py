@@ -49,7 +49,7 @@ def test_a_size_is_extents_one_number_or_a_word(
 def test_further_keys_that_are_words_or_true_are_attributes(tmp_path: Path) -> None:
     further = {"material": "wood", "held": True, "broken": False, "age": 3, "weight": 1.5, "owner": None, "tags": ["x"]}
     (episode,) = read_episodes(write(tmp_path, line(further)))
-    assert episode.percepts()[0].attributes == {"material: wood", "held", "broken: no"}
+    assert episode.percepts()[0].attributes == {"material: wood", "held", "broken: no", "tags: x"}
     (held,) = read_episodes(write(tmp_path, line({"material": "wood"}, holding="a")))
     assert held.percepts()[0].attributes == {"material: wood", "held"}
 

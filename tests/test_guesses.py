@@ -64,6 +64,11 @@ def test_a_denied_colour_rules_out_what_has_it_and_nobody_else(text: str, id_: s
     [
         ("is he wearing red? no. is she dressed in blue? yes", "It is not red. It is blue."),
         ("Is he wearing a hat? No. Is it big? n/a", "It has no hat."),
+        ("is he holding a leash? yes. is she carrying a bag? no", "It has a leash. It has no bag."),
+        (
+            "sitting? no. eating? yes. painting? no. ring? yes",
+            "It is not sitting. It is eating. It is not a painting. It is a ring.",
+        ),
         ("does it have wheels? yes, it does. car?\nno", "It has wheels. It is not a car."),
         ("Is it on the left half? I don't know. Is it bigger than the dog? y", "It is bigger than the dog."),
     ],

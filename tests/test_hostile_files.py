@@ -127,7 +127,7 @@ def test_what_is_wrong_in_an_episode_is_said(content: bytes, says: str) -> None:
 
 def test_what_scanners_and_corpora_write_is_taken(tmp_path: Path) -> None:
     path = tmp_path / "e.jsonl"
-    path.write_bytes(thing(EPISODE, size=0, age=3, tags=["x"], targets=1, target_id=2) + b"\n")
+    path.write_bytes(thing(EPISODE, size=0, age=3, tags=[7], targets=1, target_id=2) + b"\n")
     (episode,) = read_episodes(path)
     assert episode.objects[0].extents is None  # 0: the scanner could not tell
     assert episode.objects[0].rgb == (255.0, 0.0, 0.0)

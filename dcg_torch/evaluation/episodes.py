@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from dcg_torch import scene
 from dcg_torch.names.keys import attributes_of, is_used
 from dcg_torch.scene.upright_pictures import is_upright
-from dcg_torch.scene.workspace import Workspace, spacing, spacings
+from dcg_torch.scene.workspace import Workspace, is_room, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.untrusted_files import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
@@ -272,11 +272,13 @@ _ONE_SCALE = 2.0
 def workspace(episodes: Sequence[Episode]) -> Workspace:
     """What the scenes have in common: bounds, where the robot's place is one and the same in all; and the unit.
 
+    Rooms in which nobody stands have no bounds in common: each begins somewhere else, and has walls of its own.
     The unit is the median distance from an object to its nearest neighbour.
     """
     apart = np.concatenate([np.zeros(0), *(spacings(e.percepts()) for e in episodes)])
     unit = float(np.median(apart)) if len(apart) else 1.0
-    if len({(e.pose, e.speaker_pose) for e in episodes}) != 1:
+    rooms = [e.pose is None and is_room(e.percepts()) for e in episodes]
+    if len({(e.pose, e.speaker_pose) for e in episodes}) != 1 or 2 * sum(rooms) > len(rooms):
         return Workspace(None, unit)
     bounds = [scene.scene_bounds([o.position for o in e.objects], e.pose) for e in episodes if e.objects]
     low = [_foot_of_picture(e.percepts(), e.pose) for e in episodes if e.objects]

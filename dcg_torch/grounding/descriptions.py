@@ -40,7 +40,7 @@ from dcg_torch.grounding.tiers import of_tier
 from dcg_torch.grounding.vertical_relations import by_height
 from dcg_torch.interpretation.comparatives import MORE_THAN, log_more
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.interpretation.sameness import SAME_AS, log_same
+from dcg_torch.interpretation.sameness import LIKE, log_same
 from dcg_torch.names.attribute_values import says_size, size_side
 from dcg_torch.names.attributes import attribute_evidence
 from dcg_torch.names.colors import comparing_words
@@ -113,7 +113,7 @@ def _log_psi(
     name, denied = tree.phrase.words[0], NOT in tree.phrase.words
     if is_in_a_group(tree) and not encoder.layout.members:
         return np.zeros((len(landmarks), len(encoder.all)))  # "in the row" tells nothing where no row is seen
-    if name in SAME_AS:
+    if name in LIKE:
         return log_same(name, encoder.all, landmarks, denied=denied)
     if name in MORE_THAN:
         return log_more(name, encoder.all, landmarks, denied=denied, viewer=encoder.world.robot)

@@ -182,7 +182,10 @@ class _Speaking:
         if made is not None:
             yield f"{NOT_}{made}" if denied else made, ()
             return
-        found = [(self.possessed(landmark, denied=denied), landmark.children) for landmark in place.children]
+        found = [
+            (_worn_marks(landmark.phrase, denied) or self.possessed(landmark, denied=denied), landmark.children)
+            for landmark in place.children
+        ]
         if all(words for words, _ in found):
             for words, below in found:
                 yield from ((word, below if k == 0 else ()) for k, word in enumerate(words))
@@ -270,6 +273,19 @@ class _Speaking:
         return replace(phrase, words=tuple(dict.fromkeys(words)), color=color, noun=noun)
 
 
+def _worn_marks(phrase: Phrase, denied: bool) -> list[str]:
+    """The words of "(in) the red jacket" that are a value of what people wear ("wears: red jacket").
+
+    With them what says where somebody is: "in red far left". None of them where more is said of what is worn.
+    """
+    marks = [word for word in phrase.words if OF_KEY in word]
+    worn = all(is_clothing(key) or key in _CLOTHES for key in (word.partition(OF_KEY)[0] for word in marks))
+    where = [word for word in phrase.words if word in _SIDES or word.endswith("most")]
+    if not worn or not marks or phrase.noun or phrase.color or len(marks) + len(where) < len(phrase.words):
+        return []
+    return [*(f"{NOT_}{word}" if denied else word for word in marks), *where]
+
+
 def _is_of_whole(word: str, key: str) -> bool:
     """Does a word beside what somebody has say how or where he himself is: "a tie and bald", "a suit looking left"?"""
     if word.endswith("most") or word in SIDED:
@@ -282,6 +298,7 @@ def _is_person(name: str) -> bool:
 
 
 _OWNED = listed("owners")
+_SIDES = frozenset({*SIDED, "far"})
 
 
 def _with_words(tree: ParseTree, words: Sequence[str]) -> ParseTree:

@@ -25,7 +25,7 @@ _SAID = re.compile(r"\b(?:ends?|head|foot|side) of\b")
 _SIDE_OF = re.compile(r"\bside of$")
 _SIDE = " side"
 _AT = listed("at an end of a thing")
-_BESIDE = listed("on the side towards")
+_BESIDE, _APART = listed("on the side towards"), listed("on the side away from")
 _ACROSS, _NEAR = listed("across"), listed("on this side")
 _SAYING = _ENDS | {"side"}
 
@@ -126,11 +126,7 @@ def _on_a_side(
     """
     landmark = place.children[0]
     if _SIDE_OF.search(place.phrase.text) and _is_there(landmark.phrase, types):
-        nested = next(iter(_beside(landmark, types)), None)
-        towards = after if after is not None and _is_beside(after, types) else nested
-        if towards is not None:
-            return (_related(place, TOWARDS, landmark, towards.children[0]),), towards is after
-        return None, False
+        return _told_by(place, landmark, after, types)
     side = landmark.phrase
     if not place.phrase.words or place.phrase.words[0] not in _AT or side.noun is None:
         return None, False
@@ -138,6 +134,19 @@ def _on_a_side(
         return _on_its_side(place, side.noun.removesuffix(_SIDE), types), False
     if side.noun == "side" and _ACROSS.intersection(side.words):
         return _across(place, after, types)
+    if side.noun == "side" and not side.words and (whole := _whole(landmark, types)[0]) is not None:
+        return _told_by(place, whole, after, types)
+    return None, False
+
+
+def _told_by(
+    place: ParseTree, whole: ParseTree, after: ParseTree | None, types: frozenset[str]
+) -> tuple[tuple[ParseTree, ...] | None, bool]:
+    """ "On the side of the table closest to the door", "... away from the door"; as `_on_a_side`."""
+    for start in filter(None, (after, *whole.children)):
+        relation = _way(start, types)
+        if relation is not None:
+            return (_related(place, relation, whole, start.children[0]),), start is after
     return None, False
 
 
@@ -192,8 +201,15 @@ def _is_a_name(place: ParseTree, types: frozenset[str]) -> bool:
 
 
 def _is_beside(place: ParseTree, types: frozenset[str]) -> bool:
+    return _way(place, types) == TOWARDS
+
+
+def _way(place: ParseTree, types: frozenset[str]) -> str | None:
+    """Does a place tell a side by what is towards it, or away from it?"""
     words = place.phrase.words
-    return bool(words) and words[0] in _BESIDE and NOT not in words and _is_a_name(place, types)
+    if not words or NOT in words or not _is_a_name(place, types):
+        return None
+    return TOWARDS if words[0] in _BESIDE else AWAY_FROM if words[0] in _APART else None
 
 
 def _related(place: ParseTree, name: str, *landmarks: ParseTree) -> ParseTree:

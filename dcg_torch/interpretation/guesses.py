@@ -14,6 +14,8 @@ from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.palette import color_words
 
 _ONE = re.compile(r"\bone\b")
+_DOING = 2.0
+"""How common "sitting" and "eating" are as nouns; "painting" and "ceiling" are more so."""
 
 
 def told_by_answers(text: str) -> str:
@@ -63,7 +65,8 @@ def _is_so(what: str, answer: bool) -> str:
     worn = pattern("guess_worn").fullmatch(what)
     what = worn["what"] if worn is not None and _is_color(worn["what"]) else what
     used = parts(what.lower()) if what.isalpha() else {}
-    what = f"a {what}" if used.get("n", 0.0) > used.get("a", 0.0) and not what.endswith("s") else what
+    least = max(used.get("a", 0.0), _DOING if what.endswith("ing") else 0.0)
+    what = f"a {what}" if used.get("n", 0.0) > least and not what.endswith("s") else what
     return f"It is {'' if answer else 'not '}{what}."
 
 

@@ -182,19 +182,18 @@ def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     return told_of_walls(world, trees, SPOT, _in_corner)
 
 
-def _in_corner(gaps: np.ndarray) -> Sequence[str]:
-    farther = gaps.min(axis=0).max()
-    return [_CORNER] if farther <= _IN else [_ELSEWHERE] if farther > _OUT else []
+def _in_corner(gaps: np.ndarray) -> str | None:
+    return _CORNER if gaps.max() <= _IN else _ELSEWHERE if gaps.max() > _OUT else None
 
 
 def told_of_walls(
-    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], Sequence[str]]
+    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], str | None]
 ) -> WorldModel:
-    """The world whose things have attributes by how far they are from the walls of a room, if a tree speaks of them.
+    """The world whose things have an attribute by how far they are from the walls of a room, if a tree speaks of it.
 
     Args:
-        attribute: how the attributes begin.
-        told: these, from (2, 2) metres between a thing and the walls at the least and the greatest x and y.
+        attribute: how the attribute begins.
+        told: it, from (2,) metres between a thing and the nearer wall along x and along y; None where it is unsure.
     """
     words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
     if not any(word.startswith(attribute) for word in words) or (walls := room_walls(world)) is None:
@@ -202,19 +201,13 @@ def told_of_walls(
     return replace(world, objects=tuple(_told_of(o, walls, attribute, told) for o in world.objects))
 
 
-def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], Sequence[str]]) -> Object:
+def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], str | None]) -> Object:
     own = {a for a in thing.attributes if not a.startswith(attribute)}
-    if not thing.hypothetical and (gaps := gaps_to_walls(thing, walls)) is not None:
-        own.update(told(gaps))
+    if thing.position is not None and not thing.hypothetical:
+        half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
+        word = told(np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half)
+        own |= {word} if word is not None else set()
     return replace(thing, attributes=frozenset(own))
-
-
-def gaps_to_walls(thing: Object, walls: np.ndarray) -> np.ndarray | None:
-    """(2, 2) metres between a thing and the walls at the least and the greatest x and y; None where it is unseen."""
-    if thing.position is None:
-        return None
-    half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
-    return np.asarray(np.abs(np.array(thing.position[:2]) - walls) - half)
 
 
 def room_walls(world: WorldModel) -> np.ndarray | None:

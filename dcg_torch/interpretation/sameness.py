@@ -1,4 +1,4 @@
-"""What is like its landmark: "the ball of the same colour as the cube", "the same size as", "the same material as"."""
+"""What is like its landmark: "the ball of the same colour as the cube", "the same size as", "at the same wall as"."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.interpretation.same_walls import AT_WALL_OF, log_at_wall_of
 from dcg_torch.names.color_names import color_evidence
 from dcg_torch.names.keys import attribute_key
 from dcg_torch.names.normal_form import normalise
@@ -17,6 +18,7 @@ from dcg_torch.types.arrays import Floats
 
 SAME_AS = {"same color as": "color", "same size as": "size", "same shape as": "shape", "same material as": "material"}
 """Prepositions, and in what two things are then alike."""
+LIKE = SAME_AS.keys() | AT_WALL_OF.keys()
 _SURE = 0.98
 """Probability that two things are alike, where what is known of them says so."""
 _OPEN = 0.5
@@ -31,13 +33,16 @@ def log_same(name: str, things: Sequence[Object], landmarks: Sequence[tuple[int,
     """(landmarks, things) the logarithm of the probability that a thing is like a landmark; nothing is like itself.
 
     Args:
-        name: one of `SAME_AS`.
+        name: one of `LIKE`.
         landmarks: numbers of things; the first of each is the landmark.
         denied: that it is not.
     """
+    if name in AT_WALL_OF:
+        log = log_at_wall_of(name, things, landmarks)
+        return np.log1p(-np.exp(log)) if denied else log
     found = np.array([[_same(SAME_AS[name], things[of[0]], thing) for thing in things] for of in landmarks])
-    log: Floats = np.log(1.0 - found if denied else found)
-    return log
+    logs: Floats = np.log(1.0 - found if denied else found)
+    return logs
 
 
 def _same(what: str, one: Object, other: Object) -> float:

@@ -136,13 +136,13 @@ def _resolved(chosen: Mention, found: list[Mention]) -> Mention:
     """ "Find the cone and approach it": the noun phrase that a pronoun stands for."""
     noun = chosen.noun
     if noun.pronoun and (noun.is_a("empty") or noun.text in SETS["stands_for"]):
-        before = found[: found.index(chosen)]
+        before = [m for m in found[: found.index(chosen)] if m.noun.noun or m.noun.text not in SETS["stands_for"]]
         earlier = [choice for choice in before if not (choice.noun.pronoun and choice.noun.is_a("empty"))]
         last = earlier[-1] if earlier and chosen.place is None else chosen
         # What begins the sentence: "Start at the church. The tree closest to it, mark that."
         fronted = last.clause.verb is last.place is None and last.clause.sentence == chosen.clause.sentence
         handled = [choice for choice in earlier if choice.place is None and choice.score > TARGETS["shun"]]
-        beside = bool(earlier) and references.tells_of_neighbour(earlier[-1].clause)
+        beside = earlier and not chosen.clause.tells and references.tells_of_neighbour(earlier[-1].clause)
         if handled and chosen.place is None and not (fronted or beside):
             return handled[-1]
         if beside:

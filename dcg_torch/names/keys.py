@@ -6,8 +6,8 @@ An attribute is a text: "held" of what is so, "glasses: no" of what is not, "mat
 from __future__ import annotations
 
 import functools
-from collections.abc import Mapping
-from typing import Final
+from collections.abc import Mapping, Sequence
+from typing import Final, TypeGuard
 
 from dcg_torch.names.attribute_values import words_listed
 from dcg_torch.names.normal_form import normalise, read_data
@@ -25,10 +25,13 @@ def attributes_of(further: Mapping[str, object]) -> frozenset[str]:
     """The attributes that keys and values come to.
 
     Of numbers 1 and 0 are true and false ("hasBeard"), but for keys that count ("row") or whose numbers are names;
-    what is neither text nor true or false says nothing.
+    what is neither text nor true or false says nothing. Of texts in a list each is a value of the key.
     """
     named = {
-        f"{key}{OF_KEY}{value}" for key, value in further.items() if isinstance(value, str) or _is_number(key, value)
+        f"{key}{OF_KEY}{value}"
+        for key, values in further.items()
+        for value in (values if _is_listed(values) else (values,))
+        if isinstance(value, str) or _is_number(key, value)
     }
     truths = {key: bool(value) for key, value in further.items() if _is_truth(key, value)}
     return frozenset(named | {key if true else f"{key}{OF_KEY}no" for key, true in truths.items()})
@@ -36,7 +39,7 @@ def attributes_of(further: Mapping[str, object]) -> frozenset[str]:
 
 def is_used(key: str, value: object) -> bool:
     """Does a key with this value say something, or is it plainly empty?"""
-    return isinstance(value, (str, type(None))) or _is_truth(key, value) or _is_number(key, value)
+    return isinstance(value, (str, type(None))) or _is_truth(key, value) or _is_number(key, value) or _is_listed(value)
 
 
 @functools.lru_cache(maxsize=4096)
@@ -73,6 +76,11 @@ def named_key(noun: str, keys: frozenset[str]) -> str | None:
     """
     near = [key for key in sorted(keys) if log_odds(noun, key) > _KEY_ODDS]
     return max(near, key=lambda key: log_odds(noun, key), default=None)
+
+
+def _is_listed(value: object) -> TypeGuard[Sequence[str]]:
+    """Several values: "wears": ["red shirt", "jeans"]."""
+    return isinstance(value, (list, tuple)) and all(isinstance(one, str) for one in value)
 
 
 def _is_truth(key: str, value: object) -> bool:

@@ -96,13 +96,11 @@ SPOT = "spot: "
 """Begins the attribute that tells whether a thing is in a corner of a room."""
 AT_WALL = "at a wall: "
 """Begins the attribute that tells whether a thing stands at a wall of a room, or hangs there."""
-OF_WALL = "of a wall: "
-"""Begins the attributes that tell at which walls of a room a thing stands or hangs."""
 LEVEL = "level: "
 """Begins the attributes that tell how many levels of its stack are below a thing, and how many above it."""
 TIER = "tier: "
 """Begins the attribute that tells on which shelf a thing stands, from the bottom, where shelves are no things."""
-WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, AT_WALL, OF_WALL, LEVEL, TIER)
+WORKED_OUT = (CELL, LIKELY_ROOM, SPOT, AT_WALL, LEVEL, TIER)
 """Attributes that no recogniser gives."""
 CELL_STEPS = {"above": (-1, 0), "over": (-1, 0), "on top of": (-1, 0), "under": (1, 0), "below": (1, 0)}
 CELL_STEPS |= {"left of": (0, -1), "right of": (0, 1)}

@@ -45,6 +45,10 @@ class Bodies:
         wide: Floats = np.nan_to_num(np.maximum(0.0, self.half - _POINT))
         return wide
 
+    def first(self, number: int) -> Bodies:
+        """Those of so many of the things, the first ones."""
+        return Bodies(self.half[:number], self.bottom[:number], self.top[:number])
+
     def over(self, first: Ints, offset: Floats) -> tuple[Bools, Bools]:
         """(c, n) things whose footprint shares much with that of a landmark, and those of which it doesn't.
 

@@ -74,7 +74,8 @@ def _outlook(world: WorldModel, position: Floats, sized: Bodies | None) -> Float
     if world.viewer is not None:
         return None
     if world.robot is None:
-        found = None if sized is None else outlooks(position, sized, classes, world.unit)
+        own = None if sized is None else sized.first(len(world.objects))  # places may be those of other rooms, too
+        found = None if own is None else outlooks(position, own, classes, world.unit)
         return None if found is None else np.pad(found, (0, len(position) - len(found)))
     seen = position[: len(world.objects), :2]
     seen = seen[np.isfinite(seen).all(axis=1)]

@@ -18,8 +18,8 @@ _AT_WALL = 0.4
 """Metres from a wall up to which a thing stands at it."""
 _RESTS, _MANY = 0.12, 512
 """Units between the top of a thing and the foot of another that lies on it; things up to which that is looked for."""
-_THINGS, _CLASSES, _WIDE = 10, 4, 2.0
-"""Things and classes at least in a room, and metres between its walls."""
+_THINGS, _FEW, _CLASSES, _WIDE = 10, 5, 4, 2.0
+"""Things at least in a room in which somebody stands, and in another; classes, and metres between its walls."""
 
 
 def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_walls: bool = False) -> Floats | None:
@@ -34,7 +34,7 @@ def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_
     at = position[: len(bodies.half), :2]
     half = np.nan_to_num(bodies.half)
     there = np.isfinite(at).all(axis=1)
-    if there.sum() < _THINGS or classes < _CLASSES:
+    if there.sum() < (_THINGS if at_walls else _FEW) or classes < _CLASSES:
         return None
     low, high = (at - half)[there].min(axis=0), (at + half)[there].max(axis=0)
     if ((high - low) * unit < _WIDE).any():
