@@ -90,9 +90,8 @@ TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTE
 """Those of the refusals that hold for a clause after another as well."""
 
 
-_TOKENS: Final = [
-    (FirstOf([_filled(row[0]) for row in rows]), rows) for rows in (_PATTERNS["phrases"], _PATTERNS["prepositions"])
-]
+_ROWS: Final = (_PATTERNS["phrases"], _PATTERNS["prepositions"])
+_TOKENS: Final = [(FirstOf([_filled(row[0]) for row in rows]), rows) for rows in _ROWS]
 
 
 def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...], dict[str, float]]]:
@@ -101,8 +100,7 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
     The words of each, what they mean in normal form and the weights that they have as which tag.
     """
     for first_of, rows in _TOKENS:
-        found = first_of.match(joined, offset)
-        if found is not None:
+        if (found := first_of.match(joined, offset)) is not None:
             raw, number, way = found
             _, value, *tags = rows[number]
             way = str(NUMBERS.get(way, NORMAL.get(way, way)))
