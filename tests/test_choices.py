@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from dcg_torch import GroundingModel, Percept, Pose, pretrained
-from dcg_torch.grounding.choices import Likelihood, fit_choices
+from dcg_torch.grounding.choices import Choice, Likelihood, fit_choices
 from dcg_torch.grounding.encoders import Encoders
 from dcg_torch.language import parse_command
 from dcg_torch.learning.landmarks import Lesson, fit_landmarks_em, parts_of
@@ -40,20 +40,22 @@ TEXTS: Sequence[tuple[str, set[str]]] = (
 )
 
 
-def choices_of(model: GroundingModel, text: str, targets: set[str]) -> Likelihood:
+def choice_of(model: GroundingModel, text: str, targets: set[str]) -> Choice:
     tree = parse_command(text, model.symbols.keys()).tree
     assert tree is not None
-    found: list[Likelihood] = []
+    found: list[Choice] = []
 
-    def keep(choices: list, last: bool) -> None:  # type: ignore[type-arg]
-        own = choices[:1]  # without those of its landmarks
-        found.append(
-            Likelihood(own, model.features, model.factor, free=None, l2=0.3, prior=model.factor.weight.numpy())
-        )
+    def keep(choices: list[Choice], last: bool) -> None:
+        found.append(choices[0])  # without those of its landmarks
 
     parts = parts_of(Lesson(tree, scene(model), frozenset(targets)))
     fit_landmarks_em(parts, Encoders(model.features), lambda: model.solve, keep, rounds=1)
     return found[0]
+
+
+def likelihood_of(model: GroundingModel, said: Sequence[tuple[str, set[str]]]) -> Likelihood:
+    own = [choice_of(model, text, targets) for text, targets in said]
+    return Likelihood(own, model.features, model.factor, free=None, l2=0.3, prior=model.factor.weight.numpy())
 
 
 # What is not next to the sphere is next to none of two: of these the graph takes the worst, and a fit weighs each.
@@ -61,7 +63,7 @@ def choices_of(model: GroundingModel, text: str, targets: set[str]) -> Likelihoo
 def test_the_value_is_the_probability_that_the_factor_graph_gives(
     model: GroundingModel, text: str, targets: set[str]
 ) -> None:
-    likelihood = choices_of(model, text, targets)
+    likelihood = likelihood_of(model, [(text, targets)])
     tree = parse_command(text, model.symbols.keys()).tree
     assert tree is not None
     meant = model.ground(tree, scene(model)).probabilities[next(iter(targets))]
@@ -69,7 +71,7 @@ def test_the_value_is_the_probability_that_the_factor_graph_gives(
 
 
 def test_the_value_of_a_set_is_that_each_is_described_and_no_other(model: GroundingModel) -> None:
-    likelihood = choices_of(model, "go to the cubes", {"a", "b", "c"})
+    likelihood = likelihood_of(model, [("go to the cubes", {"a", "b", "c"})])
     tree = parse_command("go to the cubes", model.symbols.keys()).tree
     assert tree is not None
     fits = model.ground(tree, scene(model)).fits
@@ -77,9 +79,17 @@ def test_the_value_of_a_set_is_that_each_is_described_and_no_other(model: Ground
     assert likelihood(likelihood.start).value == pytest.approx(-expected, rel=0.05, abs=5e-3)
 
 
-@pytest.mark.parametrize(("text", "targets"), TEXTS)
-def test_the_gradient_is_that_of_differences(model: GroundingModel, text: str, targets: set[str]) -> None:
-    likelihood = choices_of(model, text, targets)
+def test_the_value_of_several_is_the_sum_of_the_value_of_each(model: GroundingModel) -> None:
+    """A set among things that are picked one at a time, in whatever order; where the weights are costs nothing."""
+    alone = [likelihood_of(model, [one]) for one in TEXTS]
+    for together in (likelihood_of(model, TEXTS), likelihood_of(model, TEXTS[::-1])):
+        expected = sum(likelihood(likelihood.start).value for likelihood in alone)
+        assert together(together.start).value == pytest.approx(expected, rel=1e-9)
+
+
+@pytest.mark.parametrize("said", [*([one] for one in TEXTS), TEXTS])
+def test_the_gradient_is_that_of_differences(model: GroundingModel, said: Sequence[tuple[str, set[str]]]) -> None:
+    likelihood = likelihood_of(model, said)
     rng = np.random.default_rng(0)
     at = likelihood.start + 0.1 * rng.standard_normal(len(likelihood.start))
     for _ in range(5):

@@ -153,7 +153,7 @@ def train(
                 counts = weight * min(1.0, math.sqrt(_FULL_SCENE / times[scene]))
                 lesson = Lesson(readings[0].tree, world, frozenset(episode.target), counts, tuple(readings))
                 lessons.append(lesson)
-    gc.freeze()  # they stay until all is learned, and walking them again and again takes time
+        gc.freeze()  # they stay until all is learned, and walking them again and again takes time
     model.teach(
         lessons,
         known_types=training.known_types,

@@ -130,19 +130,18 @@ def _noun_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:
         return gap
     if unheard_of(phrase.noun) and not english().get(phrase.noun, {}).get("n", 0):  # "weather" is no thing
         gap = np.minimum(gap, _NEW)
-    gap = np.minimum(gap, [_bound_of_kind(phrase.noun, o.type) for o in objects])
-    slips = [o.type is not None and may_be_meant_for(phrase.noun, o.type) for o in objects]
-    gap = np.where(slips, np.minimum(gap, _LETTER), gap)
-    named = np.array([o.type is not None and not o.type.startswith(OPAQUE) for o in objects])
-    return np.where(named, gap, 0.0)
+    most = {type_: _most_of_type(phrase.noun, type_) for type_ in {o.type for o in objects}}
+    return np.minimum(gap, [most[o.type] for o in objects])
 
 
-def _bound_of_kind(noun: str, type_: str | None) -> float:
-    """The most that a noun's gap is for a thing that is of the kind that it names: "the container" of a bottle."""
+def _most_of_type(noun: str, type_: str | None) -> float:
+    """The most that a noun's gap is for a thing of a type: none where nobody says what it is, little where a letter is
+    wrong, or where it is of the kind that the noun names ("the container" of a bottle)."""
     if type_ is None or type_.startswith(OPAQUE):
-        return math.inf
+        return 0.0
     facts = evidence(noun, type_)
-    return next((bound for fact, bound in _OF_KIND.items() if fact in facts), math.inf)
+    bound = next((bound for fact, bound in _OF_KIND.items() if fact in facts), math.inf)
+    return min(bound, _LETTER) if may_be_meant_for(noun, type_) else bound
 
 
 def _color_gap(tables: Tables, encoder: WorldEncoder, phrase: Phrase) -> Floats:

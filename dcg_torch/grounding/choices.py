@@ -16,6 +16,7 @@ correspondences.
 
 Conventions
     R rows of factors, distinct ones; N candidates, those of one choice after another; C choices
+    cells: what fires of a phrase and a thing, each pair once; a row fires some of them, and a weight counts in some
     S terms of modifiers, those of one candidate and modifier (a slot) after another
 """
 
@@ -123,23 +124,28 @@ class Likelihood:
         self._noun: Ints = which[noun]  # rows that fire the same are one
         self._term: Ints = which[term]
         cell = cell[first]
-        self._shape = len(rows.phrases), groundings
         row, k = np.nonzero(cell >= 0)
-        fired = cell[row, k]
-        self._rows = csr_array((np.ones(len(row)), (row, fired)), shape=(len(cell), math.prod(self._shape)))
-        language = features.encode_phrases(list(rows.phrases))
+        cells, of_row = np.unique(cell[row, k], return_inverse=True)
+        self._rows = csr_array((np.ones(len(row)), (row, of_row)), shape=(len(cell), len(cells)))
+        language = features.encode_phrases(list(rows.phrases))[cells // groundings]
         at, k = np.nonzero(language >= 0)
-        fires = csr_array((np.ones(len(at)), (at, language[at, k])), shape=(len(rows.phrases), languages))
-        cells = np.zeros(math.prod(self._shape))
-        cells[fired] = 1.0
-        active = features.pairs & (fires.T @ cells.reshape(self._shape) > 0.0)
+        fires = language[at, k] * groundings + (cells % groundings)[at]
+        active = features.pairs & (np.bincount(fires, minlength=languages * groundings) > 0).reshape(features.shape)
         self.free: Bools = active if free is None else active & free
-        self._fires, self._back = fires, csr_array(fires.T)
+        moves = self.free.ravel()[fires]
+        number = np.cumsum(self.free) - 1
+        self._moves = csr_array(
+            (np.ones(int(moves.sum())), (at[moves], number[fires[moves]])), shape=(len(cells), int(self.free.sum()))
+        )
         weight = factor.weight.detach().cpu().numpy()
         self._signs = correspondence_signs(factor)
-        self._fixed = [self._scores(w * features.pairs) for w in weight]
+        adds = csr_array((np.ones(len(at)), (at, fires)), shape=(len(cells), languages * groundings))
+        self._fixed: list[Floats] = [self._rows @ (adds @ (w * features.pairs).ravel()) for w in weight]
         self._asserted = factor.correspondences.index(Correspondence.ACTIVE)
         self._denied = factor.correspondences.index(Correspondence.INACTIVE)
+        told = np.where(self._is_denied, self._denied, self._asserted)
+        self._told: Ints = told * len(cell) + self._term  # where in a table of log Psi a term's is
+        self._sign: Floats = self._signs[told]
         self.start: Floats = (weight[self._asserted] - weight[self._denied])[self.free]
         self._centre: Floats = (prior[self._asserted] - prior[self._denied])[self.free]
 
@@ -164,25 +170,19 @@ class Likelihood:
         self._begin = np.concatenate([[0], np.cumsum(sizes)[:-1]]).astype(np.int64)
         self._choice = np.repeat(np.arange(len(choices)), sizes)
         self._meant = np.concatenate([choice.meant for choice in choices])
-        self._weight = np.array([choice.weight for choice in choices])
-        self._a_set = np.array([choice.a_set for choice in choices])
+        self._weight: Floats = np.array([choice.weight for choice in choices])[self._choice]
+        self._in_a_set: Ints = np.flatnonzero(np.array([choice.a_set for choice in choices])[self._choice])
         self._slot = np.concatenate(slot) if slot else np.zeros(0, dtype=np.int64)
         self._log_prior = np.concatenate(log_prior) if term else np.zeros(0)
         self._is_denied = np.concatenate(denied) if term else np.zeros(0, dtype=np.bool_)
         self._candidate = np.concatenate(candidate) if term else np.zeros(0, dtype=np.int64)
         self._slot_begin = np.searchsorted(self._slot, np.arange(slots))
+        self._candidate_of_term: Ints = self._candidate[self._slot]
         return np.concatenate(noun), np.concatenate(term) if term else np.zeros(0, dtype=np.int64)
-
-    def _scores(self, weight: Floats) -> Floats:
-        """(R,) the scores of all rows under weights (L, G)."""
-        total: Floats = self._rows @ (self._fires @ weight).ravel()
-        return total
 
     def __call__(self, at: Floats) -> solvers.Point:
         """Value and gradient where the differences of the free weights are `at`."""
-        move = np.zeros(self.free.shape)
-        move[self.free] = at - self.start
-        moved = self._scores(move)
+        moved = self._rows @ (self._moves @ (at - self.start))
         table = np.stack([own + sign * moved for own, sign in zip(self._fixed, self._signs, strict=True)])
         table -= np.logaddexp.reduce(table, axis=0)
         # d log Psi(phi) / d move = sign(phi) - sum over phi' of sign(phi') Psi(phi')
@@ -191,11 +191,10 @@ class Likelihood:
         value, by_noun, by_modifiers = self._choices(table, said)
         of_noun = by_noun[0] * (self._signs[self._asserted] - mean[self._noun])
         of_noun += by_noun[1] * (self._signs[self._denied] - mean[self._noun])
-        sign = np.where(self._is_denied, self._signs[self._denied], self._signs[self._asserted])
-        of_term = by_modifiers[self._candidate][self._slot] * kept * (sign - mean[self._term])
+        of_term = by_modifiers[self._candidate_of_term] * kept * (self._sign - mean[self._term])
         slope = np.bincount(self._noun, of_noun, minlength=len(moved))
         slope += np.bincount(self._term, of_term, minlength=len(moved))
-        gradient = (self._back @ (self._rows.T @ slope).reshape(self._shape))[self.free]
+        gradient = self._moves.T @ (self._rows.T @ slope)
         distance = at - self._centre
         value += 0.25 * self._l2 * float(distance @ distance)
         gradient += 0.5 * self._l2 * distance
@@ -206,8 +205,7 @@ class Likelihood:
         said = np.zeros(len(self._noun))
         if not len(self._term):
             return said, np.zeros(0)
-        log_psi = np.where(self._is_denied, table[self._denied, self._term], table[self._asserted, self._term])
-        summand = log_psi + self._log_prior
+        summand = table.take(self._told) + self._log_prior
         most = np.maximum.reduceat(summand, self._slot_begin)
         total = np.log(np.add.reduceat(np.exp(summand - most[self._slot]), self._slot_begin)) + most
         of_slot = np.logaddexp(math.log1p(-SLIP) + total, math.log(SLIP))
@@ -217,20 +215,21 @@ class Likelihood:
     def _choices(self, table: Floats, said: Floats) -> tuple[float, tuple[Floats, Floats], Floats]:
         """The value, and its derivatives by log Psi(ACTIVE) and log Psi(INACTIVE) of the nouns and by `said`, (N,)."""
         active, inactive = table[self._asserted, self._noun], table[self._denied, self._noun]
-        weight, in_set = self._weight[self._choice], self._a_set[self._choice]
         score = active - inactive + said
-        most = np.maximum.reduceat(score, self._begin)
-        odds = np.exp(score - most[self._choice])
+        most = np.maximum.reduceat(score, self._begin)[self._choice]
+        odds = np.exp(score - most)
         total = np.add.reduceat(odds, self._begin)
-        log_chance = score - most[self._choice] - np.log(total)[self._choice]
-        described = np.minimum(active + said, -1e-9)
-        log_not = np.log(-np.expm1(described))
-        of_set = self._meant * described + (1.0 - self._meant) * log_not
-        value = -float((weight * np.where(in_set, of_set, self._meant * log_chance)).sum())
-        by_one = -weight * (self._meant - odds / total[self._choice])
-        by_set = -weight * (self._meant - (1.0 - self._meant) * np.exp(described - log_not))
-        by_said = np.where(in_set, by_set, by_one)
-        return value, (by_said, np.where(in_set, 0.0, -by_one)), by_said
+        log_likelihood = self._meant * (score - most - np.log(total)[self._choice])
+        by_said = -self._weight * (self._meant - odds / total[self._choice])
+        by_inactive = -by_said
+        if len(self._in_a_set):
+            some = self._in_a_set
+            meant, described = self._meant[some], np.minimum(active[some] + said[some], -1e-9)
+            log_not = np.log(-np.expm1(described))
+            log_likelihood[some] = meant * described + (1.0 - meant) * log_not
+            by_said[some] = -self._weight[some] * (meant - (1.0 - meant) * np.exp(described - log_not))
+            by_inactive[some] = 0.0
+        return -float((self._weight * log_likelihood).sum()), (by_said, by_inactive), by_said
 
 
 def correspondence_signs(factor: LogLinearFactor) -> Floats:

@@ -33,7 +33,9 @@ def by_compounds(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """
     if not said.words.isdisjoint(everyday().ages):
         tree = _sized(tree, world)
-    tree = _joined(tree, frozenset(normalise(o.type) for o in world.objects if o.type and " " in normalise(o.type)))
+    if any(_ends_in_one(node.phrase) for node in tree.walk()):
+        types = {normalise(type_) for type_ in {o.type for o in world.objects} if type_}
+        tree = _joined(tree, frozenset(name for name in types if " " in name))
     return _split(tree, world) if any(" " in noun for noun in said.nouns) else tree
 
 
@@ -46,13 +48,17 @@ def _joined(tree: ParseTree, names: frozenset[str]) -> ParseTree:
         names: of classes, of several words.
     """
     phrase, children = tree.phrase, tuple(_joined(child, names) for child in tree.children)
-    if phrase.kind is PhraseKind.NOUN and _ONE in phrase.text.split(" "):
+    if _ends_in_one(phrase):
         for word in phrase.words:
             begun = [n for n in names if n.partition(" ")[0] == word and (phrase.noun or "") in (n.split(" ")[-1], "")]
             if len(begun) == 1:
                 kept = tuple(w for w in phrase.words if w != word)
                 return ParseTree(replace(phrase, noun=begun[0], words=kept), children)
     return tree if children == tree.children else ParseTree(phrase, children)
+
+
+def _ends_in_one(phrase: Phrase) -> bool:
+    return _ONE in phrase.text and phrase.kind is PhraseKind.NOUN and _ONE in phrase.text.split(" ")
 
 
 def _sized(tree: ParseTree, world: WorldModel) -> ParseTree:

@@ -100,7 +100,7 @@ def in_plain_words(tree: ParseTree, there: frozenset[str], *, flat: bool = False
         children = (*children, near_side(named))
     if not any(map(is_superlative, words)) and counted(words) is None:
         children = in_one_corner(children)
-    return together(ParseTree(replace(phrase, words=words), children))
+    return together(ParseTree(phrase if words == phrase.words else replace(phrase, words=words), children))
 
 
 def _plain(words: tuple[str, ...]) -> tuple[str, ...]:

@@ -29,6 +29,8 @@ COLOR_NAMES: Final = frozenset(lines("colors.txt", __package__)) - SETS["color_t
 """Every colour name in normal form, of one word or several."""
 SINGLE_COLORS: Final = frozenset(name for name in COLOR_NAMES if " " not in name) - SETS["shades"]
 """The colour names of one word."""
+_LAST: Final = SINGLE_COLORS | COLOR_SPELLINGS.keys()
+"""Words that can end the name of a colour."""
 
 
 def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
@@ -37,7 +39,7 @@ def match_color(words: Sequence[str], start: int) -> tuple[str, int] | None:
     "dark sky blue" is one colour; a closing "coloured" belongs to the colour.
     """
     stop = next((i for i in range(start, len(words)) if words[i] not in SETS["shades"]), len(words))
-    for end in range(min(stop + _LONGEST, len(words)), stop, -1):
+    for end in (k + 1 for k in range(min(stop + _LONGEST, len(words)) - 1, stop - 1, -1) if words[k] in _LAST):
         parts = normal_color(" ".join(words[stop:end])).split(" ")
         one = len(parts) == 1 or parts[0] not in SETS["basic_colors"]
         if one and parts[-1] in SINGLE_COLORS and " ".join(parts) in COLOR_NAMES:

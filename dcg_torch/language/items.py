@@ -4,7 +4,6 @@ changes to a single noun phrase."""
 from __future__ import annotations
 
 import enum
-import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Final
@@ -90,14 +89,17 @@ class Item:
 
     def is_a(self, kind: str) -> bool:
         """Whether the item is of a kind of `grammar.yaml`: one of its rows holds."""
-        return any(all(itertools.starmap(self._has, row)) for row in _KINDS[kind])
-
-    def _has(self, name: str, wanted: bool, words: frozenset[str], all_of_them: bool) -> bool:
-        value = getattr(self, name)
-        if words:
-            values = value if isinstance(value, tuple) else (value,)
-            value = words.issuperset(values) if all_of_them else not words.isdisjoint(values)
-        return bool(value) is wanted
+        for row in _KINDS[kind]:
+            for name, wanted, words, all_of_them in row:
+                value = getattr(self, name)
+                if words:
+                    values = value if isinstance(value, tuple) else (value,)
+                    value = words.issuperset(values) if all_of_them else not words.isdisjoint(values)
+                if bool(value) is not wanted:
+                    break
+            else:
+                return True
+        return False
 
 
 END: Final = Item(Kind.STOP, 0, 0, "")

@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import functools
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, Final
 
 import yaml
 
 from dcg_torch.english.dictionary import lines, read
+from dcg_torch.english.patterns import FirstOf, New, Rewrites
 
 _LOADER = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _FILES: Final = ("words.yaml", "grammar.yaml", "patterns.yaml")
@@ -71,7 +72,7 @@ def _mapped(word: str | None, name: str) -> str:
     return _MAPS[name].get(str(NUMBERS.get(word or "", word or "")), word or "")
 
 
-def _replacement(new: str) -> str | Callable[[re.Match[str]], str]:
+def _replacement(new: str) -> New:
     """What takes the place of a match: `<group:map>` is what the map has for the words of a group."""
     if not _ASKED.search(new):
         return new
@@ -80,9 +81,8 @@ def _replacement(new: str) -> str | Callable[[re.Match[str]], str]:
 
 QUOTES: Final = str.maketrans(_PATTERNS["quotes"])
 """Typographic quotes, dashes and the ellipsis, as they are typed on a keyboard."""
-REWRITES: Final = tuple(
-    (_filled(old), _replacement(new), tuple(needs[0].split("|")) if needs else ("",))
-    for old, new, *needs in _PATTERNS["rewrite"]
+REWRITES: Final = Rewrites(
+    (_filled(old), _replacement(new), needs[0].split("|") if needs else ()) for old, new, *needs in _PATTERNS["rewrite"]
 )
 WORD: Final = re.compile(_PATTERNS["word"])
 REFUSALS: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTERNS["refusals"])
@@ -90,13 +90,8 @@ TALK: Final = tuple((re.compile(_filled(row[0])), str(row[1])) for row in _PATTE
 """Those of the refusals that hold for a clause after another as well."""
 
 
-def _first_of(rows: list[list[Any]]) -> re.Pattern[str]:
-    """One pattern for all rows: the first that fits, by its number."""
-    parts = (_filled(row[0]).replace("<way>", f"<w{i}>") for i, row in enumerate(rows))
-    return re.compile("|".join(f"(?P<r{i}>(?:{part})(?= |$))" for i, part in enumerate(parts)))
-
-
-_TOKENS: Final = [(_first_of(rows), rows) for rows in (_PATTERNS["phrases"], _PATTERNS["prepositions"])]
+_ROWS: Final = (_PATTERNS["phrases"], _PATTERNS["prepositions"])
+_TOKENS: Final = [(FirstOf([_filled(row[0]) for row in rows]), rows) for rows in _ROWS]
 
 
 def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...], dict[str, float]]]:
@@ -104,13 +99,11 @@ def match_tokens(joined: str, offset: int) -> Iterator[tuple[str, tuple[str, ...
 
     The words of each, what they mean in normal form and the weights that they have as which tag.
     """
-    for pattern, rows in _TOKENS:
-        match = pattern.match(joined, offset)
-        if match is not None:
-            number = str(match.lastgroup)[1:]
-            _, value, *tags = rows[int(number)]
-            way = match.groupdict().get(f"w{number}") or ""
-            way, raw = str(NUMBERS.get(way, NORMAL.get(way, way))), match.group()
+    for first_of, rows in _TOKENS:
+        if (found := first_of.match(joined, offset)) is not None:
+            raw, number, way = found
+            _, value, *tags = rows[number]
+            way = str(NUMBERS.get(way, NORMAL.get(way, way)))
             words = value.replace("=", raw).replace("<way>", way).replace("<nth>", NTH.get(way, way))
             yield raw, tuple(words.split(";")), (*tags, {"P": 0.0})[0]
 

@@ -7,7 +7,8 @@ import functools
 import gc
 import math
 from collections.abc import Collection, Hashable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields
+from operator import attrgetter
 
 from dcg_torch.english.dictionary import english
 from dcg_torch.language.attachment import build
@@ -22,11 +23,12 @@ from dcg_torch.language.repairs import repair
 from dcg_torch.language.tagging import Path, paths
 from dcg_torch.language.target import root
 from dcg_torch.language.tokens import mend, names, normal_noun, tokens
-from dcg_torch.types import ParseTree, PhraseKind
+from dcg_torch.types import ParseTree, Phrase, PhraseKind
 
 MAX_CHARACTERS = 600
 MAX_WORDS = 120  # four times the longest of most thousand human commands; the time goes with the number of words
 _PATHS, _RUNS_A_READING = 3, 2
+_SAID = attrgetter(*(field.name for field in fields(Phrase) if field.name != "text"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,7 +189,7 @@ def _supplied(groups: Sequence[Sequence[Item]]) -> int:
 
 def _shape(tree: ParseTree) -> Hashable:
     """A tree without its texts: two readings of one shape are one."""
-    return replace(tree.phrase, text=""), tuple(_shape(child) for child in tree.children)
+    return _SAID(tree.phrase), tuple(map(_shape, tree.children))
 
 
 def _normalised(readings: list[Reading]) -> tuple[Reading, ...]:

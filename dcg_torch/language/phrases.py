@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Final
 
 from dcg_torch.english.forms import verb
 from dcg_torch.language.items import END, Item, Kind
-from dcg_torch.language.lexicon import PARTICLE_VERBS, PLACING, PRONOUNS, SETS, TAGS
+from dcg_torch.language.lexicon import GRAMMAR, PARTICLE_VERBS, PLACING, PRONOUNS, SETS, TAGS
 from dcg_torch.language.noun_phrases import NounPhrase
 from dcg_torch.language.tagging import BEHIND, Token
+
+_PARTS: Final[Mapping[str, str]] = GRAMMAR["phrases"]
 
 
 def items(tokens: Sequence[Token]) -> list[Item]:
@@ -25,14 +28,12 @@ class _Phrases:
     def __init__(self, tokens: Sequence[Token]) -> None:
         self.tokens = tokens
         self.out: list[Item] = []
-        self.parts = {"P": self.preposition, "ADV": self.adverb, "FACE": self.adverb, "PRO": self.pronoun}
-        self.parts |= dict.fromkeys(TAGS["verbal"], self.verb) | dict.fromkeys(TAGS["nominal"], self.nominal)
 
     def step(self, i: int) -> int:
         tag = self.tokens[i].tag
         if tag in TAGS["joints"]:
             self.add(Kind(tag), i, i + 1)
-        return self.parts[tag](i) if tag in self.parts else i + 1
+        return getattr(self, _PARTS[tag])(i) if tag in _PARTS else i + 1
 
     def add(self, kind: Kind, i: int, j: int, words: tuple[str, ...] = ()) -> Item:
         """Append the item of tokens `i` to `j`."""

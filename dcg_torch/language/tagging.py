@@ -72,9 +72,9 @@ def paths(words: Sequence[str], vocabulary: Collection[str], names: Collection[s
 
 def _best(starts: Mapping[str, list[_Start]], tag: str, k: int) -> list[_Start]:
     """The `k` likeliest beginnings before a token of a tag."""
-    ends = [(score + _AFTER[before][tag], path) for before, several in starts.items() for score, path in several]
     # Rounded, so that equal ones are equal, and stay as they come.
-    return sorted(((round(score, 6), path) for score, path in ends), key=itemgetter(0), reverse=True)[:k]
+    ends = [(round(score + _AFTER[last][tag], 6), path) for last, several in starts.items() for score, path in several]
+    return sorted(ends, key=itemgetter(0), reverse=True)[:k]
 
 
 class _Lattice:

@@ -30,10 +30,8 @@ def tokens(text: str) -> list[str]:
     text = unicodedata.normalize("NFKC", text).translate(lx.QUOTES).lower()
     text = text if text.isprintable() else "".join(" " if unicodedata.category(c)[0] == "C" else c for c in text)
     text = _HYPHENATED.sub(_swap, text)
-    for old, new, needs in lx.REWRITES:
-        text = re.sub(old, new, text) if any(map(text.__contains__, needs)) else text
     found: list[str] = []
-    for token in lx.WORD.findall(text):
+    for token in lx.WORD.findall(lx.REWRITES.applied(text)):
         if token in lx.SETS["size_nouns"] and found and found[-1] in lx.SETS["sizes"]:
             found[-1] += "-sized"
         elif token not in lx.SETS["fillers"] and (found or not (token in lx.SETS["openings"] or token == ",")):

@@ -45,8 +45,14 @@ def attribute_evidence(words: Collection[str], attributes: Collection[str]) -> t
         Some of `ATTRIBUTE_FACTS`, each once and in that order. A word that the attributes confirm is not "silent" or
         "contrary" too.
     """
+    return _evidence(tuple(words), frozenset(attributes))
+
+
+@functools.lru_cache(maxsize=16384)
+def _evidence(words: tuple[str, ...], attributes: frozenset[str]) -> tuple[str, ...]:
+    """Kept: things of a scene differ in few attributes, and are asked about the same words again and again."""
     said = (word if HAS in word or OF_KEY in word else normalise(word) for word in words)
-    found = {fact for word in said if (fact := _attribute_fact(word, frozenset(attributes))) is not None}
+    found = {fact for word in said if (fact := _attribute_fact(word, attributes)) is not None}
     return tuple(fact for fact in ATTRIBUTE_FACTS if fact in found)
 
 

@@ -28,7 +28,7 @@ _TRUST = 0.6
 _HEAD = 1.5
 """What a class that ends with the noun has beside: who means an office chair often says "chair" where chairs are, too.
 The list of nouns has few such pairs, and there a class of just that name takes all."""
-_ABSENT = "name: absent"
+_ABSENT, _NOT = "name: absent", f"{NOT} "
 _ABSENT_ODDS = 3.5
 """Of what is not there, once all has been seen: a noun that no class is named by mostly means nothing that is there."""
 _COLOR_ODDS = {"equal": 4.0, "same hue": -0.5, "alike": 2.5, "near": -1.0, "shades apart": -2.0, "far": -4.0}
@@ -60,7 +60,7 @@ class Said:
 
     def denies(self) -> bool:
         """Does a word say what a thing is not: "not red"?"""
-        return any(word.startswith(f"{NOT} ") for word in self.words)
+        return any(word.startswith(_NOT) for word in self.words)
 
 
 def fact_odds() -> dict[str, float]:
@@ -115,13 +115,10 @@ def is_ruled_out(words: Sequence[str], thing: Object, named: bool) -> bool:
     Args:
         named: are colours to be judged by their names?
     """
-    return any(_denies(word, thing, named) for word in words)
+    return any(_denies(word.removeprefix(_NOT), thing, named) for word in words if word.startswith(_NOT))
 
 
-def _denies(word: str, thing: Object, named: bool) -> bool:
-    denied = word.removeprefix(f"{NOT} ")
-    if denied == word:
-        return False
+def _denies(denied: str, thing: Object, named: bool) -> bool:
     of_color = named and thing.color is not None and not _SAME_COLOR.isdisjoint(color_evidence(denied, thing.color))
     if named and thing.color is None and thing.rgb is not None:
         of_color = looks_like(denied, thing.rgb)
