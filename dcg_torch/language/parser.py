@@ -129,8 +129,7 @@ class _Command:
     """The words of a command, and what of them is the same in all readings."""
 
     def __init__(self, words: list[str], known: frozenset[str], names: frozenset[str]) -> None:
-        self.known, self.names = known, names
-        self.kept, self.mended = words, mend(words, known | names)
+        self.known, self.names, self.kept, self.mended = known, names, words, mend(words, known | names)
         self.tagged: dict[bool, tuple[dict[str, Path], list[tuple[int, int, str]]]] = {}
 
     def read(self, decisions: Decisions) -> Reading | str:
