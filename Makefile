@@ -6,6 +6,9 @@ RUN := $(BIN)/python -m dcg_torch
 # what is used as it is used.
 PIP := $(BIN)/python -m pip install --quiet --no-compile --disable-pip-version-check --root-user-action=ignore
 
+# What is compiled is kept, whatever the environment says: else each of a dozen processes would compile torch anew.
+unexport PYTHONDONTWRITEBYTECODE
+
 # python3.11 where there is one (PyBullet has wheels for it), else a python3 that is new enough.
 PYTHON ?= $(shell for p in python3.11 python3; do \
 	$$p -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null && echo $$p && break; done)
