@@ -178,3 +178,11 @@ def test_facts_of_colors(word: str, name: str, fact: str) -> None:
 def test_facts_of_attributes(words: tuple[str, ...], attributes: set[str], facts: tuple[str, ...]) -> None:
     assert attribute_evidence(words, attributes) == tuple(f"attribute: {fact}" for fact in facts)
     assert {f"attribute: {fact}" for fact in facts} <= set(ATTRIBUTE_FACTS)
+
+
+@pytest.mark.parametrize(
+    ("word", "nearer", "farther"), [("white", "very light grey", "grey"), ("black", "very dark grey", "dark grey")]
+)
+def test_a_very_light_shade_is_farther_from_its_hue(word: str, nearer: str, farther: str) -> None:
+    order = [fact for fact in COLOR_FACTS if fact in {"color: alike", "color: near", "color: far"}]
+    assert order.index(color_evidence(word, nearer)[0]) < order.index(color_evidence(word, farther)[0])

@@ -56,5 +56,16 @@ def _shade(name: str) -> float:
 
 
 def _region_of(name: str) -> tuple[float, float, float] | None:
-    found = region(name) or region(name.split(" ")[-1])
+    first, _, rest = name.partition(" ")
+    hue = region(name.split(" ")[-1])
+    if (
+        first in _VERY and hue is not None and (shade := region(rest)) is not None
+    ):  # farther from the hue than "dark gray"
+        one, two, three = np.array(shade.mean) + _FARTHER * (np.array(shade.mean) - np.array(hue.mean))
+        return float(one), float(two), float(three)
+    found = region(name) or hue
     return None if found is None else found.mean
+
+
+_VERY, _FARTHER = frozenset({"very", "extremely", "really"}), 0.6
+"""Words that make a shade more so, and by which share of its way from the hue."""
