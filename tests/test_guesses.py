@@ -7,6 +7,7 @@ from asked import meant
 
 from dcg_torch import Percept
 from dcg_torch.interpretation.guesses import told_by_answers
+from dcg_torch.interpretation.turns import in_one_voice
 
 PARK = [
     Percept("left child", "child", None, (2.0, 1.0, 0.5), (0.0, 0.3, 0.9)),
@@ -101,3 +102,8 @@ def test_what_is_no_such_game_stays_as_it_is(text: str) -> None:
 )
 def test_what_is_not_meant_is_one_thing_and_not_all_of_its_kind(text: str, ids: set[str]) -> None:
     assert meant(text, PARK, looked=True) == ids
+
+
+def test_what_is_on_it_is_on_the_one_that_is_told() -> None:
+    text = "Go to the white bench. Which one? The one with the hat on it."
+    assert in_one_voice(text) == "Go to the white bench. The one with the hat on it."

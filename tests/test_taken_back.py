@@ -23,6 +23,10 @@ def _told(tree: ParseTree) -> list[tuple[str, str | None]]:
         ("take the crate. no, not the crate under the bench. the other.", [("", "crate"), ("not under", "bench")]),
         ("the jar, wait, not the one on the tray, the one on the floor", [("", "jar"), ("on", "floor")]),
         ("take the jar, not the one near the sink but the one near the oven", [("", "jar"), ("near", "oven")]),
+        (
+            "not the jar by the oven and not the jar on the left, the other one",
+            [("", "jar"), ("not by", "oven"), ("not on", "left")],
+        ),
         ("take the middle jug. no, a bit further to the right", [("", "jug"), ("right of", "jug")]),
         ("the crate by the sink. no wait, slightly more left, the tall one", [("", "crate"), ("left of", "crate")]),
     ],

@@ -14,6 +14,8 @@ from dcg_torch import parse
         ("The shelf is tall. A vase stands on it. It is near the oven.", "shelf", ["with", "near"]),
         ("It is a low bench. There is a bag on it. It is right of the sofa.", "bench", ["with", "right of"]),
         ("There is a white table. It has a radio on it. It is behind the sofa.", "table", ["with", "behind"]),
+        ("The bench is grey. There is a bag and a hat on it.", "bench", ["with"]),
+        ("The bench is grey. On top of it are two bags and a hat. It is near the oven.", "bench", ["with", "near"]),
         ("This is a crate. There is a jar on top. It is next to the oven.", "crate", ["with", "next to"]),
     ],
 )

@@ -31,6 +31,13 @@ _STREET = [
 ]
 
 
+def test_the_colour_of_a_thing_is_not_what_somebody_wears() -> None:
+    car = Percept("car", "car", "red", (2.0, 0.1, 2.0), size=(0.1, 0.6, 0.3))
+    other = Percept("other", "car", "white", (2.0, 1.1, 2.0), size=(0.1, 0.6, 0.3))
+    assert meant("the red car", [*_STREET, car, other]) == ["car"]
+    assert meant("the guy in the red jacket", [*_STREET, car, other]) == ["near red"]
+
+
 @pytest.mark.parametrize(
     ("text", "id_"),
     [

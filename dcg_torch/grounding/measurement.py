@@ -12,6 +12,7 @@ from dcg_torch.grounding.landmark_counts import counted_from_landmark, is_anchor
 from dcg_torch.grounding.line_ends import of_line_ends
 from dcg_torch.grounding.odd_one_out import odd_one
 from dcg_torch.grounding.receding_rows import of_receding_row
+from dcg_torch.grounding.row_middles import middle_of_row
 from dcg_torch.types import Phrase
 from dcg_torch.types.arrays import Bools, Floats
 
@@ -39,8 +40,9 @@ def by_measurement(
     phrase, few = first_few(phrase, modifiers, described, encoder)
     phrase, extent = of_extents(phrase, told, among, encoder, anchored=is_anchored(modifiers))
     phrase, end = of_line_ends(phrase, among, encoder)
+    phrase, middle = middle_of_row(phrase, modifiers, among, encoder)
     phrase, odd = odd_one(phrase, among, encoder)
-    return phrase, away + row + few + extent + end + odd
+    return phrase, away + row + few + extent + end + middle + odd
 
 
 def by_measurement_of_few(

@@ -14,7 +14,7 @@ from dcg_torch.interpretation.people import OF_PEOPLE
 from dcg_torch.names.attribute_values import is_told_apart, says_value, says_whether, states_value
 from dcg_torch.names.attributes import HAS, NOT_
 from dcg_torch.names.evidence import is_generic
-from dcg_torch.names.keys import OF_KEY, attribute_key, is_clothing, named_key
+from dcg_torch.names.keys import OF_KEY, attribute_key, is_clothing, is_worn, named_key
 from dcg_torch.names.normal_form import normalise, singular
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LINE_OF, PLACE_WORDS, SIDED
@@ -279,7 +279,7 @@ def _worn_marks(phrase: Phrase, denied: bool) -> list[str]:
     With them what says where somebody is: "in red far left". None of them where more is said of what is worn.
     """
     marks = [word for word in phrase.words if OF_KEY in word]
-    worn = all(is_clothing(key) or key in _CLOTHES for key in (word.partition(OF_KEY)[0] for word in marks))
+    worn = all(is_worn(word.partition(OF_KEY)[0]) for word in marks)
     where = [word for word in phrase.words if word in _SIDES or word.endswith("most")]
     if not worn or not marks or phrase.noun or phrase.color or len(marks) + len(where) < len(phrase.words):
         return []

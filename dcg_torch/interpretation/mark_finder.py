@@ -7,10 +7,14 @@ from typing import Final
 
 from dcg_torch.english.forms import parts
 from dcg_torch.names.evidence import unheard_of
+from dcg_torch.names.keys import OF_KEY, is_worn
 from dcg_torch.names.marks import MARK_WORDS, WORD, Mark, Marks, mark_words
-from dcg_torch.names.normal_form import singular
+from dcg_torch.names.normal_form import normalise, singular
+from dcg_torch.names.palette import color_words
 
 _NAME: Final = 2  # letters of a name
+_BEFORE_COLOR: Final = frozenset(["a", "an", "the", "all", "dark", "light", "bright"])
+_WORN_IN: Final = frozenset(["in", "wearing", "wears", "wear", "with", "has"])
 _SHORTENED: Final = ("no", "nr", "num")
 
 
@@ -75,7 +79,7 @@ class _Finder:
             mark = self.marks.named(self.words[i : i + n])
             if mark is None and owned:
                 mark = self.marks.named([*self.words[i : i + n - 1], self.words[i + n - 1][:-2]])
-            other = self._is_place(i, n) or self._is_verb(i, n)
+            other = self._is_place(i, n) or self._is_verb(i, n) or self._is_own_color(i, n, mark)
             if mark is not None and not other and (not mark.short or self._is_name(i, i + n)):
                 return self._extended(i, i + n, mark, owned)
         missing = self.marks.missing(self.words[i]) if self._may_be_missing(i) else None
@@ -107,6 +111,13 @@ class _Finder:
         if n > 1 or self.words[i] not in lists["places"]:
             return False
         return before in lists["sides"] or (before == "the" and self.word(i - 2) in lists["before_place"])
+
+    def _is_own_color(self, i: int, n: int, mark: Mark | None) -> bool:
+        """Is it the colour of a thing and not of what somebody wears: "the red car", but "in red", "wearing red"?"""
+        if n > 1 or mark is None or mark.word is None or normalise(self.words[i]) not in color_words().basic:
+            return False
+        before = next((word for word in reversed(self.words[:i]) if word not in _BEFORE_COLOR), "")
+        return is_worn(mark.word.partition(OF_KEY)[0]) and before not in _WORN_IN
 
     def _is_verb(self, i: int, n: int) -> bool:
         """Is it the verb of an order: "mark the pepsi block", "will you ..."; not in "Target to the left"?"""

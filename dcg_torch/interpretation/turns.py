@@ -23,6 +23,7 @@ _LONGEST, _LONGEST_QUESTION = 1000, 200
 _SENTENCES = re.compile(r"[^\s.?!][^.?!]*[.?!]*")
 _SAID = re.compile(r"\S.*?(?:[.?!]+(?=\s|$)|$)", re.DOTALL)
 _IT, _ONE = re.compile(r"\bit\b"), re.compile(r"\bone\b")
+_OF_ITSELF = re.compile(r"\b(?:with|has|having) [^.]*\b(?:on|in|inside|under|over|around|behind) it\b")
 _WORD = re.compile(r"[A-Za-z]{2}")
 _QUOTED = re.compile(r"\s*(?>(['\"])[^\"\n]+?\1(?=[\s,-]|$)[\s,-]*){2,}")
 """Turns in quotes. Each ends once for all: marks that could end several of them at many places would take for ever."""
@@ -286,7 +287,7 @@ def _last_first(said: list[Turn]) -> str:
         taking = _starts("taking", kept[-1])
         if taking is not None:  # "Cook the potato. Take the one in the fridge": that one is cooked
             kept[-1] = kept[-1][taking.end() :]
-        elif _starts("noun", kept[-1]) and _IT.search(kept[-1]):
+        elif _starts("noun", kept[-1]) and _IT.search(kept[-1]) and not _OF_ITSELF.search(kept[-1]):
             # "Push the red one. Good, now the blue one next to it": that is pushed, too.
             kept[-2:] = [_IT.sub(order["what"].strip(" .!"), f"{order['verb']}{kept[-1]}", count=1)]
     return " ".join(part if part[-1] in ".?!" else f"{part.rstrip(' ,')}." for part in kept)

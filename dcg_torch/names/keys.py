@@ -67,6 +67,11 @@ def is_clothing(key: str) -> bool:
     return key in words_listed("clothes")
 
 
+def is_worn(key: str) -> bool:
+    """Are the values of a key what people wear: "wears: red shirt", "jacket: red"?"""
+    return key == "wear" or is_clothing(key)
+
+
 @functools.lru_cache(maxsize=4096)
 def named_key(noun: str, keys: frozenset[str]) -> str | None:
     """The key that a noun names: "glasses" for "spectacles"; None if it names none of them.
