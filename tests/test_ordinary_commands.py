@@ -250,3 +250,17 @@ def test_ordinary_wordings_are_right(found: dict[str, list[bool]]) -> None:
     every = [one for ok in found.values() for one in ok]
     assert len(every) > 300
     assert np.mean(every) > 0.9, sorted((float(np.mean(ok)), text) for text, ok in found.items())[:12]
+
+
+@pytest.mark.parametrize(
+    ("text", "noun"),
+    [
+        ("bring anna the mug", "mug"),
+        ("my sister wants the mug", "mug"),
+        ("I'd like the table somebody put a monitor on", "table"),
+        ("there are two crates by the truck, take whichever is closer to the gate", "crate"),
+    ],
+)
+def test_orders_for_others_and_things_told_by_what_was_done(text: str, noun: str) -> None:
+    target = next(node for node in dcg_torch.parse(text).readings[0].tree.walk() if node.phrase.noun)
+    assert target.phrase.noun == noun

@@ -13,23 +13,30 @@ from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
 
-_ANY, _TOYS, _OUTLINES = (listed(of) for of in ("whatever there is", "toy of any shape", "outline of a toy"))
+_ANY = listed("whatever there is")
+_OF_SORTS = [
+    (listed("toy of any shape"), listed("outline of a toy")),
+    (listed("card of any suit"), listed("suit of a card")),
+]
+"""Nouns that may be said of all things of a sort, and words of the names of such things."""
 _THING, _SEVERAL = "thing", 2
 
 
 def by_generic_nouns(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     """A tree in which nouns that may be said of whatever there is are one noun.
 
-    A block is anything among toys of which no class is called so, and of which some are called by their outline.
+    A block is anything among toys of which no class is called so, and of which some are called by their outline; so is
+    a card among cards that are called by their suit.
 
     Args:
         said: the words of the tree.
     """
-    if said.nouns.isdisjoint(_ANY | _TOYS) or any(type_.startswith(OPAQUE) for type_ in world.classes):
+    spoken = said.nouns.intersection(_ANY.union(*(nouns for nouns, _ in _OF_SORTS)))
+    if not spoken or any(type_.startswith(OPAQUE) for type_ in world.classes):
         return tree
     names = [normalise(type_).split(" ") for type_ in named_classes(world)]
-    toys = _TOYS if len({name[-1] for name in names} & _OUTLINES) >= _SEVERAL else frozenset[str]()
-    return _of_things(tree, (_ANY | toys).difference(*names))
+    sorts = [nouns for nouns, of in _OF_SORTS if sum(not of.isdisjoint(name) for name in names) >= _SEVERAL]
+    return _of_things(tree, _ANY.union(*sorts).difference(*names))
 
 
 def _of_things(tree: ParseTree, generic: frozenset[str]) -> ParseTree:

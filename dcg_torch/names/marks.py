@@ -184,7 +184,7 @@ def _marks_of(things: frozenset[tuple[str | None, frozenset[str]]]) -> Marks | N
     names += [(("", type_), words) for type_, words in apart.items()]
     for one, words in names:
         whole.setdefault(solid_name(words), set()).add(one)
-        if len(words) > 1:
+        if len(words) > 1 and _OF not in words:
             for word in words:
                 if len(word) >= _PART and word not in mark_words()["common"] and singular(word) not in heads:
                     parts.setdefault(solid_name([word]), set()).add(one)
@@ -222,8 +222,11 @@ def _values(given: Collection[tuple[str, str]]) -> Iterator[tuple[str, str]]:
 _SIDES = SIDED | {"middle"}
 
 
+_OF = "of"
+
+
 def _nouns(type_: str) -> list[str]:
-    return [word for word in words_of(type_) if not word.isdecimal()]
+    return [word for word in words_of(type_) if not (word.isdecimal() or word == _OF)]
 
 
 def _shared(types: Sequence[str]) -> str:
@@ -239,6 +242,8 @@ def _told_apart(types: Sequence[str]) -> tuple[dict[str, list[str]], str]:
 
     Also the word that they have in common, if they have one.
     """
+    if sum(_OF in words_of(type_) for type_ in types) >= max(_BOARD, _MOST * len(types)):
+        return {type_: words_of(type_) for type_ in types}, ""  # "two of spades"
     head = _shared(types)
     named = {type_: [word for word in words_of(type_) if word != head] for type_ in types}
     board = {type_: words for type_, words in named.items() if words and head in words_of(type_)}
