@@ -56,3 +56,11 @@ def test_the_only_table_needs_no_description() -> None:
         Percept("ball", "sphere", "blue", (1.5, 0.1, 0.05), size=(0.1, 0.1, 0.1)),
     ]
     assert [o.id for o in grounded("the red cube on the table that is next to the ball", board).objects] == ["far"]
+
+
+@pytest.mark.parametrize(
+    "text", ["the chair in the middle of the sink and the oven", "in the center of the oven and the sink"]
+)
+def test_the_middle_of_two_things_is_between_them(text: str) -> None:
+    things = [*CANTEEN[:4], Percept("amid", "chair", None, (3.0, 2.5, 0.45), size=(0.4, 0.4, 0.9)), *CANTEEN[6:]]
+    assert [o.id for o in grounded(text, things, None).objects] == ["amid"]
