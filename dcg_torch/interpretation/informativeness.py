@@ -14,7 +14,7 @@ from dcg_torch.names.vocabulary import STOOD_ON, ranks_from_landmark
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import OPAQUE, ParseTree, PhraseKind, WorldModel
 
-_NEEDLESS = 2.5
+_NEEDLESS = 3.0
 """Nats that a reading loses by which more is said of a thing than is needed to know it."""
 _WITH, _PRONOUNS = "with", listed("stands for a thing")
 
@@ -49,12 +49,18 @@ def _wrongly_described(tree: ParseTree, world: WorldModel) -> int:
         ranked = any(map(ranks_from_landmark, place.phrase.words))
         for mark in place.children if place.phrase.kind is PhraseKind.PREPOSITION else ():
             noun, again = mark.phrase.noun, mark.phrase.text.split(" ")[0] in _AGAIN
-            told = again or any(where.phrase.kind is PhraseKind.PREPOSITION for where in mark.children)
+            told = again or any(map(_is_told_there, mark.children))
             if noun in STOOD_ON:
                 wrong += told is (_how_many(noun, world) < _SEVERAL)
             elif ranked and told:
                 wrong += _is_alone(noun, world)
     return wrong
+
+
+def _is_told_there(place: ParseTree) -> bool:
+    """Is it said with a landmark where that is, and not by another sentence: "the window is close to it"?"""
+    marks = [mark.phrase.text.split(" ")[0] for mark in place.children]
+    return place.phrase.kind is PhraseKind.PREPOSITION and _PRONOUNS.isdisjoint(marks)
 
 
 _SEVERAL, _AGAIN = 2, frozenset({"that", "this", "it"})
