@@ -7,6 +7,7 @@ chair closest to the sink at the table that is near the door": the only sink nee
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 
 from dcg_torch.names.relations import listed
@@ -80,7 +81,9 @@ def _is_alone(noun: str | None, world: WorldModel) -> bool:
 
 def _how_many(noun: str | None, world: WorldModel) -> int:
     """Of how many things a noun is the name, where their classes say what they are."""
-    types = [o.type for o in world.objects if o.type is not None and not o.hypothetical]
-    if noun is None or any(type_.startswith(OPAQUE) for type_ in types):
+    if noun is None:
         return 0
-    return sum(names_one_of(noun, (type_,)) for type_ in types)
+    counts = Counter(o.type for o in world.objects if o.type is not None and not o.hypothetical)
+    if any(type_.startswith(OPAQUE) for type_ in counts):
+        return 0
+    return sum(count for type_, count in counts.items() if names_one_of(noun, (type_,)))
