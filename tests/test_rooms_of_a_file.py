@@ -7,7 +7,8 @@ from asked import meant
 
 from dcg_torch import Percept
 from dcg_torch.evaluation.episodes import Episode, workspace
-from dcg_torch.scene.workspace import Workspace, is_room
+from dcg_torch.scene.room_walls import room_walls
+from dcg_torch.scene.workspace import Workspace
 
 _WASHROOM = [  # 3 m x 3 m; who stands before the basins looks along y, and has low x on the left
     *(Percept(f"basin {n}", "basin", None, (x, 2.8, 0.9), size=(0.5, 0.4, 0.2)) for n, x in ((1, 0.8), (2, 1.8))),
@@ -45,8 +46,8 @@ def test_sides_are_those_of_the_own_walls(text: str, id_: str, workspace_: Works
 def test_rooms_have_no_bounds_in_common_and_boards_have() -> None:
     hall = [Percept(t.id, t.type, None, (4.0 * t.position[0], 3.0 * t.position[1], 0.0)) for t in _WASHROOM]
     board = [Percept(f"p{k}", "cube", None, (float(k % 4), float(k // 4), 0.0)) for k in range(12)]
-    assert is_room(_WASHROOM)
-    assert not is_room(board)
-    assert not is_room(_WASHROOM[:9])
+    assert room_walls(_WASHROOM) is not None
+    assert room_walls(board) is None
+    assert room_walls(_WASHROOM[:9]) is None
     assert workspace([_episode("a", _WASHROOM), _episode("b", hall)]).bounds is None
     assert workspace([_episode("a", board), _episode("b", board[:4])]).bounds == (0.0, 3.0, 0.0, 2.0)

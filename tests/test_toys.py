@@ -9,6 +9,8 @@ import pytest
 from asked import grounded
 
 from dcg_torch import Percept
+from dcg_torch.language.lexicon import SETS
+from dcg_torch.names.relations import listed
 
 BOARD = [  # a table before the robot: x is away from it, y to its left
     *(
@@ -56,3 +58,8 @@ def test_a_block_is_a_cube_where_no_class_is_an_outline() -> None:
         Percept("cylinder", "cylinder", "red", (1.4, 0.0, 0.1), size=(0.2, 0.2, 0.2)),
     ]
     assert [o.id for o in grounded("the red block", solids).objects] == ["cube"]
+
+
+def test_language_and_names_agree_on_what_may_have_any_shape() -> None:
+    """The parser knows no scene, so it has a list of its own of what "not the heart" may be said of."""
+    assert SETS["toys"] <= listed("toy of any shape") | listed("whatever there is")

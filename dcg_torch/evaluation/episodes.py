@@ -13,8 +13,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from dcg_torch import scene
 from dcg_torch.names.keys import attributes_of, is_used
+from dcg_torch.scene.room_walls import room_walls
 from dcg_torch.scene.upright_pictures import is_upright
-from dcg_torch.scene.workspace import Workspace, is_room, spacing, spacings
+from dcg_torch.scene.workspace import Workspace, spacing, spacings
 from dcg_torch.storage.errors import UserError
 from dcg_torch.storage.untrusted_files import misspelt, plain, read_json, read_text, shown
 from dcg_torch.types import Percept, Pose
@@ -277,7 +278,7 @@ def workspace(episodes: Sequence[Episode]) -> Workspace:
     """
     apart = np.concatenate([np.zeros(0), *(spacings(e.percepts()) for e in episodes)])
     unit = float(np.median(apart)) if len(apart) else 1.0
-    rooms = [e.pose is None and is_room(e.percepts()) for e in episodes]
+    rooms = [e.pose is None and room_walls(e.percepts()) is not None for e in episodes]
     if len({(e.pose, e.speaker_pose) for e in episodes}) != 1 or 2 * sum(rooms) > len(rooms):
         return Workspace(None, unit)
     bounds = [scene.scene_bounds([o.position for o in e.objects], e.pose) for e in episodes if e.objects]
@@ -293,9 +294,10 @@ def _foot_of_picture(percepts: Sequence[Percept], robot: Pose | None) -> float:
 
 
 def of_scene(percepts: Sequence[Percept], robot: Pose | None, where: Workspace) -> Workspace:
-    """The workspace of one of several scenes: the page as a picture that is laid flat from its lowest thing has it.
+    """The workspace as one of the scenes has it.
 
-    With the scene's own unit where it is of another scale: a table top among rooms.
+    A picture that stands upright is laid flat from its lowest thing, so the bounds of its page move by as much. A scene
+    of another scale has a unit of its own: a table top among rooms.
     """
     low = _foot_of_picture(percepts, robot)
     if where.bounds is not None and low:

@@ -17,7 +17,7 @@ from dcg_torch.grounding.encoding import WorldEncoder
 from dcg_torch.grounding.hypotheses import ModifierFactor
 from dcg_torch.grounding.modifiers import picks_a_side, ranks_from
 from dcg_torch.interpretation.plain_words import in_group
-from dcg_torch.names.vocabulary import NEAREST, ORDINALS, TOGETHER, is_superlative
+from dcg_torch.names.vocabulary import FARTHEST, NEAREST, ORDINALS, TOGETHER, is_superlative
 from dcg_torch.types import Phrase
 from dcg_torch.types.arrays import Bools, Floats, Ints
 
@@ -26,7 +26,7 @@ _BY_PLACE = 5.0
 _FIRST, _LAST = "first", "last"
 _ALIKE = math.log(0.5)
 """Of a thing that is described about as well as the best."""
-_FROM_A_THING = {NEAREST: -1.0, "farthest from": 1.0}
+_FROM_A_THING = {NEAREST: -1.0, FARTHEST: 1.0}
 """Relations by which things are ranked from a landmark, and whether far or near is first."""
 _AWAY = {"closest": -1.0, "farthest": 1.0}
 """Words by which things are ranked from the robot, and whether far or near is first."""

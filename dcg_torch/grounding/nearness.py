@@ -23,7 +23,7 @@ from dcg_torch.grounding.measured_relations import (
     is_between,
     means_all,
 )
-from dcg_torch.names.vocabulary import OF_TWO
+from dcg_torch.names.vocabulary import FARTHEST, NEAREST, OF_TWO
 from dcg_torch.scene.neighbours import LEVEL, SAME_SPOT
 from dcg_torch.types import NOT, Phrase
 from dcg_torch.types.arrays import Bools, Floats, Ints
@@ -267,7 +267,7 @@ _SIDE_FOLD = 0.7
 """Nats for each e-fold by which a thing is farther off than the nearest on that side."""
 _GAP_FOLD = 1.5
 """Nats for each e-fold by which the gap in which a thing stands between two is wider than another of theirs."""
-_E_FOLD = {"closest to": 3.0, "farthest from": -3.0} | dict.fromkeys(NEARNESS, 1.5)
+_E_FOLD = {NEAREST: 3.0, FARTHEST: -3.0} | dict.fromkeys(NEARNESS, 1.5)
 """Nats for each e-fold of a distance, by relation."""
 _FARTHEST = -6.0
 """The most that is lost."""

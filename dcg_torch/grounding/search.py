@@ -176,9 +176,8 @@ class Search:
         if not own:
             return []
         faced, named = self._beside_what_is_faced(tree), of_some_named(tree.phrase, self.encoder, self._tables)
-        if (
-            named is not None and tree.phrase.color is not None
-        ):  # "the red shape by the box": nearer than other red ones
+        # "The red shape by the box" is nearer to it than other red ones.
+        if named is not None and tree.phrase.color is not None:
             named = comparison_set(tree, (), self.encoder, self._tables).among
         kind = named if faced is None else faced
         picks = [c for c in own if c not in told and (ranks_from(c) or (several and picks_a_side(c)))]

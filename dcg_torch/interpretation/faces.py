@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from dcg_torch.interpretation.parser_protocol import Words
 from dcg_torch.names.relations import listed
-from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, PLACE_WORDS, SIDED, TOWARDS
+from dcg_torch.names.vocabulary import AT_END, AWAY_FROM, FARTHEST, PLACE_WORDS, SIDED, TOWARDS
 from dcg_torch.names.weights import names_one_of
 from dcg_torch.types import NOT, OPAQUE, ParseTree, Phrase, PhraseKind, WorldModel
 
@@ -172,7 +172,7 @@ def _across(
     if start is None or start.phrase.words[:1] != ("from",) or not _is_a_name(start, types):
         return None, False
     if whole is None:
-        return (ParseTree(replace(start.phrase, words=("farthest from",)), start.children),), start is after
+        return (ParseTree(replace(start.phrase, words=(FARTHEST,)), start.children),), start is after
     bare = replace(whole, children=tuple(c for c in whole.children if c is not inside))
     return (_related(place, AWAY_FROM, bare, start.children[0]), *others), start is after
 

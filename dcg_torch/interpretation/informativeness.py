@@ -64,7 +64,7 @@ def _is_told_there(place: ParseTree) -> bool:
     return place.phrase.kind is PhraseKind.PREPOSITION and _PRONOUNS.isdisjoint(marks)
 
 
-_SEVERAL, _AGAIN = 2, frozenset({"that", "this", "it"})
+_SEVERAL, _AGAIN = 2, listed("points back") | _PRONOUNS
 
 
 def _is_told_beside(place: ParseTree) -> bool:

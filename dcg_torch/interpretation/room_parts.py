@@ -18,13 +18,13 @@ from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import LATERAL, PLACE_WORDS, SPOT, TIERS
 from dcg_torch.names.weights import names_one_of
+from dcg_torch.scene.room_walls import CLASSES, gaps_to_walls, room_walls
 from dcg_torch.types import OPAQUE, Object, ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.arrays import Floats
 
 _ALL = listed("whole of a room")
 _CORNER, _ELSEWHERE = f"{SPOT}corner", f"{SPOT}elsewhere"
 _WITHIN = listed("in a corner")
-_CLASSES, _THINGS, _WIDE = 4, 10, 2.0
-"""Classes and things at least in a room, and metres between its walls."""
 _IN, _OUT = 0.7, 1.1
 """Metres from both walls up to which a thing is in a corner, and from one of them above which it is in none."""
 _APART = 0.3
@@ -116,7 +116,7 @@ def _stand_apart_in_height(phrase: Phrase, world: WorldModel) -> bool:
         return True
     at = [o.position for o in named if o.position]
     lowest, highest = min((z for *_, z in at), default=0.0), max((z for *_, z in at), default=0.0)
-    if noun in TIERS or len(world.classes) >= _CLASSES or highest - lowest < _APART:
+    if noun in TIERS or len(world.classes) >= CLASSES or highest - lowest < _APART:
         return highest - lowest >= _APART
     return len(at) <= _FEW and _on_a_rack(np.array(at), world)
 
@@ -148,7 +148,7 @@ def by_corners(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     Args:
         said: the words of the tree.
     """
-    if not any("corner" in noun for noun in said.nouns) or room_walls(world) is None:
+    if not any("corner" in noun for noun in said.nouns) or walls_of(world) is None:
         return tree
     return _told(tree, named_classes(world))
 
@@ -182,12 +182,12 @@ def with_corners(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     return told_of_walls(world, trees, SPOT, _in_corner)
 
 
-def _in_corner(gaps: np.ndarray) -> str | None:
+def _in_corner(gaps: Floats) -> str | None:
     return _CORNER if gaps.max() <= _IN else _ELSEWHERE if gaps.max() > _OUT else None
 
 
 def told_of_walls(
-    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[np.ndarray], str | None]
+    world: WorldModel, trees: Iterable[ParseTree], attribute: str, told: Callable[[Floats], str | None]
 ) -> WorldModel:
     """The world whose things have an attribute by how far they are from the walls of a room, if a tree speaks of it.
 
@@ -196,26 +196,21 @@ def told_of_walls(
         told: it, from (2,) metres between a thing and the nearer wall along x and along y; None where it is unsure.
     """
     words = {word.removeprefix(NOT_) for tree in trees for node in tree.walk() for word in node.phrase.words}
-    if not any(word.startswith(attribute) for word in words) or (walls := room_walls(world)) is None:
+    if not any(word.startswith(attribute) for word in words) or (walls := walls_of(world)) is None:
         return world
     return replace(world, objects=tuple(_told_of(o, walls, attribute, told) for o in world.objects))
 
 
-def _told_of(thing: Object, walls: np.ndarray, attribute: str, told: Callable[[np.ndarray], str | None]) -> Object:
+def _told_of(thing: Object, walls: Floats, attribute: str, told: Callable[[Floats], str | None]) -> Object:
     own = {a for a in thing.attributes if not a.startswith(attribute)}
     if thing.position is not None and not thing.hypothetical:
-        half = np.zeros(2) if thing.size is None else np.array(thing.size[:2]) / 2.0
-        word = told(np.abs(np.array(thing.position[:2]) - walls).min(axis=0) - half)
+        half = np.zeros((1, 2)) if thing.size is None else np.array([thing.size[:2]]) / 2.0
+        gaps = gaps_to_walls(np.array([thing.position[:2]]), half, walls)
+        word = told(gaps.reshape(2, 2).min(axis=0))
         own |= {word} if word is not None else set()
     return replace(thing, attributes=frozenset(own))
 
 
-def room_walls(world: WorldModel) -> np.ndarray | None:
-    """(2, 2) the least and the greatest x and y of the things of a room; None for what is no room."""
-    seen = [o for o in world.objects if not o.hypothetical and o.position is not None]
-    if len(seen) < _THINGS or len({o.type for o in seen}) < _CLASSES:
-        return None
-    where = np.array([(o.position or ())[:2] for o in seen])
-    half = np.array([(0.0, 0.0) if o.size is None else o.size[:2] for o in seen]) / 2.0
-    walls = np.array([(where - half).min(axis=0), (where + half).max(axis=0)])
-    return walls if (walls[1] - walls[0] >= _WIDE).all() else None
+def walls_of(world: WorldModel) -> Floats | None:
+    """`room_walls` of what is there."""
+    return room_walls([o for o in world.objects if not o.hypothetical])

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from dcg_torch.scene.room_walls import box_around, gaps_to_walls, reach_along_walls
 from dcg_torch.types import Object
 from dcg_torch.types.arrays import Floats
 
@@ -47,10 +48,8 @@ def _walls(things: Sequence[Object]) -> list[list[int]]:
         return found
     at = np.array([(things[k].position or ())[:2] for k in there])
     half = np.array([(things[k].size or (math.nan,) * 2)[:2] for k in there]) / 2.0
-    low, high = (at - half).min(axis=0), (at + half).max(axis=0)
-    gaps = np.concatenate([at - half - low, high - at - half], axis=1)  # (n, 4): low x, low y, high x, high y
-    along = np.tile(half[:, ::-1], 2)
-    for k, gap, reach in zip(there, gaps, along, strict=True):
+    gaps = gaps_to_walls(at, half, box_around(at, half))
+    for k, gap, reach in zip(there, gaps, reach_along_walls(half), strict=True):
         near = [wall for wall in range(4) if gap[wall] <= _REACH]
         found[k] = sorted(near, key=lambda wall: float(_TIE * gap[wall] - reach[wall]))
     return found

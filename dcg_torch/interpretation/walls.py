@@ -9,15 +9,14 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-import numpy as np
-
 from dcg_torch.interpretation.parser_protocol import Words
-from dcg_torch.interpretation.room_parts import named_classes, room_walls, told_of_walls
+from dcg_torch.interpretation.room_parts import named_classes, told_of_walls, walls_of
 from dcg_torch.names.attributes import NOT_
 from dcg_torch.names.normal_form import normalise
 from dcg_torch.names.relations import listed
 from dcg_torch.names.vocabulary import AT_WALL, PLACE_WORDS
 from dcg_torch.types import ParseTree, Phrase, PhraseKind, WorldModel
+from dcg_torch.types.arrays import Floats
 
 _WALLS, _AT, _OFF, _FREE = (listed(of) for of in ("wall of a room", "at a wall", "off a wall", "free of walls"))
 _YES, _NO = f"{AT_WALL}yes", f"{AT_WALL}no"
@@ -37,7 +36,7 @@ def by_walls(tree: ParseTree, said: Words, world: WorldModel) -> ParseTree:
     if any(normalise(type_).split(" ")[-1] in _WALLS for type_ in named_classes(world)):
         return tree
     tree = _of_sides(tree)
-    return tree if room_walls(world) is None else _told(tree)
+    return tree if walls_of(world) is None else _told(tree)
 
 
 def _of_sides(tree: ParseTree) -> ParseTree:
@@ -77,5 +76,5 @@ def with_walls(world: WorldModel, trees: Iterable[ParseTree]) -> WorldModel:
     return told_of_walls(world, trees, AT_WALL, _at_wall)
 
 
-def _at_wall(gaps: np.ndarray) -> str | None:
+def _at_wall(gaps: Floats) -> str | None:
     return _YES if gaps.min() <= _STANDS else _NO if gaps.min() > _CLEAR else None

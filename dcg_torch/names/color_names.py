@@ -58,9 +58,8 @@ def _shade(name: str) -> float:
 def _region_of(name: str) -> tuple[float, float, float] | None:
     first, _, rest = name.partition(" ")
     hue = region(name.split(" ")[-1])
-    if (
-        first in _VERY and hue is not None and (shade := region(rest)) is not None
-    ):  # farther from the hue than "dark gray"
+    # "Very dark gray" is farther from gray than "dark gray".
+    if first in _VERY and hue is not None and (shade := region(rest)) is not None:
         one, two, three = np.array(shade.mean) + _FARTHER * (np.array(shade.mean) - np.array(hue.mean))
         return float(one), float(two), float(three)
     found = region(name) or hue

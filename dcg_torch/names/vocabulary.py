@@ -111,7 +111,7 @@ NUMBER_WORDS = {"two": 2, "three": 3, "four": 4, "five": 5, "six": 6, "seven": 7
 INSIDE = frozenset({"in", "of", "from", "at the bottom of", "on top of", "in the middle of"})
 """Prepositions by which a thing is one of a group."""
 NEAREST, FARTHEST = "closest to", "farthest from"
-RANKING = frozenset({NEAREST, "farthest from", "farthest to"})
+RANKING = frozenset({NEAREST, FARTHEST, "farthest to"})
 """Prepositions by which things are ranked from a landmark."""
 WITHIN = "within"
 """What "on" and "to" a side say of things that are ranked there: they are in that part of the scene."""
@@ -207,7 +207,7 @@ COMPASS |= {f"{up}{side}ernmost": COMPASS[up] + COMPASS[side] for up in ("north"
 """Of a picture or a map north is up."""
 _BY_SIDE = {"top": "behind", "bottom": "in front of", "left": "left of", "right": "right of"}
 BY_COMPASS = {f"{name} of": tuple(_BY_SIDE[side] for side in sides) for name, sides in COMPASS.items()}
-SAME_RELATION = {"closer to": "closest to", "closest from": "closest to", "farther from": "farthest from"}
+SAME_RELATION = {"closer to": NEAREST, "closest from": NEAREST, "farther from": FARTHEST}
 SAME_RELATION |= {
     "before": "in front of",
     "beyond": "behind",

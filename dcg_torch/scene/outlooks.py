@@ -12,14 +12,15 @@ import numpy as np
 
 from dcg_torch.scene.bodies import Bodies
 from dcg_torch.scene.order import TIE
+from dcg_torch.scene.room_walls import CLASSES, THINGS, box_around, gaps_to_walls, is_wide, reach_along_walls
 from dcg_torch.types.arrays import Bools, Floats
 
 _AT_WALL = 0.4
 """Metres from a wall up to which a thing stands at it."""
 _RESTS, _MANY = 0.12, 512
 """Units between the top of a thing and the foot of another that lies on it; things up to which that is looked for."""
-_THINGS, _FEW, _CLASSES, _WIDE = 10, 5, 4, 2.0
-"""Things at least in a room in which somebody stands, and in another; classes, and metres between its walls."""
+_FEW = 5
+"""Things at least in a room in which nobody stands."""
 
 
 def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_walls: bool = False) -> Floats | None:
@@ -34,19 +35,18 @@ def outlooks(position: Floats, bodies: Bodies, classes: int, unit: float, *, at_
     at = position[: len(bodies.half), :2]
     half = np.nan_to_num(bodies.half)
     there = np.isfinite(at).all(axis=1)
-    if there.sum() < (_THINGS if at_walls else _FEW) or classes < _CLASSES:
+    if there.sum() < (THINGS if at_walls else _FEW) or classes < CLASSES:
         return None
-    low, high = (at - half)[there].min(axis=0), (at + half)[there].max(axis=0)
-    if ((high - low) * unit < _WIDE).any():
+    box = box_around(at, half)
+    if not is_wide(box, unit):
         return None
-    gaps = np.concatenate([at - half - low, high - at - half], axis=1) * unit  # (n, 4): low x, low y, high x, high y
-    along = np.tile(half[:, ::-1], 2)  # how far a thing reaches along each of these walls
-    wall = np.where(gaps <= _AT_WALL, along - TIE * gaps, -np.inf)
+    gaps = gaps_to_walls(at, half, box) * unit
+    wall = np.where(gaps <= _AT_WALL, reach_along_walls(half) - TIE * gaps, -np.inf)
     stands, out = np.isfinite(wall.max(axis=1)), _OUT[wall.argmax(axis=1)]
     if at_walls:
         return np.where(stands, np.arctan2(out[:, 1], out[:, 0]), np.nan)
     inward, lies = _from_edges(at, bodies)
-    out = np.where(stands[:, None], out, np.where(lies[:, None], inward, at - (low + high) / 2.0))
+    out = np.where(stands[:, None], out, np.where(lies[:, None], inward, at - box.mean(axis=0)))
     found: Floats = np.where(there, np.arctan2(out[:, 1], out[:, 0]), 0.0)
     return found
 

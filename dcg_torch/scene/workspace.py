@@ -32,18 +32,6 @@ def spacing(things: Sequence[Object] | Sequence[Percept]) -> float | None:
     return float(near[(len(near) - 1) // 2] + near[len(near) // 2]) / 2.0 if len(near) else None
 
 
-_THINGS, _CLASSES, _WIDE = 10, 4, 2.0
-"""Things and classes at least in a room, and metres between its walls."""
-
-
-def is_room(things: Sequence[Percept]) -> bool:
-    """Are these the many unlike things of a room, and not those of a board or a table?"""
-    at = positions(things)[:, :2]
-    at = at[np.isfinite(at).all(axis=1)]
-    classes = len({thing.type for thing in things})
-    return len(at) >= _THINGS and classes >= _CLASSES and bool((np.ptp(at, axis=0) >= _WIDE).all())
-
-
 @dataclass(frozen=True)
 class Workspace:
     """What the scenes of one robot have in common.
